@@ -1,0 +1,41 @@
+package io.furrow.model.event;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * A change of an entity as a source passes it on: key = {@link Entity#id()}, value = {@link Entity#toBytes()}, record
+ * timestamp = {@link EventTime#time()}, headers = {@link #headers(String)}.
+ *
+ * @param received when the source had it
+ */
+public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Instant received, Origin origin) {
+    /** An event whose time is read from the entity, see {@link EventTime}. */
+    public static EntityEvent of(Entity entity, FiwareScope scope, Instant received, Duration maxSkew, Origin origin) {
+        return new EntityEvent(entity, scope, EventTime.of(entity, received, maxSkew), received, origin);
+    }
+
+    public String id() {
+        return EventId.of(scope, entity, time.time());
+    }
+
+    /** The headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
+    public Map<String, String> headers(String source) {
+        Map<String, String> headers = new LinkedHashMap<>();
+        headers.put(HeaderNames.CE_ID, id());
+        headers.put(HeaderNames.CE_SOURCE, source);
+        headers.put(HeaderNames.CE_TIME, time.time().toString());
+        headers.put(HeaderNames.CE_SPECVERSION, HeaderNames.SPECVERSION);
+        headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_CHANGED);
+        headers.put(HeaderNames.SERVICE, scope.service());
+        headers.put(HeaderNames.SERVICE_PATH, scope.servicePath());
+        headers.put(HeaderNames.ORIGIN, origin.code());
+        headers.put(HeaderNames.TS_DEVICE, Long.toString(time.time().toEpochMilli()));
+        headers.put(HeaderNames.TS_SOURCE, Long.toString(received.toEpochMilli()));
+        return headers;
+    }
+}

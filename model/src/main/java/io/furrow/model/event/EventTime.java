@@ -1,0 +1,80 @@
+package io.furrow.model.event;
+
+import java.time.DateTimeException;
+import java.time.Duration;
+import java.time.Instant;
+import java.time.OffsetDateTime;
+import java.util.List;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * When an event happened: {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (ISO
+ * 8601 or epoch ms), else {@code dateModified} of the context broker, else the time of receipt.
+ *
+ * @param time never before 1970, at most the allowed skew after the receipt
+ * @param basis what it was taken from
+ */
+public record EventTime(Instant time, Basis basis) {
+    /** What an event time was taken from. */
+    public enum Basis {
+        DEVICE,
+        BROKER,
+        RECEIPT,
+        /** The entity's own time was further in the future than allowed, so the time of receipt stands for it. */
+        RECEIPT_FOR_FUTURE
+    }
+
+    private static final List<String> DEVICE_TIMES = List.of("Time", "TimeInstant", "dateObserved", "timestamp");
+
+    /**
+     * @param received when the event came in
+     * @param maxSkew how far the device's clock may be ahead
+     */
+    public static EventTime of(Entity entity, Instant received, Duration maxSkew) {
+        Optional<Instant> device = DEVICE_TIMES.stream()
+                .flatMap(name -> entity.value(name).flatMap(EventTime::instant).stream())
+                .findFirst();
+        if (device.isEmpty()) {
+            return entity.value("dateModified")
+                    .flatMap(EventTime::instant)
+                    .filter(time -> !time.isAfter(received.plus(maxSkew)))
+                    .map(time -> new EventTime(time, Basis.BROKER))
+                    .orElseGet(() -> new EventTime(received, Basis.RECEIPT));
+        }
+        return device.get().isAfter(received.plus(maxSkew))
+                ? new EventTime(received, Basis.RECEIPT_FOR_FUTURE)
+                : new EventTime(device.get(), Basis.DEVICE);
+    }
+
+    private static Optional<Instant> instant(JsonNode value) {
+        return (value.isTextual() ? fromText(value.textValue().trim()) : fromNumber(value))
+                .filter(time -> time.toEpochMilli() >= 0);
+    }
+
+    private static Optional<Instant> fromNumber(JsonNode value) {
+        double millis = value.isNumber() ? value.doubleValue() : Double.NaN;
+        return Math.abs(millis) <= LATEST_MILLIS ? Optional.of(Instant.ofEpochMilli((long) millis)) : Optional.empty();
+    }
+
+    /** ISO 8601 with offset, the start of an ISO 8601 interval, or the digits of epoch milliseconds. */
+    private static Optional<Instant> fromText(String text) {
+        if (text.matches("\\d{1,15}")) {
+            return Optional.of(Instant.ofEpochMilli(Long.parseLong(text)));
+        }
+        int slash = text.indexOf('/');
+        try {
+            return Optional.of(OffsetDateTime.parse(slash < 0 ? text : text.substring(0, slash))
+                            .toInstant())
+                    .filter(time -> Math.abs(time.getEpochSecond()) < LATEST_MILLIS / 1000);
+        } catch (DateTimeException e) {
+            return Optional.empty();
+        }
+    }
+
+    /** The year 33658: 15 digits of milliseconds. What is later is no time. */
+    private static final double LATEST_MILLIS = 999_999_999_999_999d;
+}

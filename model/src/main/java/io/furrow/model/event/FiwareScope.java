@@ -1,0 +1,23 @@
+package io.furrow.model.event;
+
+/**
+ * Where an entity lives in the context broker: its tenant and service path. The same id in two scopes is two entities.
+ *
+ * @param service header {@code fiware-service}, lower case; empty for the default tenant
+ * @param servicePath header {@code fiware-servicepath}, {@code /} for the root
+ */
+public record FiwareScope(String service, String servicePath) {
+    public static final FiwareScope DEFAULT = new FiwareScope("", "/");
+
+    /** The scope that two headers name; each may be null or blank. */
+    public static FiwareScope of(String service, String servicePath) {
+        String tenant = service == null ? "" : service.trim().toLowerCase(java.util.Locale.ROOT);
+        String path = servicePath == null || servicePath.isBlank() ? "/" : servicePath.trim();
+        return new FiwareScope(tenant, path);
+    }
+
+    /** Tenant, service path and id in one text, for keyed state. Neither of the first two can hold a {@code |}. */
+    public String identity(String entityId) {
+        return service + "|" + servicePath + "|" + entityId;
+    }
+}

@@ -1,0 +1,29 @@
+package io.furrow.model.event;
+
+/** Headers of the records on {@code data.*}; all values are UTF-8 text, times are epoch milliseconds unless said. */
+public final class HeaderNames {
+    /** Event id: equal for every copy of the same change. */
+    public static final String CE_ID = "ce_id";
+    /** Who made the record, a URI reference. */
+    public static final String CE_SOURCE = "ce_source";
+    /** Event time, ISO 8601 in UTC. */
+    public static final String CE_TIME = "ce_time";
+
+    public static final String CE_SPECVERSION = "ce_specversion";
+    public static final String CE_TYPE = "ce_type";
+    public static final String SERVICE = "fiware-service";
+    public static final String SERVICE_PATH = "fiware-servicepath";
+    public static final String ORIGIN = "origin";
+    /** The event's own time. */
+    public static final String TS_DEVICE = "ts-device";
+    /** When the source received the event. */
+    public static final String TS_SOURCE = "ts-source";
+    /** When ingest passed the event on. */
+    public static final String TS_INGEST = "ts-ingest";
+
+    public static final String SPECVERSION = "1.0";
+    public static final String TYPE_CHANGED = "ngsi.entity.changed";
+    public static final String TYPE_DELETED = "ngsi.entity.deleted";
+
+    private HeaderNames() {}
+}

@@ -1,0 +1,81 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.ByteBuffer;
+import java.nio.charset.CharacterCodingException;
+import java.nio.charset.StandardCharsets;
+
+import com.fasterxml.jackson.core.JsonFactory;
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.core.StreamReadConstraints;
+import com.fasterxml.jackson.core.StreamReadFeature;
+import com.fasterxml.jackson.core.exc.StreamConstraintsException;
+import com.fasterxml.jackson.databind.DeserializationFeature;
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.cfg.JsonNodeFeature;
+import com.fasterxml.jackson.databind.json.JsonMapper;
+
+/**
+ * The one JSON reader and writer: strict RFC 8259 (UTF-8, one document, no duplicate names, no NaN), nesting at most
+ * {@value #MAX_NESTING}, strings at most 8 MiB, decimal numbers kept digit for digit.
+ */
+public final class NgsiJson {
+    public static final int MAX_NESTING = 64;
+    public static final int MAX_STRING = 8 * 1024 * 1024;
+
+    private static final ObjectMapper MAPPER = JsonMapper.builder(JsonFactory.builder()
+                    .streamReadConstraints(StreamReadConstraints.builder()
+                            .maxNestingDepth(MAX_NESTING)
+                            .maxStringLength(MAX_STRING)
+                            .build())
+                    .enable(StreamReadFeature.STRICT_DUPLICATE_DETECTION)
+                    .build())
+            .enable(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
+            .enable(DeserializationFeature.USE_BIG_DECIMAL_FOR_FLOATS)
+            .disable(JsonNodeFeature.STRIP_TRAILING_BIGDECIMAL_ZEROES)
+            .build();
+
+    private NgsiJson() {}
+
+    /** The mapper behind it, for what is not a notification (configuration, REST bodies). */
+    public static ObjectMapper mapper() {
+        return MAPPER;
+    }
+
+    /**
+     * Reads one JSON document.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON} or {@link Reason#TOO_DEEP}
+     */
+    public static JsonNode read(byte[] bytes) throws UnreadableException {
+        try {
+            // Decoded here because Jackson guesses UTF-16/32 from the first bytes; NGSI is UTF-8.
+            String text = StandardCharsets.UTF_8
+                    .newDecoder()
+                    .decode(ByteBuffer.wrap(bytes))
+                    .toString();
+            JsonNode node = MAPPER.readTree(text);
+            if (node == null || node.isMissingNode()) {
+                throw new UnreadableException(Reason.NOT_JSON, "the body is empty");
+            }
+            return node;
+        } catch (StreamConstraintsException e) {
+            throw new UnreadableException(Reason.TOO_DEEP, e.getOriginalMessage(), e);
+        } catch (JsonProcessingException e) {
+            throw new UnreadableException(Reason.NOT_JSON, e.getOriginalMessage(), e);
+        } catch (CharacterCodingException e) {
+            throw new UnreadableException(Reason.NOT_JSON, "the body is not UTF-8", e);
+        }
+    }
+
+    /** The node as UTF-8 JSON without white space. */
+    public static byte[] write(JsonNode node) {
+        try {
+            return MAPPER.writeValueAsBytes(node);
+        } catch (IOException e) {
+            throw new UncheckedIOException("a JSON tree could not be written", e);
+        }
+    }
+}

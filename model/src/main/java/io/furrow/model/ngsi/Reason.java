@@ -1,0 +1,26 @@
+package io.furrow.model.ngsi;
+
+import java.util.Locale;
+
+/** Why input was set aside; the code stands in the header {@code dead-reason} of the dead letter. */
+public enum Reason {
+    /** Not one well-formed JSON document in UTF-8. */
+    NOT_JSON,
+    /** Nested deeper, or a string longer, than {@link NgsiJson} takes. */
+    TOO_DEEP,
+    /** More bytes than the receiver takes. */
+    TOO_LARGE,
+    /** JSON, but no NGSI entity: no object, no id, or attributes of a shape no form has. */
+    NOT_AN_ENTITY,
+    /** A notification form that does not name its attributes, so that nothing can be made of it. */
+    UNSUPPORTED_FORM,
+    /** A record on a topic that lacks what the reader needs, for instance a value where none may be missing. */
+    NOT_AN_EVENT,
+    /** Written, but refused by the server it was written to. */
+    REFUSED;
+
+    /** The name in lower case with hyphens, for instance {@code not-json}. */
+    public String code() {
+        return name().toLowerCase(Locale.ROOT).replace('_', '-');
+    }
+}
