@@ -32,7 +32,8 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
                     Reason.UNSUPPORTED_FORM,
                     "form 'values' does not name its attributes; set the subscription's attrsFormat to normalized");
         }
-        if (!root.has("data")) {
+        boolean simplified = attrsFormat != null && attrsFormat.startsWith("simplified");
+        if (simplified || root.has("id") || !root.has("data")) {
             return new Notification(Optional.empty(), List.of(readEntity(root, attrsFormat)), List.of());
         }
         if (!root.isObject() || !root.get("data").isArray()) {
