@@ -1,6 +1,5 @@
 package io.furrow.connect.sink;
 
-import java.io.UncheckedIOException;
 import java.nio.ByteBuffer;
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
@@ -18,20 +17,14 @@ import io.furrow.model.ngsi.UnreadableException;
 final class ChangeReader {
     /** The tenants and paths that a context broker takes. */
     static final Pattern SERVICE = Pattern.compile("[a-z0-9_]{0,50}");
+
     static final Pattern SERVICE_PATH = Pattern.compile("/[A-Za-z0-9_/]{0,600}");
 
     private ChangeReader() {}
 
     /** @throws UnreadableException if the value is no entity in normalized form */
     static Entity entity(Object value) throws UnreadableException {
-        Entity entity = Entity.of(json(value));
-        try {
-            entity.toBytes();
-        } catch (UncheckedIOException e) {
-            throw new UnreadableException(
-                    Reason.NOT_JSON, "the entity holds half a surrogate pair, which has no form in UTF-8", e);
-        }
-        return entity;
+        return Entity.of(json(value));
     }
 
     /** @throws UnreadableException if no context broker can have such a tenant or path */

@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletionException;
@@ -51,12 +50,7 @@ record Answer(int status, byte[] body, Map<String, String> headers) {
 
     private static Answer error(int status, String code, String description, Map<String, String> headers) {
         byte[] body = NgsiJson.write(
-                JsonNodeFactory.instance.objectNode().put("error", code).put("description", readable(description)));
+                JsonNodeFactory.instance.objectNode().put("error", code).put("description", description));
         return new Answer(status, body, headers);
-    }
-
-    /** A message may quote what was sent, even half a character: encoding and decoding makes it whole. */
-    private static String readable(String text) {
-        return new String(text.getBytes(StandardCharsets.UTF_8), StandardCharsets.UTF_8);
     }
 }

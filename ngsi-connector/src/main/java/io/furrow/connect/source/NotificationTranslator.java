@@ -1,14 +1,11 @@
 package io.furrow.connect.source;
 
-import java.io.UncheckedIOException;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
 import java.util.regex.Pattern;
-
-import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.connect.source.Translation.Refusal;
 import io.furrow.model.event.DeadLetter;
@@ -30,7 +27,6 @@ final class NotificationTranslator {
     static final String STAGE = "ngsi-source";
 
     private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
-    private static final String HALF_CHARACTER = "the entity holds half a surrogate pair, which has no form in UTF-8";
     private static final int LONGEST_MESSAGE = 500;
     private static final int HEADERS_AT_MOST = 32 * 1024;
 
@@ -85,7 +81,7 @@ final class NotificationTranslator {
         }
         for (Rejected rejected : notification.rejected()) {
             Refusal refusal = new Refusal(rejected.reason(), rejected.message());
-            records.add(deadLetter(bytesOf(rejected.reported(), received), refusal, received));
+            records.add(deadLetter(NgsiJson.write(rejected.reported()), refusal, received));
         }
         return new Translation(records, refusalOf(notification));
     }
@@ -96,16 +92,10 @@ final class NotificationTranslator {
     }
 
     private OutgoingRecord translate(Entity entity, String source, ReceivedNotification received) {
-        byte[] value;
-        try {
-            value = entity.toBytes();
-        } catch (UncheckedIOException e) {
-            return deadLetter(received.body(), new Refusal(Reason.NOT_JSON, HALF_CHARACTER), received);
-        }
         EntityEvent event =
                 EntityEvent.of(entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
         OutgoingRecord record = new OutgoingRecord(
-                settings.topic(), entity.id(), value, event.time().time(), event.headers(source));
+                settings.topic(), entity.id(), entity.toBytes(), event.time().time(), event.headers(source));
         if (record.bytes() > settings.maxRecordBytes()) {
             String message = "the entity makes a record of " + record.bytes() + " bytes, the limit is "
                     + settings.maxRecordBytes();
@@ -144,13 +134,5 @@ final class NotificationTranslator {
 
     private static String shortened(String text) {
         return text.length() <= LONGEST_MESSAGE ? text : text.substring(0, LONGEST_MESSAGE) + "…";
-    }
-
-    private static byte[] bytesOf(JsonNode reported, ReceivedNotification received) {
-        try {
-            return NgsiJson.write(reported);
-        } catch (UncheckedIOException e) {
-            return received.body();
-        }
     }
 }
