@@ -44,6 +44,18 @@ final class CollisionOracle {
         return oracle.encounters;
     }
 
+    /** The first records in which two sorted results differ; few, because a failing test prints them. */
+    static List<Encounter> difference(List<Encounter> some, List<Encounter> others) {
+        int at = 0;
+        while (at < Math.min(some.size(), others.size()) && some.get(at).equals(others.get(at))) {
+            at++;
+        }
+        List<Encounter> found = new ArrayList<>();
+        found.addAll(some.subList(at, Math.min(at + 2, some.size())));
+        found.addAll(others.subList(at, Math.min(at + 2, others.size())));
+        return found;
+    }
+
     private void evaluate(long t) {
         Map<String, PositionFix> last = new TreeMap<>();
         devices.forEach((identity, fixes) -> last(fixes, t).ifPresent(fix -> last.put(identity, fix)));

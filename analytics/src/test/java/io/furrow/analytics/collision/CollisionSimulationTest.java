@@ -19,9 +19,10 @@ class CollisionSimulationTest {
             CollisionRules rules = rules(i, 2 + i % 30);
             List<PositionFix> fixes = world(seed, i);
             List<Encounter> expected = CollisionOracle.encounters(fixes, rules);
-            assertThat(Simulation.encounters(fixes, rules, new Random(seed)))
+            List<Encounter> found = Simulation.encounters(fixes, rules, new Random(seed));
+            assertThat(CollisionOracle.difference(found, expected))
                     .as("case %d of seed %d", i, seed)
-                    .isEqualTo(expected);
+                    .isEmpty();
             transitions += expected.size();
         }
         assertThat(transitions).as("something was compared").isGreaterThan(CASES * 10);
