@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import io.furrow.model.event.FiwareScope;
+
 /**
  * Where a device was at an instant. Texts are empty, never null, where nothing is known.
  *
@@ -26,6 +28,12 @@ public record PositionFix(
             .thenComparingDouble(PositionFix::longitude)
             .thenComparing(PositionFix::mission)
             .thenComparing(PositionFix::carrier);
+
+    /** The tenant and service path that the identity begins with. */
+    FiwareScope scope() {
+        String[] parts = identity.split("\\|", 3);
+        return new FiwareScope(parts[0], parts[1]);
+    }
 
     /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
     boolean sharesAggregateWith(PositionFix other) {

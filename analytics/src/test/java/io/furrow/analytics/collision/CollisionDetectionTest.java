@@ -68,7 +68,8 @@ class CollisionDetectionTest {
         Detected first = detect(new Worlds(32).shuffled(fixes, BOUND), Worlds.rules(5, 1, true), 2);
         Detected second = detect(new Worlds(33).shuffled(fixes, BOUND), Worlds.rules(5, 40, true), 2);
         assertThat(first.encounters).isNotEmpty();
-        assertThat(CollisionOracle.difference(first.encounters, second.encounters)).isEmpty();
+        assertThat(CollisionOracle.difference(first.encounters, second.encounters))
+                .isEmpty();
         assertThat(first.late).isEmpty();
         assertThat(second.late).isEmpty();
     }
