@@ -1,13 +1,9 @@
 package io.furrow.analytics.collision;
 
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 
 import org.apache.flink.api.common.JobExecutionResult;
-import org.apache.flink.api.common.eventtime.Watermark;
-import org.apache.flink.api.common.eventtime.WatermarkGenerator;
-import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.PipelineOptions;
@@ -105,8 +101,9 @@ class CollisionDetectionTest {
                 .rebalance()
                 .map(fix -> fix)
                 .returns(PositionFix.class)
-                .assignTimestampsAndWatermarks(WatermarkStrategy.<PositionFix>forGenerator(context -> new EachEvent())
-                        .withTimestampAssigner((fix, previous) -> fix.time()));
+                .assignTimestampsAndWatermarks(
+                        WatermarkStrategy.<PositionFix>forGenerator(context -> new EachEvent<>(BOUND))
+                                .withTimestampAssigner((fix, previous) -> fix.time()));
         CollisionDetection detection = CollisionDetection.define(fixes, rules);
         CloseableIterator<Encounter> encounters = detection.encounters().collectAsync();
         CloseableIterator<PositionFix> late = detection.late().collectAsync();
@@ -129,19 +126,5 @@ class CollisionDetectionTest {
 
     private static long count(Metric metric) {
         return ((Counter) metric).getCount();
-    }
-
-    /** A watermark after every event, so that a short job has as many as a long one. */
-    private static final class EachEvent implements WatermarkGenerator<PositionFix> {
-        private long newest = Long.MIN_VALUE + Duration.ofDays(1).toMillis();
-
-        @Override
-        public void onEvent(PositionFix fix, long time, WatermarkOutput output) {
-            newest = Math.max(newest, time);
-            output.emitWatermark(new Watermark(newest - BOUND - 1));
-        }
-
-        @Override
-        public void onPeriodicEmit(WatermarkOutput output) {}
     }
 }
