@@ -1,0 +1,89 @@
+package io.furrow.embedded;
+
+import java.net.URI;
+import java.util.concurrent.CompletionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.api.common.JobStatus;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.MemorySize;
+import org.apache.flink.configuration.RestOptions;
+import org.apache.flink.configuration.TaskManagerOptions;
+import org.apache.flink.runtime.minicluster.MiniCluster;
+import org.apache.flink.runtime.minicluster.MiniClusterConfiguration;
+import org.apache.flink.streaming.api.graph.ExecutionPlan;
+
+/** A Flink cluster of one job manager and one task manager in this JVM, with the web UI on 127.0.0.1. */
+public final class EmbeddedFlink implements AutoCloseable {
+    private static final String HOST = "127.0.0.1";
+    private static final long STOP_SECONDS = 8;
+
+    private final MiniCluster cluster;
+    private final URI webUi;
+
+    private EmbeddedFlink(MiniCluster cluster, URI webUi) {
+        this.cluster = cluster;
+        this.webUi = webUi;
+    }
+
+    /**
+     * Starts and waits until the web UI answers.
+     *
+     * @param slots how many subtasks of different jobs fit in
+     * @param webPort 0 for a free one
+     */
+    public static EmbeddedFlink start(int slots, int webPort) {
+        int port = FreePort.orFree(webPort);
+        Configuration configuration = new Configuration();
+        configuration.set(RestOptions.PORT, port);
+        configuration.set(RestOptions.BIND_ADDRESS, HOST);
+        configuration.set(RestOptions.ADDRESS, HOST);
+        configuration.set(TaskManagerOptions.MANAGED_MEMORY_SIZE, MemorySize.ofMebiBytes(32));
+        configuration.set(TaskManagerOptions.NETWORK_MEMORY_MIN, MemorySize.ofMebiBytes(96));
+        configuration.set(TaskManagerOptions.NETWORK_MEMORY_MAX, MemorySize.ofMebiBytes(96));
+        MiniCluster cluster = new MiniCluster(new MiniClusterConfiguration.Builder()
+                .setConfiguration(configuration)
+                .setNumTaskManagers(1)
+                .setNumSlotsPerTaskManager(slots)
+                .setCommonBindAddress(HOST)
+                .build());
+        try {
+            cluster.start();
+        } catch (Exception e) { // declared as such by Flink
+            throw new IllegalStateException("Flink did not start", e);
+        }
+        return new EmbeddedFlink(cluster, URI.create("http://" + HOST + ":" + port));
+    }
+
+    public URI webUi() {
+        return webUi;
+    }
+
+    /** Submits a job and returns when the cluster has accepted it. */
+    public JobID submit(ExecutionPlan plan) {
+        return cluster.submitJob(plan).join().getJobID();
+    }
+
+    public JobStatus status(JobID job) {
+        return cluster.getJobStatus(job).join();
+    }
+
+    /** The task manager's and job manager's own view, for waiting on a job's subtasks. */
+    public MiniCluster cluster() {
+        return cluster;
+    }
+
+    /** Cancels what runs and stops; checkpoints that jobs retain stay. */
+    @Override
+    public void close() {
+        try {
+            cluster.closeAsync().get(STOP_SECONDS, TimeUnit.SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        } catch (TimeoutException | java.util.concurrent.ExecutionException | CompletionException e) {
+            throw new IllegalStateException("Flink did not stop cleanly", e);
+        }
+    }
+}

@@ -1,0 +1,128 @@
+package io.furrow.embedded;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Map;
+import java.util.Properties;
+import java.util.stream.Collectors;
+
+import kafka.server.KafkaConfig;
+import kafka.server.KafkaRaftServer;
+import org.apache.kafka.common.Uuid;
+import org.apache.kafka.common.utils.Time;
+import org.apache.kafka.metadata.storage.Formatter;
+
+/**
+ * One KRaft broker and controller in this JVM, on 127.0.0.1. A directory that holds an earlier broker's log is continued.
+ * Topics are made on first use with {@value #PARTITIONS} partitions; records may have 16 MiB.
+ */
+public final class EmbeddedKafka implements AutoCloseable {
+    /** Partitions of a topic that is made on first use. */
+    public static final int PARTITIONS = 4;
+
+    private static final String HOST = "127.0.0.1";
+    private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
+
+    private final KafkaRaftServer server;
+    private final int port;
+
+    private EmbeddedKafka(KafkaRaftServer server, int port) {
+        this.server = server;
+        this.port = port;
+    }
+
+    /** A broker on a free port. */
+    public static EmbeddedKafka start(Path directory) {
+        return start(directory, 0);
+    }
+
+    /**
+     * Starts and waits until it serves.
+     *
+     * @param directory the log directory; made where it is missing
+     * @param port 0 for a free one
+     */
+    public static EmbeddedKafka start(Path directory, int port) {
+        int brokerPort = FreePort.orFree(port);
+        Map<String, Object> settings = settings(directory, brokerPort, FreePort.orFree(0));
+        format(directory);
+        KafkaRaftServer server = new KafkaRaftServer(new KafkaConfig(asProperties(settings)), Time.SYSTEM);
+        server.startup();
+        return new EmbeddedKafka(server, brokerPort);
+    }
+
+    public String bootstrapServers() {
+        return HOST + ":" + port;
+    }
+
+    @Override
+    public void close() {
+        server.shutdown();
+        server.awaitShutdown();
+    }
+
+    private static void format(Path directory) {
+        try {
+            Files.createDirectories(directory);
+            new Formatter()
+                    .setPrintStream(new java.io.PrintStream(java.io.OutputStream.nullOutputStream()))
+                    .setNodeId(1)
+                    .setClusterId(clusterId(directory))
+                    .addDirectory(directory.toString())
+                    .setMetadataLogDirectory(directory.toString())
+                    .setControllerListenerName("CONTROLLER")
+                    .setIgnoreFormatted(true)
+                    .run();
+        } catch (Exception e) { // the formatter declares no narrower type
+            throw new IllegalStateException("cannot prepare Kafka's log directory " + directory, e);
+        }
+    }
+
+    /** An earlier broker's cluster id, because the formatter refuses a directory of another cluster. */
+    private static String clusterId(Path directory) throws java.io.IOException {
+        Path meta = directory.resolve("meta.properties");
+        if (!Files.exists(meta)) {
+            return Uuid.randomUuid().toString();
+        }
+        Properties known = new Properties();
+        try (var reader = Files.newBufferedReader(meta)) {
+            known.load(reader);
+        }
+        return known.getProperty("cluster.id");
+    }
+
+    private static Map<String, Object> settings(Path directory, int port, int controllerPort) {
+        return Map.ofEntries(
+                Map.entry("process.roles", "broker,controller"),
+                Map.entry("node.id", 1),
+                Map.entry("controller.quorum.voters", "1@" + HOST + ":" + controllerPort),
+                Map.entry(
+                        "listeners",
+                        "PLAINTEXT://" + HOST + ":" + port + ",CONTROLLER://" + HOST + ":" + controllerPort),
+                Map.entry("advertised.listeners", "PLAINTEXT://" + HOST + ":" + port),
+                Map.entry("controller.listener.names", "CONTROLLER"),
+                Map.entry("inter.broker.listener.name", "PLAINTEXT"),
+                Map.entry("listener.security.protocol.map", "PLAINTEXT:PLAINTEXT,CONTROLLER:PLAINTEXT"),
+                Map.entry("log.dirs", directory.toString()),
+                Map.entry("num.partitions", PARTITIONS),
+                Map.entry("message.max.bytes", MAX_RECORD_BYTES),
+                Map.entry("offsets.topic.num.partitions", PARTITIONS),
+                Map.entry("offsets.topic.replication.factor", 1),
+                Map.entry("transaction.state.log.num.partitions", PARTITIONS),
+                Map.entry("transaction.state.log.replication.factor", 1),
+                Map.entry("transaction.state.log.min.isr", 1),
+                Map.entry("share.coordinator.state.topic.replication.factor", 1),
+                Map.entry("share.coordinator.state.topic.min.isr", 1),
+                Map.entry("log.cleaner.dedupe.buffer.size", 8 * 1024 * 1024),
+                // A consumer of a fresh group would otherwise wait three seconds for company.
+                Map.entry("group.initial.rebalance.delay.ms", 0));
+    }
+
+    private static Properties asProperties(Map<String, Object> settings) {
+        Properties properties = new Properties();
+        properties.putAll(settings.entrySet().stream()
+                .collect(Collectors.toMap(
+                        Map.Entry::getKey, entry -> entry.getValue().toString())));
+        return properties;
+    }
+}

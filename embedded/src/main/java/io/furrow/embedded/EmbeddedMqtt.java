@@ -1,0 +1,70 @@
+package io.furrow.embedded;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.security.MessageDigest;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import io.moquette.broker.Server;
+import io.moquette.broker.config.MemoryConfig;
+import io.moquette.broker.security.IAuthenticator;
+import io.moquette.broker.security.PermitAllAuthorizatorPolicy;
+
+/** An MQTT 3.1.1 broker in this JVM, on 127.0.0.1, that lets nobody in without a user and password. */
+public final class EmbeddedMqtt implements AutoCloseable {
+    private static final String HOST = "127.0.0.1";
+    private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
+
+    private final Server server;
+
+    private EmbeddedMqtt(Server server) {
+        this.server = server;
+    }
+
+    /** A broker on a free port. */
+    public static EmbeddedMqtt start(Map<String, String> passwords) {
+        return start(0, passwords);
+    }
+
+    /**
+     * @param port 0 for a free one
+     * @param passwords of each user
+     */
+    public static EmbeddedMqtt start(int port, Map<String, String> passwords) {
+        Properties properties = new Properties();
+        properties.setProperty("host", HOST);
+        properties.setProperty("port", Integer.toString(port));
+        properties.setProperty("allow_anonymous", "false");
+        properties.setProperty("persistence_enabled", "false");
+        properties.setProperty("telemetry_enabled", "false");
+        properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));
+        IAuthenticator authenticator = (clientId, user, password) ->
+                user != null && password != null && matches(passwords.get(user), password);
+        Server server = new Server();
+        try {
+            server.startServer(
+                    new MemoryConfig(properties), List.of(), null, authenticator, new PermitAllAuthorizatorPolicy());
+        } catch (IOException e) {
+            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + port, e);
+        }
+        return new EmbeddedMqtt(server);
+    }
+
+    /** {@code tcp://127.0.0.1:<port>}. */
+    public URI uri() {
+        return URI.create("tcp://" + HOST + ":" + server.getPort());
+    }
+
+    @Override
+    public void close() {
+        server.stopServer();
+    }
+
+    private static boolean matches(String expected, byte[] password) {
+        return expected != null && MessageDigest.isEqual(expected.getBytes(StandardCharsets.UTF_8), password);
+    }
+}

@@ -1,0 +1,60 @@
+package io.furrow.flink;
+
+import java.time.Duration;
+import java.util.Map;
+
+import org.apache.flink.api.common.ExecutionConfig;
+import org.apache.flink.configuration.CheckpointingOptions;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.ExecutionOptions;
+import org.apache.flink.configuration.ExternalizedCheckpointRetention;
+import org.apache.flink.configuration.PipelineOptions;
+import org.apache.flink.configuration.RestartStrategyOptions;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+/** The one place that sets checkpointing, restarts, parallelism and type rules of a job. */
+public final class JobEnvironment {
+    /** Key groups; fixed for ever, because state is kept by them. */
+    private static final int MAX_PARALLELISM = 720;
+    /** Kept short: a record waits at most this long for company on its way to the next subtask. */
+    private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
+
+    private JobEnvironment() {}
+
+    public static StreamExecutionEnvironment create(JobOptions options) {
+        Configuration settings = new Configuration();
+        settings.set(PipelineOptions.NAME, options.jobName());
+        settings.set(PipelineOptions.AUTO_GENERATE_UIDS, false);
+        settings.set(PipelineOptions.GENERIC_TYPES, false);
+        settings.set(PipelineOptions.OBJECT_REUSE, true);
+        settings.set(PipelineOptions.MAX_PARALLELISM, MAX_PARALLELISM);
+        settings.set(ExecutionOptions.BUFFER_TIMEOUT, BUFFER_TIMEOUT);
+        settings.set(CheckpointingOptions.CHECKPOINTING_INTERVAL, options.checkpointInterval());
+        settings.set(
+                CheckpointingOptions.EXTERNALIZED_CHECKPOINT_RETENTION,
+                ExternalizedCheckpointRetention.RETAIN_ON_CANCELLATION);
+        options.checkpointDir().ifPresent(dir -> settings.set(CheckpointingOptions.CHECKPOINTS_DIRECTORY, dir));
+        settings.set(RestartStrategyOptions.RESTART_STRATEGY, "exponential-delay");
+
+        StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
+        options.parallelism().ifPresent(env::setParallelism);
+        env.getConfig().setGlobalJobParameters(new EffectiveOptions(options.effective()));
+        return env;
+    }
+
+    /** Shown by the web UI under the job's configuration. */
+    private static final class EffectiveOptions extends ExecutionConfig.GlobalJobParameters {
+        private static final long serialVersionUID = 1L;
+
+        private final java.util.TreeMap<String, String> values;
+
+        EffectiveOptions(Map<String, String> values) {
+            this.values = new java.util.TreeMap<>(values);
+        }
+
+        @Override
+        public Map<String, String> toMap() {
+            return values;
+        }
+    }
+}

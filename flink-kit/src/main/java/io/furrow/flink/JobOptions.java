@@ -1,0 +1,172 @@
+package io.furrow.flink;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.TreeMap;
+
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+/**
+ * The options that every job has, read from the command line by picocli. Holds no Flink type, so that {@code --help} works
+ * without Flink on the class path.
+ */
+public abstract class JobOptions {
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--bootstrap-servers",
+            paramLabel = "HOST:PORT,…",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka brokers to start from. Default: ${DEFAULT-VALUE}.")
+    private String bootstrapServers;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for every Kafka client of the job, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--input",
+            paramLabel = "TOPIC,…",
+            split = ",",
+            defaultValue = "data.raw",
+            description = "Topics to read. Default: ${DEFAULT-VALUE}.")
+    private List<String> input;
+
+    @Option(
+            names = "--delivery",
+            paramLabel = "MODE",
+            defaultValue = "at-least-once",
+            description = "at-least-once: visible at once, repeats after a failure carry the same event id; "
+                    + "exactly-once: visible after each checkpoint. Default: ${DEFAULT-VALUE}.")
+    private Delivery delivery;
+
+    @Option(
+            names = "--out-of-orderness",
+            paramLabel = "DURATION",
+            defaultValue = "2s",
+            description = "How much later than a newer event an older one may come and still count. Longer: fewer late "
+                    + "events, later results. Default: ${DEFAULT-VALUE}.")
+    private Duration outOfOrderness;
+
+    @Option(
+            names = "--idle-timeout",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description =
+                    "After this time without a record a partition no longer holds up event time. The one switch that "
+                            + "depends on the wall clock. Default: ${DEFAULT-VALUE}.")
+    private Duration idleTimeout;
+
+    @Option(
+            names = "--checkpoint-interval",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description = "Time between checkpoints. Shorter: less to repeat after a failure, sooner visible with "
+                    + "exactly-once. Default: ${DEFAULT-VALUE}.")
+    private Duration checkpointInterval;
+
+    @Option(
+            names = "--checkpoint-dir",
+            paramLabel = "URI",
+            description = "Where checkpoints are kept, on any Flink file system. Default: as the cluster says.")
+    private String checkpointDir;
+
+    @Option(
+            names = "--parallelism",
+            paramLabel = "N",
+            description = "Subtasks per operator. Default: as the cluster says.")
+    private Integer parallelism;
+
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    /** The name of the subcommand, which names the job, its consumer group and its transactions. */
+    public String jobName() {
+        return spec.name();
+    }
+
+    public String bootstrapServers() {
+        return bootstrapServers;
+    }
+
+    /**
+     * A fresh copy of what {@code --kafka-properties} holds; empty without it.
+     *
+     * @throws ParameterException if the file cannot be read
+     */
+    public Properties kafkaProperties() {
+        Properties properties = new Properties();
+        if (kafkaProperties == null) {
+            return properties;
+        }
+        try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
+            properties.load(reader);
+            return properties;
+        } catch (IOException e) {
+            throw refused(
+                    "--kafka-properties " + kafkaProperties + " cannot be read; name a readable properties file", e);
+        }
+    }
+
+    public List<String> input() {
+        return List.copyOf(input);
+    }
+
+    public Delivery delivery() {
+        return delivery;
+    }
+
+    public Duration outOfOrderness() {
+        return outOfOrderness;
+    }
+
+    public Duration idleTimeout() {
+        return idleTimeout;
+    }
+
+    public Duration checkpointInterval() {
+        return checkpointInterval;
+    }
+
+    public Optional<String> checkpointDir() {
+        return Optional.ofNullable(checkpointDir);
+    }
+
+    public Optional<Integer> parallelism() {
+        return Optional.ofNullable(parallelism);
+    }
+
+    /** Every option with the value in force, as the web UI shows it under the job's configuration. */
+    public Map<String, String> effective() {
+        Map<String, String> values = new TreeMap<>();
+        for (OptionSpec option : spec.options()) {
+            Object value = option.getValue();
+            if (!option.usageHelp() && value != null) {
+                values.put(option.longestName(), value.toString());
+            }
+        }
+        return values;
+    }
+
+    /** A wrong setting: the message names the option and the remedy. */
+    protected ParameterException refused(String message, Throwable cause) {
+        return new ParameterException(spec.commandLine(), message, cause);
+    }
+}

@@ -1,0 +1,65 @@
+package io.furrow.flink;
+
+import java.time.Duration;
+import java.util.Properties;
+
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.connector.base.DeliveryGuarantee;
+import org.apache.flink.connector.kafka.sink.KafkaSink;
+import org.apache.flink.connector.kafka.source.KafkaSource;
+import org.apache.flink.connector.kafka.source.enumerator.initializer.OffsetsInitializer;
+import org.apache.kafka.clients.consumer.OffsetResetStrategy;
+
+/** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
+public final class KafkaEnds {
+    private static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
+    /** Below the broker's default limit of 15 min, above any checkpoint interval in use. */
+    private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
+
+    private KafkaEnds() {}
+
+    /**
+     * Reads the job's input from where the group {@code furrow-<job>} left off, else from the beginning; only committed
+     * records. Record timestamps are the event times.
+     */
+    @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
+    public static KafkaSource<TopicRecord> source(JobOptions options) {
+        Properties properties = options.kafkaProperties();
+        properties.setProperty("isolation.level", "read_committed");
+        properties.setProperty("partition.discovery.interval.ms", "10000");
+        return KafkaSource.<TopicRecord>builder()
+                .setBootstrapServers(options.bootstrapServers())
+                .setTopics(options.input())
+                .setGroupId("furrow-" + options.jobName())
+                .setClientIdPrefix("furrow-" + options.jobName())
+                .setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
+                .setProperties(properties)
+                .setDeserializer(new TopicRecordFormat())
+                .build();
+    }
+
+    /** Writes each record to the topic it names, under the job's delivery guarantee. */
+    public static KafkaSink<TopicRecord> sink(JobOptions options) {
+        Properties properties = options.kafkaProperties();
+        properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
+        properties.putIfAbsent("batch.size", "131072");
+        properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        return KafkaSink.<TopicRecord>builder()
+                .setBootstrapServers(options.bootstrapServers())
+                .setKafkaProducerConfig(properties)
+                .setDeliveryGuarantee(
+                        switch (options.delivery()) {
+                            case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
+                            case EXACTLY_ONCE -> DeliveryGuarantee.EXACTLY_ONCE;
+                        })
+                .setTransactionalIdPrefix("furrow-" + options.jobName())
+                .setRecordSerializer(new TopicRecordFormat())
+                .build();
+    }
+
+    /** Event time = record timestamp, behind by the job's out-of-orderness; quiet partitions do not hold it up. */
+    public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
+        return WatermarkStrategy.<TopicRecord>forBoundedOutOfOrderness(options.outOfOrderness())
+                .withIdleness(options.idleTimeout());
+    }
+}

@@ -1,0 +1,70 @@
+package io.furrow.flink;
+
+import java.io.Serializable;
+import java.time.Duration;
+import java.util.Iterator;
+import java.util.Map;
+import java.util.function.Function;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.MapState;
+import org.apache.flink.api.common.state.MapStateDescriptor;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+/**
+ * Lets an event id pass once within a time of its first appearance; keyed by entity, so that order is kept.
+ *
+ * <p>State: ids seen and when each is forgotten, per entity. Cleared: by event-time timers, a tenth of the time apart.
+ * Late: an event behind the watermark is remembered from the watermark on. Emits: first appearances, in order; the rest are
+ * counted as {@code repeated}.
+ */
+public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
+    private static final long serialVersionUID = 1L;
+    private static final int TIMERS_PER_WINDOW = 10;
+
+    /** How an event's id is told; serializable because it travels with the job. */
+    public interface IdOf<T> extends Function<T, String>, Serializable {}
+
+    private final IdOf<T> idOf;
+    private final long windowMillis;
+    private transient MapState<String, Long> forgetAt;
+    private transient Counter repeated;
+
+    public PassOnce(Duration window, IdOf<T> idOf) {
+        this.idOf = idOf;
+        this.windowMillis = window.toMillis();
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        forgetAt = getRuntimeContext().getMapState(new MapStateDescriptor<>("forget-at", Types.STRING, Types.LONG));
+        repeated = getRuntimeContext().getMetricGroup().counter("repeated");
+    }
+
+    @Override
+    public void processElement(T event, Context context, Collector<T> out) throws Exception {
+        String id = idOf.apply(event);
+        if (forgetAt.contains(id)) {
+            repeated.inc();
+            return;
+        }
+        long from = Math.max(context.timestamp(), context.timerService().currentWatermark());
+        long step = Math.max(1, windowMillis / TIMERS_PER_WINDOW);
+        long until = Math.floorDiv(from + windowMillis, step) * step + step;
+        forgetAt.put(id, until);
+        context.timerService().registerEventTimeTimer(until);
+        out.collect(event);
+    }
+
+    @Override
+    public void onTimer(long timestamp, OnTimerContext context, Collector<T> out) throws Exception {
+        for (Iterator<Map.Entry<String, Long>> ids = forgetAt.iterator(); ids.hasNext(); ) {
+            if (ids.next().getValue() <= timestamp) {
+                ids.remove();
+            }
+        }
+    }
+}
