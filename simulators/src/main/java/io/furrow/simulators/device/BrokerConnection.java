@@ -47,6 +47,9 @@ public final class BrokerConnection {
         options.setMaxReconnectDelay(LONGEST_PAUSE_MS);
         options.setConnectionTimeout(CONNECT_SECONDS);
         options.setMaxInflight(inflight);
+        if (address(settings).startsWith("tcp:")) {
+            options.setSocketFactory(new NoDelaySockets());
+        }
         try {
             client.connect(options).waitForCompletion();
         } catch (MqttException e) {

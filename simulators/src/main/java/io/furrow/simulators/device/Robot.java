@@ -86,7 +86,11 @@ final class Robot implements Device {
         boolean arrived = failure == null && answer.statusCode() / 100 == 2;
         if (!arrived && !away) {
             String reason = failure == null ? answer.statusCode() + " " + answer.body() : failure.toString();
-            LOG.warn("{}: {} does not take its position: {}", assignment.device().id(), settings.contextBroker(), reason);
+            LOG.warn(
+                    "{}: {} does not take its position: {}",
+                    assignment.device().id(),
+                    settings.contextBroker(),
+                    reason);
         } else if (arrived && away) {
             LOG.info("{}: its position arrives again", assignment.device().id());
         }

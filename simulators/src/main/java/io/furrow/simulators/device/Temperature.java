@@ -24,7 +24,8 @@ sealed interface Temperature {
             double hour = time.atZone(ZoneOffset.UTC).toLocalTime().toSecondOfDay() / 3600d;
             double day = mean + SWING * Math.cos(2 * Math.PI * (hour - 15) / 24);
             double offset = OFFSET * new SplittableRandom(seed).nextDouble(-1, 1);
-            double noise = NOISE * new SplittableRandom(seed ^ time.toEpochMilli() * 0x9E3779B97F4A7C15L).nextGaussian();
+            double noise =
+                    NOISE * new SplittableRandom(seed ^ time.toEpochMilli() * 0x9E3779B97F4A7C15L).nextGaussian();
             return Math.round((day + offset + noise) * 100) / 100d;
         }
     }
