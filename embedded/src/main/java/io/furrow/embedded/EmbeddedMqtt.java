@@ -20,9 +20,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
 
     private final Server server;
+    private final int port;
 
-    private EmbeddedMqtt(Server server) {
+    private EmbeddedMqtt(Server server, int port) {
         this.server = server;
+        this.port = port;
     }
 
     /** A broker on a free port. */
@@ -51,12 +53,13 @@ public final class EmbeddedMqtt implements AutoCloseable {
         } catch (IOException e) {
             throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + port, e);
         }
-        return new EmbeddedMqtt(server);
+        // Moquette tells its port only where it chose it.
+        return new EmbeddedMqtt(server, port == 0 ? server.getPort() : port);
     }
 
     /** {@code tcp://127.0.0.1:<port>}. */
     public URI uri() {
-        return URI.create("tcp://" + HOST + ":" + server.getPort());
+        return URI.create("tcp://" + HOST + ":" + port);
     }
 
     @Override

@@ -1,10 +1,8 @@
 package io.furrow.launcher;
 
-import java.io.IOException;
 import java.io.PrintWriter;
 import java.time.Duration;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 
 import org.slf4j.Logger;
@@ -46,7 +44,7 @@ final class Session {
         return 0;
     }
 
-    private void show(Suite suite) throws InterruptedException, ExecutionException, IOException {
+    private void show(Suite suite) throws InterruptedException {
         try (Status status = new Status(
                 out,
                 System.console() != null && System.getenv("TERM") != null,

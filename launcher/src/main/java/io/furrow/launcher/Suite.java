@@ -84,7 +84,7 @@ public final class Suite implements AutoCloseable {
         }
         PortCheck.free(ports.connect(), "Connect", "--connect-port");
         PortCheck.free(ports.flink(), "Flink's web UI", "--flink-port");
-        PortCheck.free(ports.notify(), "the listener for notifications", "--notify-port");
+        PortCheck.free(ports.listener(), "the listener for notifications", "--notify-port");
         if (settings.orion() == null) {
             PortCheck.free(ports.mqtt(), "the MQTT broker", "--mqtt-port");
             PortCheck.free(ports.orion(), "the context broker", "--orion-port");
@@ -153,7 +153,7 @@ public final class Suite implements AutoCloseable {
     }
 
     private void connectThem() throws Exception {
-        int port = FreePort.orFree(settings.ports().notify());
+        int port = FreePort.orFree(settings.ports().listener());
         listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
         Connectors connectors = new Connectors(connect.uri());
         progress.step("NGSI source and sink", () -> {

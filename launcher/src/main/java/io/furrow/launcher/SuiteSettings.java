@@ -25,7 +25,7 @@ public record SuiteSettings(
         String kafka) {
 
     /** Ports on 127.0.0.1, each 0 for a free one. */
-    public record Ports(int kafka, int connect, int flink, int notify, int mqtt, int orion, int iotAgent) {
+    public record Ports(int kafka, int connect, int flink, int listener, int mqtt, int orion, int iotAgent) {
         /** All free ones. */
         public static Ports free() {
             return new Ports(0, 0, 0, 0, 0, 0, 0);

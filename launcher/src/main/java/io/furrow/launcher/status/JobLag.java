@@ -11,11 +11,14 @@ import java.util.OptionalLong;
 import java.util.TreeMap;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.model.ngsi.NgsiJson;
 
 /** How many records each job has still to read, as Flink's own metric {@code pendingRecords} says (at most 10 s old). */
 final class JobLag {
+    private static final Logger LOG = LoggerFactory.getLogger(JobLag.class);
     private static final String METRIC_END = ".pendingRecords";
 
     private final HttpClient http =
@@ -30,11 +33,16 @@ final class JobLag {
         this.jobs = jobs;
     }
 
-    /** Pending records by job; empty for a job that has not told yet. */
-    Map<String, OptionalLong> read() throws IOException, InterruptedException {
+    /** Pending records by job; empty for a job that has not told yet, or while Flink is too busy to tell. */
+    Map<String, OptionalLong> read() throws InterruptedException {
         Map<String, OptionalLong> lags = new TreeMap<>();
         for (String name : jobs.keySet()) {
-            lags.put(name, pending(name));
+            try {
+                lags.put(name, pending(name));
+            } catch (IOException e) {
+                LOG.debug("no lag of {}", name, e);
+                lags.put(name, OptionalLong.empty());
+            }
         }
         return lags;
     }

@@ -1,6 +1,5 @@
 package io.furrow.launcher.status;
 
-import java.io.IOException;
 import java.io.PrintWriter;
 import java.net.URI;
 import java.util.ArrayDeque;
@@ -52,12 +51,17 @@ public final class Status implements AutoCloseable {
         results.start();
     }
 
-    /** Reads and shows once; to be called every second. */
-    public void tick() throws InterruptedException, ExecutionException, IOException {
-        TreeMap<String, Long> now = totals.read();
-        Map<String, Double> perSecond = rates.next(now, System.nanoTime());
-        if (inPlace || ticks++ % SECONDS_BETWEEN_BLOCKS == 0) {
-            show(lines(now, perSecond, lag.read()));
+    /** Reads and shows once; to be called every second. A Kafka that does not answer is shown, not fatal. */
+    public void tick() throws InterruptedException {
+        boolean due = inPlace || ticks++ % SECONDS_BETWEEN_BLOCKS == 0;
+        if (!due) {
+            return;
+        }
+        try {
+            TreeMap<String, Long> now = totals.read();
+            show(lines(now, rates.next(now, System.nanoTime()), lag.read()));
+        } catch (ExecutionException e) {
+            show(List.of("Kafka does not tell its totals: " + e.getCause().getMessage()));
         }
     }
 
