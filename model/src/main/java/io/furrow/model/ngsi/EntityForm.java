@@ -60,6 +60,7 @@ enum EntityForm {
             boolean plain = member.getKey().equals("id") || member.getKey().equals("type");
             normalized.set(member.getKey(), plain ? member.getValue() : attribute(member.getKey(), member.getValue()));
         }
+        EntityLimits.check(normalized);
         return new Entity(normalized);
     }
 
