@@ -5,6 +5,7 @@ import java.util.Locale;
 
 import picocli.CommandLine;
 import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.TypeConversionException;
 
 /** The command line of a job jar: a root command with one subcommand per job. */
 public final class JobCommandLine {
@@ -27,9 +28,7 @@ public final class JobCommandLine {
                 .setUsageHelpWidth(100)
                 .setUsageHelpLongOptionsMaxWidth(36)
                 .registerConverter(Duration.class, new DurationConverter())
-                .registerConverter(
-                        Delivery.class,
-                        text -> Delivery.valueOf(text.toUpperCase(Locale.ROOT).replace('-', '_')))
+                .registerConverter(Delivery.class, JobCommandLine::delivery)
                 .setParameterExceptionHandler(JobCommandLine::explain)
                 .setExecutionExceptionHandler((failure, refusing, parsed) -> {
                     if (failure instanceof ParameterException refused) {
@@ -37,6 +36,15 @@ public final class JobCommandLine {
                     }
                     throw failure;
                 });
+    }
+
+    private static Delivery delivery(String text) {
+        return switch (text.toLowerCase(Locale.ROOT)) {
+            case "at-least-once" -> Delivery.AT_LEAST_ONCE;
+            case "exactly-once" -> Delivery.EXACTLY_ONCE;
+            default ->
+                throw new TypeConversionException("'" + text + "' is no delivery; write at-least-once or exactly-once");
+        };
     }
 
     /** One sentence and where to read more; the whole usage would bury it. */

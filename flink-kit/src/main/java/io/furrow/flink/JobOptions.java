@@ -120,7 +120,7 @@ public abstract class JobOptions {
         try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
             properties.load(reader);
             return properties;
-        } catch (IOException e) {
+        } catch (IOException | IllegalArgumentException e) { // the latter: an escape that stands for no character
             throw refused(
                     "--kafka-properties " + kafkaProperties + " cannot be read; name a readable properties file", e);
         }
@@ -142,7 +142,11 @@ public abstract class JobOptions {
         return idleTimeout;
     }
 
+    /** At least 10 ms, Flink's own limit. */
     public Duration checkpointInterval() {
+        if (checkpointInterval.toMillis() < 10) {
+            throw refused("--checkpoint-interval is below 10ms; write for instance 1s", null);
+        }
         return checkpointInterval;
     }
 
@@ -150,7 +154,12 @@ public abstract class JobOptions {
         return Optional.ofNullable(checkpointDir);
     }
 
+    /** Between 1 and 720, the number of key groups. */
     public Optional<Integer> parallelism() {
+        if (parallelism != null && (parallelism < 1 || parallelism > 720)) {
+            throw refused(
+                    "--parallelism " + parallelism + " is not between 1 and 720; leave it out or name another", null);
+        }
         return Optional.ofNullable(parallelism);
     }
 

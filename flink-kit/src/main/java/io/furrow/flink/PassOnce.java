@@ -66,5 +66,8 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
                 ids.remove();
             }
         }
+        if (forgetAt.isEmpty()) {
+            forgetAt.clear(); // the heap backend would keep an empty map per entity
+        }
     }
 }

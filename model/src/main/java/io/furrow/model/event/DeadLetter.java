@@ -8,15 +8,23 @@ import io.furrow.model.ngsi.Reason;
 /**
  * Input that was set aside: the original bytes are the value of a record on {@code <topic>.dead}, this is in its headers.
  *
- * @param message a sentence for people
+ * @param message a sentence for people, at most {@value #LONGEST_MESSAGE} signs
  * @param stage who set it aside, for instance {@code ngsi-source}
  * @param source where it came from: {@code <topic>-<partition>@<offset>}, or the sender's address and path
  */
 public record DeadLetter(Reason reason, String message, String stage, String source) {
+    /** A sentence may quote the input, which may be megabytes. */
+    private static final int LONGEST_MESSAGE = 500;
+
     public static final String REASON = "dead-reason";
     public static final String MESSAGE = "dead-message";
     public static final String STAGE = "dead-stage";
     public static final String SOURCE = "dead-source";
+
+    public DeadLetter {
+        String sentence = message == null ? reason.code() : message;
+        message = sentence.length() <= LONGEST_MESSAGE ? sentence : sentence.substring(0, LONGEST_MESSAGE - 1) + "…";
+    }
 
     public Map<String, String> headers() {
         Map<String, String> headers = new LinkedHashMap<>();

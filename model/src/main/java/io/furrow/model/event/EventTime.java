@@ -3,8 +3,16 @@ package io.furrow.model.event;
 import java.time.DateTimeException;
 import java.time.Duration;
 import java.time.Instant;
+import java.time.LocalDateTime;
 import java.time.OffsetDateTime;
+import java.time.ZoneOffset;
+import java.time.chrono.IsoChronology;
+import java.time.format.DateTimeFormatter;
+import java.time.format.DateTimeFormatterBuilder;
+import java.time.format.ResolverStyle;
+import java.time.temporal.TemporalAccessor;
 import java.util.List;
+import java.util.Locale;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -13,7 +21,8 @@ import io.furrow.model.ngsi.Entity;
 
 /**
  * When an event happened: {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (ISO
- * 8601 or epoch ms), else {@code dateModified} of the context broker, else the time of receipt.
+ * 8601 or epoch ms), else {@code dateModified} of the context broker, else the time of receipt. The first of these that can be
+ * read decides. A date and time without offset is UTC, as NGSI-v2 has it.
  *
  * @param time never before 1970, at most the allowed skew after the receipt
  * @param basis what it was taken from
@@ -27,6 +36,16 @@ public record EventTime(Instant time, Basis basis) {
         /** The entity's own time was further in the future than allowed, so the time of receipt stands for it. */
         RECEIPT_FOR_FUTURE
     }
+
+    /** The year 33658: 15 digits of milliseconds. What is later is no time. */
+    private static final double LATEST_MILLIS = 999_999_999_999_999d;
+
+    private static final DateTimeFormatter ISO = new DateTimeFormatterBuilder()
+            .append(DateTimeFormatter.ISO_LOCAL_DATE_TIME)
+            .appendPattern("[XXX][XX][X]")
+            .toFormatter(Locale.ROOT)
+            .withResolverStyle(ResolverStyle.STRICT)
+            .withChronology(IsoChronology.INSTANCE);
 
     private static final List<String> DEVICE_TIMES = List.of("Time", "TimeInstant", "dateObserved", "timestamp");
 
@@ -60,21 +79,21 @@ public record EventTime(Instant time, Basis basis) {
         return Math.abs(millis) <= LATEST_MILLIS ? Optional.of(Instant.ofEpochMilli((long) millis)) : Optional.empty();
     }
 
-    /** ISO 8601 with offset, the start of an ISO 8601 interval, or the digits of epoch milliseconds. */
+    /** ISO 8601 date and time, the start of an ISO 8601 interval, or the digits of epoch milliseconds. */
     private static Optional<Instant> fromText(String text) {
         if (text.matches("\\d{1,15}")) {
             return Optional.of(Instant.ofEpochMilli(Long.parseLong(text)));
         }
         int slash = text.indexOf('/');
         try {
-            return Optional.of(OffsetDateTime.parse(slash < 0 ? text : text.substring(0, slash))
-                            .toInstant())
-                    .filter(time -> Math.abs(time.getEpochSecond()) < LATEST_MILLIS / 1000);
+            TemporalAccessor time = ISO.parseBest(
+                    slash < 0 ? text : text.substring(0, slash), OffsetDateTime::from, LocalDateTime::from);
+            Instant instant = time instanceof OffsetDateTime offset
+                    ? offset.toInstant()
+                    : ((LocalDateTime) time).toInstant(ZoneOffset.UTC);
+            return Optional.of(instant).filter(it -> Math.abs(it.getEpochSecond()) < LATEST_MILLIS / 1000);
         } catch (DateTimeException e) {
             return Optional.empty();
         }
     }
-
-    /** The year 33658: 15 digits of milliseconds. What is later is no time. */
-    private static final double LATEST_MILLIS = 999_999_999_999_999d;
 }

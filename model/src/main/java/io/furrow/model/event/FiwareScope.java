@@ -16,8 +16,13 @@ public record FiwareScope(String service, String servicePath) {
         return new FiwareScope(tenant, path);
     }
 
-    /** Tenant, service path and id in one text, for keyed state. Neither of the first two can hold a {@code |}. */
+    /** Tenant, service path and id in one text, for keyed state; no two entities share one. */
     public String identity(String entityId) {
-        return service + "|" + servicePath + "|" + entityId;
+        return escaped(service) + "|" + escaped(servicePath) + "|" + entityId;
+    }
+
+    /** The context broker allows neither sign, but a header may hold anything. */
+    private static String escaped(String part) {
+        return part.replace("%", "%25").replace("|", "%7C");
     }
 }

@@ -50,8 +50,15 @@ public final class EntityBuilder {
         return attribute(name, "StructuredValue", array);
     }
 
-    /** An attribute of any type and value. */
+    /**
+     * An attribute of any type and value.
+     *
+     * @throws IllegalArgumentException if the name is {@code id} or {@code type}, which are no attributes
+     */
     public EntityBuilder attribute(String name, String type, JsonNode value) {
+        if (name.equals("id") || name.equals("type")) {
+            throw new IllegalArgumentException("'" + name + "' is no name for an attribute");
+        }
         ObjectNode attribute = NODES.objectNode().put("type", type);
         attribute.set("value", value);
         attribute.set("metadata", NODES.objectNode());

@@ -1,6 +1,7 @@
 package io.furrow.model.ngsi;
 
 import java.util.Map;
+import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -30,17 +31,25 @@ enum EntityForm {
         }
     };
 
+    private static final Set<String> ATTRIBUTE_MEMBERS = Set.of("type", "value", "metadata");
+
     abstract ObjectNode attribute(String name, JsonNode reported) throws UnreadableException;
 
     /** The form of an entity whose sender did not say: normalized where every attribute has that shape. */
     static EntityForm of(JsonNode entity) {
         for (Map.Entry<String, JsonNode> member : entity.properties()) {
-            boolean builtIn = member.getKey().equals("id") || member.getKey().equals("type");
-            if (!builtIn && !member.getValue().has("value")) {
+            boolean plain = member.getKey().equals("id") || member.getKey().equals("type");
+            if (!plain && !looksNormalized(member.getValue())) {
                 return KEY_VALUES;
             }
         }
         return NORMALIZED;
+    }
+
+    /** An object of the device's own, for instance {@code {"value": 3, "unit": "C"}}, has a member that no attribute has. */
+    private static boolean looksNormalized(JsonNode attribute) {
+        return attribute.has("value")
+                && attribute.properties().stream().map(Map.Entry::getKey).allMatch(ATTRIBUTE_MEMBERS::contains);
     }
 
     Entity read(JsonNode reported) throws UnreadableException {
@@ -60,6 +69,7 @@ enum EntityForm {
             boolean plain = member.getKey().equals("id") || member.getKey().equals("type");
             normalized.set(member.getKey(), plain ? member.getValue() : attribute(member.getKey(), member.getValue()));
         }
+        EntityLimits.check(normalized);
         return new Entity(normalized);
     }
 

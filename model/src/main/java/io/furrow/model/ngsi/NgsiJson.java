@@ -16,7 +16,7 @@ import com.fasterxml.jackson.databind.json.JsonMapper;
 
 /**
  * The one JSON reader and writer: strict RFC 8259 (UTF-8, one document, no duplicate names, no NaN), nesting at most
- * {@value #MAX_NESTING}, strings at most 8 MiB, decimal numbers kept digit for digit.
+ * {@value #MAX_NESTING}, strings at most 8 MiB, numbers at most 1000 signs, decimal numbers kept digit for digit.
  */
 public final class NgsiJson {
     public static final int MAX_NESTING = 64;
@@ -59,6 +59,8 @@ public final class NgsiJson {
             throw new UnreadableException(Reason.TOO_DEEP, e.getOriginalMessage(), e);
         } catch (JsonProcessingException e) {
             throw new UnreadableException(Reason.NOT_JSON, e.getOriginalMessage(), e);
+        } catch (NumberFormatException e) { // Jackson's answer to an exponent beyond that of a BigDecimal
+            throw new UnreadableException(Reason.TOO_DEEP, "a number's exponent is out of range", e);
         } catch (IOException e) { // Jackson's answer to bytes that are not UTF-8
             throw new UnreadableException(Reason.NOT_JSON, e.getMessage(), e);
         }

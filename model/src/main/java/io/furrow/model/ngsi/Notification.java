@@ -27,7 +27,7 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
      */
     public static Notification read(byte[] body, String attrsFormat) throws UnreadableException {
         JsonNode root = NgsiJson.read(body);
-        if ("values".equals(attrsFormat)) {
+        if ("values".equals(attrsFormat) || !root.has("id") && isListOfLists(root.path("data"))) {
             throw new UnreadableException(
                     Reason.UNSUPPORTED_FORM,
                     "form 'values' does not name its attributes; set the subscription's attrsFormat to normalized");
@@ -55,6 +55,10 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
             }
         }
         return new Notification(subscription, List.copyOf(entities), List.copyOf(rejected));
+    }
+
+    private static boolean isListOfLists(JsonNode data) {
+        return !data.isEmpty() && data.valueStream().allMatch(JsonNode::isArray);
     }
 
     private static Entity readEntity(JsonNode reported, String attrsFormat) throws UnreadableException {

@@ -45,7 +45,8 @@ public sealed interface PositionReading {
                     : new Faulty("geo:point is not 'lat, lon'");
         }
         JsonNode coordinates = location.path("coordinates");
-        if (!"Point".equals(location.path("type").textValue()) || coordinates.size() < 2) {
+        boolean pair = coordinates.isArray() && coordinates.size() >= 2;
+        if (!"Point".equals(location.path("type").textValue()) || !pair) {
             return new Faulty("location is no GeoJSON Point");
         }
         return checked(Numbers.finite(coordinates.get(1)), Numbers.finite(coordinates.get(0)));

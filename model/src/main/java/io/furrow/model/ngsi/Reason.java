@@ -6,7 +6,7 @@ import java.util.Locale;
 public enum Reason {
     /** Not one well-formed JSON document in UTF-8. */
     NOT_JSON,
-    /** Nested deeper, or a string longer, than {@link NgsiJson} takes. */
+    /** Nested deeper, or a string or number longer, than {@link NgsiJson} takes. */
     TOO_DEEP,
     /** More bytes than the receiver takes. */
     TOO_LARGE,

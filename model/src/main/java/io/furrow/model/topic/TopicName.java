@@ -18,7 +18,8 @@ import java.util.regex.Pattern;
  *
  * <p>Names that begin like an encoding are encoded themselves. So are names that hold {@code _realtime}: a broker refuses a
  * topic that differs from another only in {@code .} and {@code _} ({@code data.a_realtime_b.realtime} and {@code
- * data.a.realtime.b_realtime}).
+ * data.a.realtime.b_realtime}). And so are {@code dead} and names that end in {@code _dead}: {@code data.a.realtime.dead}
+ * takes the dead letters of {@code data.a.realtime}.
  */
 public final class TopicName {
     private static final Pattern PLAIN = Pattern.compile("[A-Za-z0-9_-]{1,64}");
@@ -32,9 +33,9 @@ public final class TopicName {
     }
 
     public static String of(String name) {
-        boolean plain =
-                isLegal(name) && !name.startsWith("_x-") && !name.startsWith("_h-") && !name.contains("_realtime");
-        return plain ? name : encoded(name);
+        boolean encodingLike = name.startsWith("_x-") || name.startsWith("_h-");
+        boolean topicLike = name.contains("_realtime") || name.equals("dead") || name.endsWith("_dead");
+        return isLegal(name) && !encodingLike && !topicLike ? name : encoded(name);
     }
 
     private static String encoded(String name) {

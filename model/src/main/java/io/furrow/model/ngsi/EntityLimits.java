@@ -1,0 +1,64 @@
+package io.furrow.model.ngsi;
+
+import java.math.BigDecimal;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+/**
+ * What an entity must keep to, so that every later reader can take what one reader took: its normalized form is nested at
+ * most {@link NgsiJson#MAX_NESTING}, its texts are Unicode, its numbers have no more than {@value #MAX_EXPONENT} digits on
+ * either side of the point.
+ */
+final class EntityLimits {
+    /** Far beyond a double's 308; a number of 10⁹ digits, short to write, would fill the memory of whoever asks for it. */
+    static final int MAX_EXPONENT = 1000;
+
+    private EntityLimits() {}
+
+    static void check(JsonNode normalized) throws UnreadableException {
+        check(normalized, 1);
+    }
+
+    private static void check(JsonNode node, int depth) throws UnreadableException {
+        if (node.isContainerNode() && depth > NgsiJson.MAX_NESTING) {
+            throw new UnreadableException(
+                    Reason.TOO_DEEP,
+                    "the entity is nested deeper than " + NgsiJson.MAX_NESTING + " in normalized form");
+        }
+        if (node.isObject()) {
+            for (var member : node.properties()) {
+                checkText(member.getKey());
+                check(member.getValue(), depth + 1);
+            }
+        } else if (node.isArray()) {
+            for (JsonNode element : node) {
+                check(element, depth + 1);
+            }
+        } else if (node.isTextual()) {
+            checkText(node.textValue());
+        } else if (node.isBigDecimal()) {
+            checkExponent(node.decimalValue());
+        }
+    }
+
+    /** Half of a surrogate pair has no UTF-8 form: as a record key or in a hash it would become a question mark. */
+    private static void checkText(String text) throws UnreadableException {
+        for (int i = 0; i < text.length(); i++) {
+            if (Character.isSurrogate(text.charAt(i))) {
+                boolean pair = i + 1 < text.length() && Character.isSurrogatePair(text.charAt(i), text.charAt(i + 1));
+                if (!pair) {
+                    throw new UnreadableException(Reason.NOT_AN_ENTITY, "a text holds half of a surrogate pair");
+                }
+                i++;
+            }
+        }
+    }
+
+    private static void checkExponent(BigDecimal number) throws UnreadableException {
+        long exponent = (long) number.precision() - number.scale();
+        if (Math.abs(exponent) > MAX_EXPONENT) {
+            throw new UnreadableException(
+                    Reason.TOO_DEEP, "a number has an exponent beyond " + MAX_EXPONENT + ", which no device needs");
+        }
+    }
+}

@@ -1,0 +1,32 @@
+package io.furrow.model.event;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.ngsi.Reason;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.entry;
+
+class DeadLetterTest {
+    @Test
+    void saysWhyByWhomAndWhere() {
+        assertThat(new DeadLetter(Reason.NOT_AN_ENTITY, "no id", "ingest", "data.raw-0@7").headers())
+                .containsExactly(
+                        entry("dead-reason", "not-an-entity"),
+                        entry("dead-message", "no id"),
+                        entry("dead-stage", "ingest"),
+                        entry("dead-source", "data.raw-0@7"));
+    }
+
+    @Test
+    void shortensASentenceThatQuotesMegabytes() {
+        DeadLetter letter = new DeadLetter(Reason.NOT_AN_ENTITY, "attribute '" + "x".repeat(8_000_000), "ingest", "");
+
+        assertThat(letter.message()).hasSize(500).startsWith("attribute 'xxx").endsWith("…");
+    }
+
+    @Test
+    void fallsBackOnTheReasonWhereThereIsNoSentence() {
+        assertThat(new DeadLetter(Reason.REFUSED, null, "sink", "").headers()).containsEntry("dead-message", "refused");
+    }
+}

@@ -1,0 +1,54 @@
+package io.furrow.model.event;
+
+import java.time.Duration;
+import java.time.Instant;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.ngsi.Entity;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.entry;
+
+class EntityEventTest {
+    private static final Instant RECEIVED = Instant.parse("2026-11-21T01:10:00.250Z");
+
+    @Test
+    void carriesTheHeadersOfTheContract() {
+        Entity entity =
+                Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
+        EntityEvent event =
+                EntityEvent.of(entity, FiwareScope.of("Agri", "/p"), RECEIVED, Duration.ofMinutes(5), Origin.REPAIR);
+
+        assertThat(event.headers("http://orion:1026"))
+                .containsExactly(
+                        entry(
+                                "ce_id",
+                                EventId.of(
+                                        new FiwareScope("agri", "/p"),
+                                        entity,
+                                        event.time().time())),
+                        entry("ce_source", "http://orion:1026"),
+                        entry("ce_time", "2026-11-21T01:09:59Z"),
+                        entry("ce_specversion", "1.0"),
+                        entry("ce_type", "ngsi.entity.changed"),
+                        entry("fiware-service", "agri"),
+                        entry("fiware-servicepath", "/p"),
+                        entry("origin", "repair"),
+                        entry("ts-device", "1795223399000"),
+                        entry("ts-source", "1795223400250"));
+    }
+
+    @Test
+    void hasTheSameIdOnASecondReceiptWhereTheBrokerToldATime() throws Exception {
+        Entity entity = Entity.parse(
+                "{\"id\":\"a\",\"x\":{\"value\":1},\"dateModified\":{\"value\":\"2026-11-21T01:09:00Z\"}}".getBytes());
+
+        assertThat(received(entity, RECEIVED.plusSeconds(60)).id())
+                .isEqualTo(received(entity, RECEIVED).id());
+    }
+
+    private static EntityEvent received(Entity entity, Instant when) {
+        return EntityEvent.of(entity, FiwareScope.DEFAULT, when, Duration.ofMinutes(5), Origin.NOTIFICATION);
+    }
+}

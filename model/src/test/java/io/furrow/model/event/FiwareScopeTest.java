@@ -1,0 +1,28 @@
+package io.furrow.model.event;
+
+import java.util.List;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class FiwareScopeTest {
+    @Test
+    void readsHeadersAsTheContextBrokerDoes() {
+        assertThat(FiwareScope.of(" Agri ", " /plot1 ")).isEqualTo(new FiwareScope("agri", "/plot1"));
+        assertThat(FiwareScope.of(null, null)).isEqualTo(FiwareScope.DEFAULT);
+        assertThat(FiwareScope.of("", " ")).isEqualTo(FiwareScope.DEFAULT);
+    }
+
+    @Test
+    void givesNoTwoEntitiesOneIdentity() {
+        assertThat(FiwareScope.of("agri", "/p").identity("urn:x|1")).isEqualTo("agri|/p|urn:x|1");
+        assertThat(List.of(
+                        new FiwareScope("a", "/").identity("b|c"),
+                        new FiwareScope("a", "/|b").identity("c"),
+                        new FiwareScope("a|/", "b").identity("c"),
+                        new FiwareScope("a%7C/", "b").identity("c"),
+                        new FiwareScope("", "/").identity("a|/|b|c")))
+                .doesNotHaveDuplicates();
+    }
+}

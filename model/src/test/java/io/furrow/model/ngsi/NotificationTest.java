@@ -1,0 +1,177 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
+import org.junit.jupiter.params.provider.NullSource;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.catchThrowableOfType;
+
+class NotificationTest {
+    static Stream<RecordedNotification> named() {
+        return RecordedNotification.all().stream()
+                .filter(each -> !each.attrsFormat().equals("values"));
+    }
+
+    static Stream<RecordedNotification> nameless() {
+        return RecordedNotification.all().stream()
+                .filter(each -> each.attrsFormat().equals("values"));
+    }
+
+    @ParameterizedTest
+    @MethodSource("named")
+    void readsWhatOrionSent(RecordedNotification recorded) throws Exception {
+        Notification notification = Notification.read(recorded.body(), recorded.attrsFormat());
+
+        assertThat(notification.rejected()).isEmpty();
+        assertThat(notification.entities()).singleElement().isEqualTo(golden(recorded));
+    }
+
+    @ParameterizedTest
+    @MethodSource("named")
+    void tellsTheFormFromTheShapeWithoutAHeader(RecordedNotification recorded) throws Exception {
+        assertThat(Notification.read(recorded.body(), null).entities()).containsExactly(golden(recorded));
+    }
+
+    @ParameterizedTest
+    @MethodSource("named")
+    void namesTheSubscriptionWhereTheFormDoes(RecordedNotification recorded) throws Exception {
+        boolean bare = recorded.attrsFormat().startsWith("simplified");
+
+        assertThat(Notification.read(recorded.body(), recorded.attrsFormat()).subscriptionId())
+                .matches(subscription -> subscription.isEmpty() == bare)
+                .isNotEqualTo(java.util.Optional.of(""));
+    }
+
+    @ParameterizedTest
+    @MethodSource("nameless")
+    void refusesTheFormThatNamesNoAttributes(RecordedNotification recorded) {
+        for (String header : new String[] {"values", null}) {
+            UnreadableException refused = unreadable(new String(recorded.body(), StandardCharsets.UTF_8), header);
+
+            assertThat(refused.reason()).isEqualTo(Reason.UNSUPPORTED_FORM);
+            assertThat(refused).hasMessageContaining("attrsFormat").hasMessageContaining("normalized");
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            simplifiedNormalized | {"id":"a","data":{"type":"Text","value":"x","metadata":{}}}
+            simplifiedKeyValues  | {"id":"a","data":"x"}
+                                 | {"id":"a","data":"x"}
+            keyValues            | {"id":"a","data":"x"}
+            """)
+    void readsABareEntityWithAnAttributeNamedData(String header, String body) throws Exception {
+        Notification notification = Notification.read(bytes(body), header);
+
+        assertThat(notification.entities())
+                .singleElement()
+                .satisfies(entity -> assertThat(entity.text("data")).contains("x"));
+    }
+
+    @Test
+    void keepsAnObjectWithAMemberNamedValueWholeInKeyValues() throws Exception {
+        String body = "{\"id\":\"a\",\"speed\":{\"value\":3,\"type\":\"Number\"}}";
+
+        Entity keyValues = only(body, "simplifiedKeyValues");
+        Entity normalized = only(body, "simplifiedNormalized");
+
+        assertThat(keyValues.value("speed").orElseThrow()).isEqualTo(json("{\"value\":3,\"type\":\"Number\"}"));
+        assertThat(normalized.value("speed").orElseThrow()).isEqualTo(json("3"));
+    }
+
+    @Test
+    void takesAnObjectWithAMemberThatNoAttributeHasForAValue() throws Exception {
+        Entity entity = only("{\"id\":\"a\",\"speed\":{\"value\":3,\"unit\":\"m/s\"}}", null);
+
+        assertThat(entity.value("speed").orElseThrow()).isEqualTo(json("{\"value\":3,\"unit\":\"m/s\"}"));
+    }
+
+    @Test
+    void readsTheRestWhereOneEntityCannotBeRead() throws Exception {
+        String body = "{\"data\":[{\"id\":\"a\"},{\"id\":7},3,{\"id\":\"b\",\"type\":3},[],{\"id\":\"c\"}]}";
+
+        Notification notification = Notification.read(bytes(body), "keyValues");
+
+        assertThat(notification.entities()).extracting(Entity::id).containsExactly("a", "c");
+        assertThat(notification.rejected())
+                .extracting(Notification.Rejected::reported)
+                .extracting(Object::toString)
+                .containsExactly("{\"id\":7}", "3", "{\"id\":\"b\",\"type\":3}", "[]");
+        assertThat(notification.rejected())
+                .extracting(Notification.Rejected::reason)
+                .containsOnly(Reason.NOT_AN_ENTITY);
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "21.5, Number",
+        "'\"a\"', Text",
+        "true, Boolean",
+        "null, None",
+        "[1], StructuredValue",
+        "{}, StructuredValue",
+        "'{\"type\":\"Point\",\"coordinates\":[1,2]}', geo:json"
+    })
+    void givesAnAttributeWithoutATypeTheOneThatTheContextBrokerWould(String value, String type) throws Exception {
+        String expected = "{\"type\":\"" + type + "\",\"value\":" + value + ",\"metadata\":{}}";
+
+        assertThat(only("{\"id\":\"a\",\"x\":" + value + "}", "simplifiedKeyValues")
+                        .json()
+                        .get("x"))
+                .isEqualTo(json(expected));
+        assertThat(only("{\"id\":\"a\",\"x\":{\"value\":" + value + ",\"metadata\":7,\"type\":1}}", "normalized")
+                        .json()
+                        .get("x"))
+                .isEqualTo(json(expected));
+    }
+
+    @ParameterizedTest
+    @NullSource
+    @ValueSource(strings = {"normalized", "keyValues", "simplifiedNormalized", "simplifiedKeyValues", "legacy"})
+    void refusesWhatHoldsNoEntity(String header) {
+        for (String body : List.of("[]", "3", "null", "{}", "{\"id\":\" \"}", "{\"id\":\"a\",\"type\":3}")) {
+            assertThat(unreadable(body, header).reason()).as(body).isEqualTo(Reason.NOT_AN_ENTITY);
+        }
+        assertThat(unreadable("{\"data\":{}}", header).reason()).isEqualTo(Reason.NOT_AN_ENTITY);
+    }
+
+    @Test
+    void refusesANormalizedAttributeWithoutAValue() {
+        assertThatThrownBy(
+                        () -> Notification.read(bytes("{\"id\":\"a\",\"x\":{\"type\":\"T\"}}"), "simplifiedNormalized"))
+                .isInstanceOf(UnreadableException.class)
+                .hasMessageContaining("'x'");
+    }
+
+    private static Entity golden(RecordedNotification recorded) throws IOException, UnreadableException {
+        return Entity.parse(Files.readAllBytes(Path.of("src/test/resources/golden", recorded.name() + ".json")));
+    }
+
+    private static Entity only(String body, String header) throws UnreadableException {
+        return Notification.read(bytes(body), header).entities().get(0);
+    }
+
+    private static UnreadableException unreadable(String body, String header) {
+        return catchThrowableOfType(UnreadableException.class, () -> Notification.read(bytes(body), header));
+    }
+
+    private static com.fasterxml.jackson.databind.JsonNode json(String text) throws UnreadableException {
+        return NgsiJson.read(bytes(text));
+    }
+
+    private static byte[] bytes(String text) {
+        return text.getBytes(StandardCharsets.UTF_8);
+    }
+}
