@@ -205,8 +205,9 @@ class NotificationServerTest {
     @Test
     void waitsForAPredecessorThatIsAboutToFreeThePort() {
         NotificationServer predecessor = server;
+        int port = server.port();
         CompletableFuture<NotificationServer> successor =
-                CompletableFuture.supplyAsync(() -> listen(predecessor.port(), ACK_TIMEOUT, PATIENCE));
+                CompletableFuture.supplyAsync(() -> listen(port, ACK_TIMEOUT, PATIENCE));
         assertThat(successor).isNotDone();
 
         predecessor.close();
