@@ -32,7 +32,8 @@ public class NgsiSinkConfig extends AbstractConfig {
     static ConfigDef definition() {
         ConfigDef options = new ConfigDef();
         defineContextBroker(options);
-        defineWriting(options);
+        defineBatches(options);
+        definePatience(options);
         return options;
     }
 
@@ -73,8 +74,8 @@ public class NgsiSinkConfig extends AbstractConfig {
                 "Service path");
     }
 
-    private static void defineWriting(ConfigDef options) {
-        String group = "Writing";
+    private static void defineBatches(ConfigDef options) {
+        String group = "Batches";
         options.define(
                 BATCH_SIZE,
                 Type.INT,
@@ -98,6 +99,10 @@ public class NgsiSinkConfig extends AbstractConfig {
                 2,
                 Width.SHORT,
                 "Batch (bytes)");
+    }
+
+    private static void definePatience(ConfigDef options) {
+        String group = "Patience";
         options.define(
                 REQUEST_TIMEOUT,
                 Type.LONG,
@@ -106,7 +111,7 @@ public class NgsiSinkConfig extends AbstractConfig {
                 Importance.LOW,
                 "Milliseconds that one request may take; after that the context broker counts as away.",
                 group,
-                3,
+                1,
                 Width.SHORT,
                 "Timeout (ms)");
         options.define(
@@ -117,7 +122,7 @@ public class NgsiSinkConfig extends AbstractConfig {
                 Importance.LOW,
                 "Milliseconds until the same records are tried again when the context broker is away.",
                 group,
-                4,
+                2,
                 Width.SHORT,
                 "Back-off (ms)");
     }

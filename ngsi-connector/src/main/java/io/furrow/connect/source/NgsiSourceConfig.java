@@ -43,6 +43,9 @@ public class NgsiSourceConfig extends AbstractConfig {
         if (topic().equals(deadLetterTopic())) {
             throw new ConfigException(DEAD_LETTER_TOPIC, deadLetterTopic(), "must differ from " + TOPIC);
         }
+        if (maxPendingBytes() < maxBodyBytes()) {
+            throw new ConfigException(MAX_PENDING_BYTES, maxPendingBytes(), "must be at least " + MAX_BODY_BYTES);
+        }
         if (maxRecordBytes() < SMALLEST_RECORD_LIMIT) {
             throw new ConfigException(
                     MAX_RECORD_BYTES,
@@ -55,7 +58,10 @@ public class NgsiSourceConfig extends AbstractConfig {
         ConfigDef options = new ConfigDef();
         defineListening(options);
         defineTopics(options);
-        defineLimits(options);
+        defineEntities(options);
+        defineSizes(options);
+        definePending(options);
+        defineAcknowledging(options);
         return options;
     }
 
@@ -110,6 +116,10 @@ public class NgsiSourceConfig extends AbstractConfig {
                 2,
                 Width.MEDIUM,
                 "Dead letters");
+    }
+
+    private static void defineEntities(ConfigDef options) {
+        String group = "Entities";
         options.define(
                 EXCLUDE_TYPES,
                 Type.LIST,
@@ -119,7 +129,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 "Regular expressions separated by commas. An entity whose whole type matches one is dropped and counted."
                         + " Name here what is written into the context broker from Kafka, or it comes back as news.",
                 group,
-                3,
+                1,
                 Width.LONG,
                 "Excluded types");
         options.define(
@@ -131,13 +141,13 @@ public class NgsiSourceConfig extends AbstractConfig {
                 "Milliseconds that a device's clock may be ahead, less than an hour. Beyond it the event gets the time of"
                         + " receipt and the device is named in the log.",
                 group,
-                4,
+                2,
                 Width.SHORT,
                 "Clock skew (ms)");
     }
 
-    private static void defineLimits(ConfigDef options) {
-        String group = "Limits";
+    private static void defineSizes(ConfigDef options) {
+        String group = "Sizes";
         options.define(
                 MAX_BODY_BYTES,
                 Type.INT,
@@ -162,6 +172,10 @@ public class NgsiSourceConfig extends AbstractConfig {
                 2,
                 Width.SHORT,
                 "Record (bytes)");
+    }
+
+    private static void definePending(ConfigDef options) {
+        String group = "Pending";
         options.define(
                 MAX_PENDING_COUNT,
                 Type.INT,
@@ -170,7 +184,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 Importance.LOW,
                 "Notifications that may wait for Kafka's acknowledgement at a time; the next is answered 503.",
                 group,
-                3,
+                1,
                 Width.SHORT,
                 "Pending");
         options.define(
@@ -179,11 +193,16 @@ public class NgsiSourceConfig extends AbstractConfig {
                 64L * MIB,
                 Range.atLeast(1),
                 Importance.LOW,
-                "Bytes of records that may wait for Kafka's acknowledgement at a time; the next is answered 503.",
+                "Bytes of records that may wait for Kafka's acknowledgement at a time, and as many of bodies whose senders"
+                        + " wait for an answer; the next is answered 503. At least " + MAX_BODY_BYTES + ".",
                 group,
-                4,
+                2,
                 Width.SHORT,
                 "Pending (bytes)");
+    }
+
+    private static void defineAcknowledging(ConfigDef options) {
+        String group = "Acknowledging";
         options.define(
                 ACK_TIMEOUT,
                 Type.LONG,
@@ -193,7 +212,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 "Milliseconds until a notification that Kafka has not acknowledged is answered 504. Longer than the"
                         + " context broker's own patience (Orion: 5 s), so that it counts the failure in its subscription.",
                 group,
-                5,
+                1,
                 Width.SHORT,
                 "Acknowledgement (ms)");
         options.define(
@@ -204,7 +223,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 Importance.LOW,
                 "Most records handed to the worker at a time; it does not wait for more than are there.",
                 group,
-                6,
+                2,
                 Width.SHORT,
                 "Batch");
     }

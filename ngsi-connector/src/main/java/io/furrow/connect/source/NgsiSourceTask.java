@@ -26,7 +26,7 @@ public class NgsiSourceTask extends SourceTask {
     private static final Logger LOG = LoggerFactory.getLogger(NgsiSourceTask.class);
 
     private static final String NOTIFICATION = "notification";
-    private static final Duration POLL_WAIT = Duration.ofMillis(500);
+    private static final Duration POLL_WAIT = Duration.ofMillis(200);
     private static final Duration BIND_PATIENCE = Duration.ofSeconds(10);
     private static final Duration IDLE_BEYOND_ACK = Duration.ofSeconds(30);
 
@@ -57,7 +57,9 @@ public class NgsiSourceTask extends SourceTask {
 
     private NotificationServer listen(NgsiSourceConfig config) {
         NotificationTranslator translator = new NotificationTranslator(config.translation(), counters);
-        NotificationHandler.Limits limits = new NotificationHandler.Limits(config.maxBodyBytes(), config.ackTimeout());
+        ByteBudget bodies = new ByteBudget(config.maxPendingBytes());
+        NotificationHandler.Limits limits =
+                new NotificationHandler.Limits(config.maxBodyBytes(), bodies, config.ackTimeout());
         NotificationHandler handler = new NotificationHandler(translator, pending, counters, limits, this::health);
         InetSocketAddress address = new InetSocketAddress(config.host(), config.port());
         try {

@@ -3,6 +3,7 @@ package io.furrow.connect.source;
 import java.nio.ByteBuffer;
 import java.time.Clock;
 import java.time.Duration;
+import java.util.Map;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.TimeUnit;
@@ -30,9 +31,10 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
 
     /**
      * @param maxBody bytes of a body
+     * @param bodies bytes of all bodies whose senders have no answer yet
      * @param ackTimeout how long a sender waits for the acknowledgement
      */
-    record Limits(int maxBody, Duration ackTimeout) {}
+    record Limits(int maxBody, ByteBudget bodies, Duration ackTimeout) {}
 
     NotificationHandler(
             NotificationTranslator translator,
@@ -54,7 +56,7 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
         } else if (HttpMethod.GET.is(request.getMethod())
                 && Request.getPathInContext(request).equals("/health")) {
             response.getHeaders().put(HttpHeader.CACHE_CONTROL, "no-store");
-            write(response, new Answer(200, health.get(), java.util.Map.of()), callback);
+            write(response, new Answer(200, health.get(), Map.of()), callback);
         } else {
             write(response, Answer.notAllowed(), callback);
         }
@@ -62,7 +64,8 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     }
 
     private void take(Request request, Response response, Callback callback) {
-        BodyReader.read(request, limits.maxBody())
+        BodyReader reader = BodyReader.of(request, limits.maxBody(), limits.bodies());
+        reader.start()
                 .thenCompose(body -> {
                     if (!body.readToEnd()) {
                         response.getHeaders().put(HttpHeader.CONNECTION, "close");
@@ -72,13 +75,23 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
                 // On a thread of the server: what completes the delivery is the producer's one network thread.
                 .whenCompleteAsync(
                         (answer, failure) -> {
-                            if (failure == null) {
-                                write(response, answer, callback);
-                            } else {
-                                callback.failed(failure instanceof CompletionException ? failure.getCause() : failure);
-                            }
+                            reader.release();
+                            answer(response, answer, failure, callback);
                         },
                         getServer().getThreadPool());
+    }
+
+    private void answer(Response response, Answer answer, Throwable failure, Callback callback) {
+        Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
+        if (cause == null) {
+            write(response, answer, callback);
+        } else if (cause instanceof BodyReader.NoRoomException) {
+            counters.unavailable.increment();
+            response.getHeaders().put(HttpHeader.CONNECTION, "close");
+            write(response, Answer.full(), callback);
+        } else {
+            callback.failed(cause);
+        }
     }
 
     private CompletableFuture<Answer> deliver(Translation translation) {

@@ -45,6 +45,7 @@ class NgsiSourceConfigTest {
         "max.body.bytes, 0",
         "max.record.bytes, 1000",
         "max.pending.count, 0",
+        "max.pending.bytes, 1000",
         "ack.timeout.ms, soon",
         "batch.size, 0"
     })

@@ -91,10 +91,8 @@ class NgsiSourceIT {
 
     private record Bad(String name, byte[] body, int status, String reason) {}
 
-    @Test
-    void answersEachBadNotificationAndHarmsNoGoodOne() throws Exception {
-        listen("mixed");
-        List<Bad> table = List.of(
+    private static List<Bad> badNotifications() {
+        return List.of(
                 new Bad("no JSON", bytes("temperature=21"), 400, "not-json"),
                 new Bad("cut off", bytes("{\"id\": \"a\", "), 400, "not-json"),
                 new Bad("empty", new byte[0], 400, "not-json"),
@@ -107,7 +105,12 @@ class NgsiSourceIT {
                         bytes("{\"id\": \"a\", \"x\": \"" + "y".repeat(10_000_000) + "\"}"),
                         413,
                         "too-large"));
+    }
 
+    @Test
+    void answersEachBadNotificationAndHarmsNoGoodOne() throws Exception {
+        listen("mixed");
+        List<Bad> table = badNotifications();
         List<String> good = new ArrayList<>();
         for (Bad bad : table) {
             HttpResponse<String> answer = post(bad.body());

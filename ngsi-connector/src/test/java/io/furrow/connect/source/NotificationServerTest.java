@@ -25,6 +25,7 @@ import static org.awaitility.Awaitility.await;
 class NotificationServerTest {
     private static final int MAX_BODY = 100_000;
     private static final Duration ACK_TIMEOUT = Duration.ofMillis(300);
+    private static final Duration PATIENCE = Duration.ofSeconds(15);
 
     /** Keeps what it is given until the test says that it is durable. */
     private static final class FakeIntake implements Intake {
@@ -57,7 +58,7 @@ class NotificationServerTest {
     @Test
     void answersOnlyWhenTheRecordsAreDurable() {
         server.close();
-        server = listen(0, Duration.ofSeconds(20));
+        server = listen(0, PATIENCE);
         CompletableFuture<Void> durable = new CompletableFuture<>();
         intake.answer = Optional.of(durable);
 
@@ -135,6 +136,27 @@ class NotificationServerTest {
     }
 
     @Test
+    void hasNoRoomForMoreBodiesThanItsMemoryAllows() {
+        server.close();
+        server = listen(0, PATIENCE);
+        CompletableFuture<Void> durable = new CompletableFuture<>();
+        intake.answer = Optional.of(durable);
+        byte[] half = new byte[MAX_BODY];
+        List<CompletableFuture<HttpResponse<String>>> waiting =
+                List.of(post("/", BodyPublishers.ofByteArray(half)), post("/", BodyPublishers.ofByteArray(half)));
+        await().until(() -> intake.taken.size() == 2);
+
+        assertThat(post("/", BodyPublishers.ofString("{\"id\": \"a\"}")).join().statusCode())
+                .isEqualTo(503);
+        durable.complete(null);
+
+        assertThat(waiting)
+                .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(400));
+        assertThat(post("/", BodyPublishers.ofString("{\"id\": \"a\"}")).join().statusCode())
+                .isEqualTo(200);
+    }
+
+    @Test
     void takesPostOnly() {
         HttpRequest put = HttpRequest.newBuilder(uri("/notify"))
                 .PUT(BodyPublishers.ofString("{\"id\": \"a\"}"))
@@ -183,8 +205,9 @@ class NotificationServerTest {
     @Test
     void waitsForAPredecessorThatIsAboutToFreeThePort() {
         NotificationServer predecessor = server;
+        int port = server.port();
         CompletableFuture<NotificationServer> successor =
-                CompletableFuture.supplyAsync(() -> listen(predecessor.port(), ACK_TIMEOUT, Duration.ofSeconds(20)));
+                CompletableFuture.supplyAsync(() -> listen(port, ACK_TIMEOUT, PATIENCE));
         assertThat(successor).isNotDone();
 
         predecessor.close();
@@ -205,7 +228,7 @@ class NotificationServerTest {
                 translator,
                 intake,
                 counters,
-                new NotificationHandler.Limits(MAX_BODY, ackTimeout),
+                new NotificationHandler.Limits(MAX_BODY, new ByteBudget(2 * MAX_BODY), ackTimeout),
                 () -> "{\"well\":true}".getBytes());
         return NotificationServer.start(
                 new InetSocketAddress("127.0.0.1", port), handler, Duration.ofSeconds(30), patience);
@@ -216,7 +239,8 @@ class NotificationServerTest {
     }
 
     private CompletableFuture<HttpResponse<String>> post(String path, HttpRequest.BodyPublisher body) {
-        return send(HttpRequest.newBuilder(uri(path)).POST(body).build());
+        return send(
+                HttpRequest.newBuilder(uri(path)).timeout(PATIENCE).POST(body).build());
     }
 
     private CompletableFuture<HttpResponse<String>> send(HttpRequest request) {
