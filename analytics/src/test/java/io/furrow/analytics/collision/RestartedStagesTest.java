@@ -30,7 +30,7 @@ class RestartedStagesTest {
                     .isEmpty();
             compared += expected.size();
         }
-        assertThat(compared).isGreaterThan(100);
+        assertThat(compared).isGreaterThan(20);
     }
 
     private static List<Encounter> encounters(List<PositionFix> arrivals, CollisionRules rules, Random random)
