@@ -66,5 +66,9 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
                 ids.remove();
             }
         }
+        if (forgetAt.isEmpty()) {
+            // On the heap an emptied map would stay behind, one per entity, for ever.
+            forgetAt.clear();
+        }
     }
 }
