@@ -8,6 +8,7 @@ import java.util.stream.LongStream;
 
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
@@ -25,7 +26,7 @@ import static org.assertj.core.api.Assertions.within;
 /** The job against a recomputation in one pass over lists that shares no code with it. A seed makes a whole case. */
 @Timeout(120)
 class TemperatureOracleTest {
-    private static final int CASES = 40;
+    private static final int CASES = 30;
 
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
@@ -59,6 +60,18 @@ class TemperatureOracleTest {
         assertThat(run.to(Topics.TEMPERATURE_LATE))
                 .extracting(TemperatureOracleTest::fieldAndId)
                 .containsExactlyInAnyOrderElementsOf(expected.late());
+    }
+
+    @Test
+    void hasCasesOfEveryKind() {
+        List<BatchRecomputation> cases = seeds().mapToObj(seed -> BatchRecomputation.of(RandomCase.of(seed)))
+                .toList();
+
+        assertThat(cases.stream().mapToInt(each -> each.late().size())).anyMatch(late -> late > 0);
+        assertThat(cases.stream().flatMap(each -> each.results().values().stream()))
+                .anyMatch(result -> !result.get("suspects").equals("[]"))
+                .anyMatch(result -> result.get("quality").equals("unverified"))
+                .anyMatch(result -> result.get("quality").equals("robust"));
     }
 
     private static void compare(Entity result, Map<String, Object> expected) {
