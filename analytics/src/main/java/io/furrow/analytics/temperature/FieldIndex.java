@@ -1,7 +1,6 @@
 package io.furrow.analytics.temperature;
 
 import java.util.Collection;
-import java.util.Comparator;
 import java.util.List;
 
 import org.locationtech.jts.geom.Coordinate;
@@ -36,13 +35,12 @@ final class FieldIndex {
         tree.build();
     }
 
-    /** The fields that cover the position, by id. */
+    /** The fields that cover the position, in no order. */
     List<Field> covering(Position position) {
         Point point = points.createPoint(new Coordinate(position.longitude(), position.latitude()));
         return candidates(point).stream()
                 .filter(candidate -> candidate.area().covers(point))
                 .map(Indexed::field)
-                .sorted(Comparator.comparing(Field::id))
                 .toList();
     }
 
