@@ -119,7 +119,7 @@ public final class LoadFleet implements AutoCloseable {
     public void close() {
         closed = true;
         LockSupport.unpark(pacer);
-        gateways.forEach(Gateway::close);
+        gateways.parallelStream().forEach(Gateway::close);
     }
 
     private void pace() {

@@ -2,6 +2,7 @@ package io.furrow.simulators.device;
 
 import java.io.IOException;
 import java.net.URI;
+import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 
@@ -19,6 +20,7 @@ import io.furrow.model.ngsi.PositionReading;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
+import static org.junit.jupiter.api.Assertions.assertTimeout;
 
 class FleetTest {
     private static final Position PLACE = new Position(40.3134, -3.4836);
@@ -240,6 +242,24 @@ class FleetTest {
                 assertThat(again.uri().getPort()).isEqualTo(port);
             }
         }
+    }
+
+    @Test
+    void runsTheWholeDemoAndStopsItWithinFiveSeconds() throws Exception {
+        ends.answer(request -> request.path().startsWith("/v2") ? 204 : 201);
+        listen();
+        fleet = Fleet.start(ends.settings(), Scenario.demo());
+
+        await().untilAsserted(() -> {
+            assertThat(listener.heard().stream().map(Listener.Heard::topic).distinct())
+                    .hasSize(11);
+            assertThat(ends.asked("/v2/op/update").stream()
+                            .map(update -> update.body().at("/entities/0/id").textValue())
+                            .distinct())
+                    .hasSize(3);
+        });
+
+        assertTimeout(Duration.ofSeconds(5), fleet::close);
     }
 
     @Test
