@@ -55,6 +55,7 @@ class LoadFleetTest {
             assertThat(heard.stream().map(message -> payload(message.json())))
                     .doesNotHaveDuplicates()
                     .allSatisfy(text -> assertThat(text).hasSize(1_000).matches("[A-Za-z0-9.]+"));
+            assertThat(heard.stream().map(message -> head(message.json()))).doesNotHaveDuplicates();
             Map<String, Long> shares =
                     heard.stream().collect(Collectors.groupingBy(Listener.Heard::topic, Collectors.counting()));
             assertThat(shares).hasSize(20).containsEntry("/furrow-load/load-00007/attrs", 10L);
@@ -182,5 +183,10 @@ class LoadFleetTest {
 
     private static String payload(JsonNode message) {
         return message.path("payload").textValue();
+    }
+
+    /** Device, run and sequence number. */
+    private static String head(JsonNode message) {
+        return payload(message).substring(0, payload(message).lastIndexOf('.'));
     }
 }
