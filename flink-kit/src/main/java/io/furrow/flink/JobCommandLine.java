@@ -1,6 +1,7 @@
 package io.furrow.flink;
 
 import java.time.Duration;
+import java.util.Locale;
 
 import picocli.CommandLine;
 import picocli.CommandLine.ParameterException;
@@ -20,23 +21,30 @@ public final class JobCommandLine {
 
     /** A parser with the value types that job options have. */
     public static CommandLine of(Object command) {
-        return new CommandLine(command)
-                .setCaseInsensitiveEnumValuesAllowed(true)
+        CommandLine line = new CommandLine(command);
+        // Set on the root, inherited by every subcommand.
+        return line.setCaseInsensitiveEnumValuesAllowed(true)
+                .setUsageHelpWidth(100)
+                .setUsageHelpLongOptionsMaxWidth(36)
                 .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(
                         Delivery.class,
-                        text -> Delivery.valueOf(
-                                text.toUpperCase(java.util.Locale.ROOT).replace('-', '_')))
-                .setExecutionExceptionHandler((failure, command1, parsed) -> {
+                        text -> Delivery.valueOf(text.toUpperCase(Locale.ROOT).replace('-', '_')))
+                .setParameterExceptionHandler(JobCommandLine::explain)
+                .setExecutionExceptionHandler((failure, refusing, parsed) -> {
                     if (failure instanceof ParameterException refused) {
-                        return command1.getParameterExceptionHandler().handleParseException(refused, args(parsed));
+                        return explain(refused, new String[0]);
                     }
                     throw failure;
                 });
     }
 
-    private static String[] args(CommandLine.ParseResult parsed) {
-        return parsed.originalArgs().toArray(String[]::new);
+    /** One sentence and where to read more; the whole usage would bury it. */
+    private static int explain(ParameterException refused, String[] args) {
+        CommandLine line = refused.getCommandLine();
+        line.getErr().println(refused.getMessage());
+        line.getErr().println("See: " + line.getCommandSpec().qualifiedName() + " --help");
+        return line.getCommandSpec().exitCodeOnInvalidInput();
     }
 
     /** The reason has been printed; a stack trace would only hide it. */

@@ -42,6 +42,7 @@ public abstract class JobOptions {
             names = "--input",
             paramLabel = "TOPIC,…",
             split = ",",
+            hideParamSyntax = true,
             defaultValue = "data.raw",
             description = "Topics to read. Default: ${DEFAULT-VALUE}.")
     private List<String> input;

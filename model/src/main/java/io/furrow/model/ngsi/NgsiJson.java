@@ -2,9 +2,6 @@ package io.furrow.model.ngsi;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.nio.ByteBuffer;
-import java.nio.charset.CharacterCodingException;
-import java.nio.charset.StandardCharsets;
 
 import com.fasterxml.jackson.core.JsonFactory;
 import com.fasterxml.jackson.core.JsonProcessingException;
@@ -31,6 +28,8 @@ public final class NgsiJson {
                             .maxStringLength(MAX_STRING)
                             .build())
                     .enable(StreamReadFeature.STRICT_DUPLICATE_DETECTION)
+                    // NGSI is UTF-8; Jackson would guess UTF-16 and UTF-32 from the first bytes.
+                    .disable(JsonFactory.Feature.CHARSET_DETECTION)
                     .build())
             .enable(DeserializationFeature.FAIL_ON_TRAILING_TOKENS)
             .enable(DeserializationFeature.USE_BIG_DECIMAL_FOR_FLOATS)
@@ -51,12 +50,7 @@ public final class NgsiJson {
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
         try {
-            // Decoded here because Jackson guesses UTF-16/32 from the first bytes; NGSI is UTF-8.
-            String text = StandardCharsets.UTF_8
-                    .newDecoder()
-                    .decode(ByteBuffer.wrap(bytes))
-                    .toString();
-            JsonNode node = MAPPER.readTree(text);
+            JsonNode node = MAPPER.readTree(bytes);
             if (node == null || node.isMissingNode()) {
                 throw new UnreadableException(Reason.NOT_JSON, "the body is empty");
             }
@@ -65,8 +59,8 @@ public final class NgsiJson {
             throw new UnreadableException(Reason.TOO_DEEP, e.getOriginalMessage(), e);
         } catch (JsonProcessingException e) {
             throw new UnreadableException(Reason.NOT_JSON, e.getOriginalMessage(), e);
-        } catch (CharacterCodingException e) {
-            throw new UnreadableException(Reason.NOT_JSON, "the body is not UTF-8", e);
+        } catch (IOException e) { // Jackson's answer to bytes that are not UTF-8
+            throw new UnreadableException(Reason.NOT_JSON, e.getMessage(), e);
         }
     }
 

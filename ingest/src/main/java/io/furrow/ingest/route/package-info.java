@@ -1,0 +1,2 @@
+/** The job {@code ingest}: from {@code data.raw} to the topics of domains and missions. */
+package io.furrow.ingest.route;

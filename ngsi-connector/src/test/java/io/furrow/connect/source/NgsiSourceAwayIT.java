@@ -1,0 +1,52 @@
+package io.furrow.connect.source;
+
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Map;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.ConnectRig;
+import io.furrow.connect.TopicReader;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class NgsiSourceAwayIT {
+    private final HttpClient client =
+            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
+
+    @Test
+    void saysNoOkWhileKafkaIsAwayAndWritesWhatWaitedWhenItIsBack(@TempDir Path directory) throws Exception {
+        int port = ConnectRig.freePort();
+        URI source = URI.create("http://127.0.0.1:" + port + "/notify");
+        try (ConnectRig rig = ConnectRig.start(directory)) {
+            rig.create("ngsi-source", Map.of("listen.port", Integer.toString(port), "ack.timeout.ms", "1500"));
+            await().atMost(Duration.ofSeconds(30)).ignoreExceptions().until(() -> post(source, "before") == 200);
+
+            rig.stopKafka();
+            int whileAway = post(source, "meanwhile");
+            rig.startKafka();
+
+            assertThat(whileAway).isEqualTo(504);
+            await().atMost(Duration.ofSeconds(60)).until(() -> post(source, "after") == 200);
+            try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "data.raw")) {
+                assertThat(reader.atLeast(3)).extracting(ConsumerRecord::key).contains("before", "meanwhile", "after");
+            }
+        }
+    }
+
+    private int post(URI source, String id) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(source)
+                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": 1}"))
+                .build();
+        return client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
+    }
+}
