@@ -4,14 +4,14 @@ import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.ArrayDeque;
+import java.util.Deque;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.eclipse.paho.client.mqttv3.DisconnectedBufferOptions;
 import org.eclipse.paho.client.mqttv3.IMqttDeliveryToken;
-import org.eclipse.paho.client.mqttv3.MqttAsyncClient;
 import org.eclipse.paho.client.mqttv3.MqttCallbackExtended;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.MqttMessage;
@@ -32,18 +32,19 @@ final class MqttDevice implements Device, MqttCallbackExtended {
     private static final Logger LOG = LoggerFactory.getLogger(MqttDevice.class);
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final int KEPT = 200;
-    private static final int QOS = 1;
 
-    private final MqttAsyncClient client;
+    private final BrokerConnection connection;
     private final String topic;
     private final Sensor sensor;
     private final Route route;
     private final Path path;
     private final Instant start;
+    private final Deque<ObjectNode> waiting = new ArrayDeque<>();
     private volatile boolean on = true;
+    private volatile boolean listening;
 
-    private MqttDevice(MqttAsyncClient client, String topic, Sensor sensor, Route route, Instant start) {
-        this.client = client;
+    private MqttDevice(BrokerConnection connection, String topic, Sensor sensor, Route route, Instant start) {
+        this.connection = connection;
         this.topic = topic;
         this.sensor = sensor;
         this.route = route;
@@ -59,15 +60,12 @@ final class MqttDevice implements Device, MqttCallbackExtended {
      */
     static MqttDevice connect(FleetSettings settings, String topic, Sensor sensor, Route route, Instant start)
             throws IOException {
-        MqttAsyncClient client = BrokerConnection.client(settings, topic.substring(topic.lastIndexOf('/') + 1));
-        MqttDevice device = new MqttDevice(client, topic, sensor, route, start);
-        client.setCallback(device);
-        client.setBufferOpts(buffer());
-        boolean listening = false;
+        BrokerConnection connection = BrokerConnection.to(settings, topic.substring(topic.lastIndexOf('/') + 1));
+        MqttDevice device = new MqttDevice(connection, topic, sensor, route, start);
         try {
-            BrokerConnection.connect(client, settings, KEPT, true);
-            client.subscribe(topic + "/cmd", QOS).waitForCompletion();
-            listening = true;
+            connection.open(device, KEPT, true);
+            connection.subscribe(topic + "/cmd").waitForCompletion();
+            device.listening = true;
             return device;
         } catch (MqttException e) {
             throw new IOException(
@@ -75,7 +73,7 @@ final class MqttDevice implements Device, MqttCallbackExtended {
                             .formatted(settings.mqttUser(), topic, settings.mqtt()),
                     e);
         } finally {
-            if (!listening) {
+            if (!device.listening) {
                 device.close();
             }
         }
@@ -84,7 +82,13 @@ final class MqttDevice implements Device, MqttCallbackExtended {
     @Override
     public void report(Instant now) {
         if (on) {
-            publish("/attrs", measure(now));
+            waiting.add(measure(now));
+        }
+        if (waiting.size() > KEPT) {
+            waiting.remove();
+        }
+        while (connection.ready() && !waiting.isEmpty()) {
+            publish("/attrs", waiting.remove());
         }
     }
 
@@ -100,12 +104,12 @@ final class MqttDevice implements Device, MqttCallbackExtended {
 
     @Override
     public void connectComplete(boolean reconnect, String uri) {
-        if (!reconnect) {
+        if (!listening) {
             return;
         }
         LOG.info("{} is connected again", topic);
         try {
-            client.subscribe(topic + "/cmd", QOS);
+            connection.subscribe(topic + "/cmd");
         } catch (MqttException e) {
             LOG.warn("{} hears no commands until it connects again", topic, e);
         }
@@ -123,7 +127,7 @@ final class MqttDevice implements Device, MqttCallbackExtended {
 
     @Override
     public void close() {
-        BrokerConnection.close(client);
+        connection.close();
     }
 
     /** The last word of a device that is switched off says so, or its status would stay true. */
@@ -151,17 +155,9 @@ final class MqttDevice implements Device, MqttCallbackExtended {
 
     private void publish(String end, ObjectNode json) {
         try {
-            client.publish(topic + end, json.toString().getBytes(StandardCharsets.UTF_8), QOS, false);
+            connection.publish(topic + end, json.toString().getBytes(StandardCharsets.UTF_8));
         } catch (MqttException e) {
             LOG.warn("{}{} lost a message: {}", topic, end, e.getMessage());
         }
-    }
-
-    private static DisconnectedBufferOptions buffer() {
-        DisconnectedBufferOptions buffer = new DisconnectedBufferOptions();
-        buffer.setBufferEnabled(true);
-        buffer.setBufferSize(KEPT);
-        buffer.setDeleteOldestMessages(true);
-        return buffer;
     }
 }

@@ -4,7 +4,6 @@ import java.io.IOException;
 import java.util.concurrent.atomic.LongAdder;
 
 import org.eclipse.paho.client.mqttv3.IMqttDeliveryToken;
-import org.eclipse.paho.client.mqttv3.MqttAsyncClient;
 import org.eclipse.paho.client.mqttv3.MqttCallback;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.MqttMessage;
@@ -17,23 +16,24 @@ import io.furrow.simulators.device.FleetSettings;
 /** One MQTT connection that carries the measures of many devices at QoS 1 and counts their acknowledgements. */
 final class Gateway implements MqttCallback, AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Gateway.class);
-    private static final int QOS = 1;
 
-    private final MqttAsyncClient client;
+    private final BrokerConnection connection;
+    private final int inflight;
     private final LongAdder acknowledged = new LongAdder();
+    private long accepted;
 
-    private Gateway(MqttAsyncClient client) {
-        this.client = client;
+    private Gateway(BrokerConnection connection, int inflight) {
+        this.connection = connection;
+        this.inflight = inflight;
     }
 
     /** @param inflight how many messages may wait for their acknowledgement */
     static Gateway connect(FleetSettings settings, String name, int inflight) throws IOException {
-        Gateway gateway = new Gateway(BrokerConnection.client(settings, name));
-        gateway.client.setCallback(gateway);
+        Gateway gateway = new Gateway(BrokerConnection.to(settings, name), inflight);
         boolean connected = false;
         try {
             // The session is kept, so that what is in flight when the connection breaks is sent again.
-            BrokerConnection.connect(gateway.client, settings, inflight, false);
+            gateway.connection.open(gateway, 2 * inflight, false);
             connected = true;
             return gateway;
         } finally {
@@ -43,10 +43,17 @@ final class Gateway implements MqttCallback, AutoCloseable {
         }
     }
 
-    /** Whether the message is on its way; false while too many are, or while the connection is broken: try again. */
+    /**
+     * Whether the message is on its way; false while too many are, or while the connection is broken: try again. The limit
+     * is counted here because the client counts what is written to the socket only: what waits before it has no bound.
+     */
     boolean offer(String topic, byte[] payload) throws MqttException {
+        if (!ready() || accepted - acknowledged.sum() >= inflight) {
+            return false;
+        }
         try {
-            client.publish(topic, payload, QOS, false);
+            connection.publish(topic, payload);
+            accepted++;
             return true;
         } catch (MqttException e) {
             return switch (e.getReasonCode()) {
@@ -56,6 +63,11 @@ final class Gateway implements MqttCallback, AutoCloseable {
                 default -> throw e;
             };
         }
+    }
+
+    /** Whether it is open; if not, tries to open it again, upon which it sends again what was in flight. */
+    boolean ready() {
+        return connection.ready();
     }
 
     long acknowledged() {
@@ -69,7 +81,7 @@ final class Gateway implements MqttCallback, AutoCloseable {
 
     @Override
     public void connectionLost(Throwable cause) {
-        LOG.warn("{} lost its connection and tries again: {}", client.getClientId(), cause.getMessage());
+        LOG.warn("{} lost its connection and tries again: {}", connection, cause.getMessage());
     }
 
     @Override
@@ -79,6 +91,6 @@ final class Gateway implements MqttCallback, AutoCloseable {
 
     @Override
     public void close() {
-        BrokerConnection.close(client);
+        connection.close();
     }
 }

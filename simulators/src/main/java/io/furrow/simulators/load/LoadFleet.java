@@ -25,7 +25,7 @@ public final class LoadFleet implements AutoCloseable {
     private static final int MOST_INFLIGHT = 2_000;
     private static final int LEAST_INFLIGHT = 16;
     private static final int INFLIGHT_BYTES = 16 * 1024 * 1024;
-    private static final long RETRY_NANOS = TimeUnit.MICROSECONDS.toNanos(200);
+    private static final long RETRY_NANOS = TimeUnit.MICROSECONDS.toNanos(500);
     private static final long LOOK_MS = 5;
     private static final Duration PATIENCE = Duration.ofSeconds(30);
 
@@ -36,6 +36,7 @@ public final class LoadFleet implements AutoCloseable {
     private volatile boolean closed;
     private volatile long sent;
     private volatile long held;
+    private volatile boolean holding;
     private volatile MqttException broken;
 
     private LoadFleet(LoadPlan plan) {
@@ -102,7 +103,8 @@ public final class LoadFleet implements AutoCloseable {
                 throw new IOException("the load broke down after " + sent + " messages", broken);
             }
             long now = sent + acknowledged();
-            if (now != before || sent == acknowledged() && pacer.isAlive()) {
+            boolean idle = !holding && sent == acknowledged();
+            if (!closed && (idle || now != before)) {
                 before = now;
                 moved = System.nanoTime();
             } else if (closed || System.nanoTime() - moved > PATIENCE.toNanos()) {
@@ -117,7 +119,7 @@ public final class LoadFleet implements AutoCloseable {
     public void close() {
         closed = true;
         LockSupport.unpark(pacer);
-        gateways.forEach(Gateway::close);
+        gateways.parallelStream().forEach(Gateway::close);
     }
 
     private void pace() {
@@ -129,6 +131,10 @@ public final class LoadFleet implements AutoCloseable {
                 long sequence = i / plan.devices();
                 waitUntil(start + sequence * period + period * device / plan.devices());
                 send(device, sequence);
+            }
+            while (acknowledged() < sent && !closed) {
+                gateways.forEach(Gateway::ready);
+                LockSupport.parkNanos(RETRY_NANOS);
             }
         } catch (MqttException e) {
             broken = e;
@@ -145,14 +151,14 @@ public final class LoadFleet implements AutoCloseable {
         // A device keeps to one gateway, which keeps its messages in order.
         Gateway gateway = gateways.get(device % gateways.size());
         String topic = "/" + API_KEY + "/" + id(plan, device) + "/attrs";
-        boolean waited = false;
         while (!closed) {
             if (gateway.offer(topic, messages.message(device, sequence, System.currentTimeMillis()))) {
                 sent++;
+                holding = false;
                 return;
             }
-            held += waited ? 0 : 1;
-            waited = true;
+            held += holding ? 0 : 1;
+            holding = true;
             LockSupport.parkNanos(RETRY_NANOS);
         }
     }
