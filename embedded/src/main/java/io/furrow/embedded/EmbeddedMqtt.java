@@ -2,6 +2,8 @@ package io.furrow.embedded;
 
 import java.io.IOException;
 import java.io.UncheckedIOException;
+import java.net.InetAddress;
+import java.net.ServerSocket;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
@@ -20,9 +22,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
 
     private final Server server;
+    private final int port;
 
-    private EmbeddedMqtt(Server server) {
+    private EmbeddedMqtt(Server server, int port) {
         this.server = server;
+        this.port = port;
     }
 
     /** A broker on a free port. */
@@ -35,9 +39,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param passwords of each user
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords) {
+        // Found here because Moquette itself learns its port only some time after its start.
+        int bound = port == 0 ? freePort() : port;
         Properties properties = new Properties();
         properties.setProperty("host", HOST);
-        properties.setProperty("port", Integer.toString(port));
+        properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
@@ -49,19 +55,27 @@ public final class EmbeddedMqtt implements AutoCloseable {
             server.startServer(
                     new MemoryConfig(properties), List.of(), null, authenticator, new PermitAllAuthorizatorPolicy());
         } catch (IOException e) {
-            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + port, e);
+            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + bound, e);
         }
-        return new EmbeddedMqtt(server);
+        return new EmbeddedMqtt(server, bound);
     }
 
     /** {@code tcp://127.0.0.1:<port>}. */
     public URI uri() {
-        return URI.create("tcp://" + HOST + ":" + server.getPort());
+        return URI.create("tcp://" + HOST + ":" + port);
     }
 
     @Override
     public void close() {
         server.stopServer();
+    }
+
+    private static int freePort() {
+        try (ServerSocket socket = new ServerSocket(0, 1, InetAddress.getByName(HOST))) {
+            return socket.getLocalPort();
+        } catch (IOException e) {
+            throw new UncheckedIOException("no port is free on " + HOST, e);
+        }
     }
 
     private static boolean matches(String expected, byte[] password) {
