@@ -37,9 +37,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param passwords of each user
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords) {
+        // Found here because Moquette itself learns its port only some time after its start.
+        int bound = FreePort.orFree(port);
         Properties properties = new Properties();
         properties.setProperty("host", HOST);
-        properties.setProperty("port", Integer.toString(port));
+        properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
@@ -51,10 +53,9 @@ public final class EmbeddedMqtt implements AutoCloseable {
             server.startServer(
                     new MemoryConfig(properties), List.of(), null, authenticator, new PermitAllAuthorizatorPolicy());
         } catch (IOException e) {
-            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + port, e);
+            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + bound, e);
         }
-        // Moquette tells its port only where it chose it.
-        return new EmbeddedMqtt(server, port == 0 ? server.getPort() : port);
+        return new EmbeddedMqtt(server, bound);
     }
 
     /** {@code tcp://127.0.0.1:<port>}. */

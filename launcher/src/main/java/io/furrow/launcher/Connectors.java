@@ -13,6 +13,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /** Puts the two NGSI connectors into a Connect cluster through its REST API. */
 final class Connectors {
+    private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
     private static final Duration PATIENCE = Duration.ofSeconds(60);
     private static final Duration BETWEEN_LOOKS = Duration.ofMillis(100);
 

@@ -19,7 +19,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
  */
 final class QueryFilter implements Predicate<StoredEntity> {
     private static final Pattern STATEMENT = Pattern.compile("([^=!<>~:]+)(==|!=|<=|>=|~=|<|>|:)(.+)", Pattern.DOTALL);
-    private static final Pattern BETWEEN_QUOTES = Pattern.compile("('[^']*'|[^';])+");
+    private static final Pattern OUTSIDE_QUOTES = Pattern.compile(";(?=(?:[^']*'[^']*')*[^']*$)");
 
     private final List<Predicate<StoredEntity>> statements;
 
@@ -30,14 +30,8 @@ final class QueryFilter implements Predicate<StoredEntity> {
     /** @throws NgsiError 400 */
     static QueryFilter parse(String q) throws NgsiError {
         List<Predicate<StoredEntity>> statements = new ArrayList<>();
-        Matcher parts = BETWEEN_QUOTES.matcher(q);
-        int end = 0;
-        while (parts.find()) {
-            end = parts.end();
-            statements.add(statement(parts.group().trim()));
-        }
-        if (statements.isEmpty() || end < q.length() - 1) {
-            throw invalid(q);
+        for (String part : OUTSIDE_QUOTES.split(q, -1)) {
+            statements.add(statement(part.trim()));
         }
         return new QueryFilter(statements);
     }
@@ -57,7 +51,7 @@ final class QueryFilter implements Predicate<StoredEntity> {
         }
         boolean absent = text.startsWith("!");
         String path = absent ? text.substring(1) : text;
-        if (path.isBlank() || path.matches(".*[=<>~!].*")) {
+        if (path.isBlank() || path.matches(".*[=<>~!,].*")) {
             throw invalid(text);
         }
         return entity -> value(entity, path).isPresent() != absent;
