@@ -31,7 +31,6 @@ final class BenchCommand {
     @Command(
             name = "load",
             abbreviateSynopsis = true,
-            mixinStandardHelpOptions = false,
             description =
                     "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and how "
                             + "long each hop took.")
@@ -74,18 +73,19 @@ final class BenchCommand {
                     boolean wantsHelp)
             throws Exception {
         PrintWriter out = spec.commandLine().getOut();
-        try (Suite suite = Suite.start(SuiteSettings.throwAway("10s"), new Progress(out))) {
+        try (RunDirectory directory = RunDirectory.open(null);
+                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
             LoadMeasurement measurement =
                     new LoadMeasurement(suite.devices(), suite.kafka().clientProperties(), line -> {
                         out.println("  " + line);
                         out.flush();
                     });
-            Duration period1 = Duration.ofMillis(period);
+            Duration between = Duration.ofMillis(period);
             if (warmup > 0) {
-                measurement.run(new LoadPlan(devices, period1, payload, Duration.ofSeconds(warmup), DOMAIN, "warmup"));
+                measurement.run(new LoadPlan(devices, between, payload, Duration.ofSeconds(warmup), DOMAIN, "warmup"));
             }
             LoadReport report = measurement.run(
-                    new LoadPlan(devices, period1, payload, Duration.ofSeconds(seconds), DOMAIN, "load"));
+                    new LoadPlan(devices, between, payload, Duration.ofSeconds(seconds), DOMAIN, "load"));
             report.print(out);
             if (csv != null) {
                 Files.writeString(csv, report.csv());

@@ -34,6 +34,9 @@ final class DemoCommand implements Callable<Integer> {
     @Override
     public Integer call() throws Exception {
         return new Session(spec.commandLine().getOut())
-                .run(options.settings(null, null), suite -> Fleet.start(suite.devices(), Scenario.demo()));
+                .run(
+                        options.settings(null, null),
+                        options.data,
+                        suite -> Fleet.start(suite.devices(), Scenario.demo()));
     }
 }

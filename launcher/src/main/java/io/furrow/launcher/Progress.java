@@ -5,10 +5,10 @@ import java.time.Duration;
 import java.util.concurrent.Callable;
 
 /** Tells on the terminal what is being started and how long it took, so that nobody waits in silence. */
-final class Progress {
+public final class Progress {
     private final PrintWriter out;
 
-    Progress(PrintWriter out) {
+    public Progress(PrintWriter out) {
         this.out = out;
     }
 

@@ -13,7 +13,7 @@ import java.util.List;
 import java.util.stream.Stream;
 
 /** The directory of one running suite, locked against a second one; a temporary one is deleted when it is closed. */
-final class RunDirectory implements AutoCloseable {
+public final class RunDirectory implements AutoCloseable {
     private final Path path;
     private final boolean temporary;
     private final FileChannel lock;
@@ -28,7 +28,7 @@ final class RunDirectory implements AutoCloseable {
      * @param kept null for a temporary directory
      * @throws SuiteNotStartedException if it cannot be written or another suite uses it
      */
-    static RunDirectory open(Path kept) {
+    public static RunDirectory open(Path kept) {
         try {
             Path path = kept == null
                     ? Files.createTempDirectory("furrow-")
@@ -42,7 +42,7 @@ final class RunDirectory implements AutoCloseable {
         }
     }
 
-    Path path() {
+    public Path path() {
         return path;
     }
 

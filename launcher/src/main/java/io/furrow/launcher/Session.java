@@ -1,6 +1,7 @@
 package io.furrow.launcher;
 
 import java.io.PrintWriter;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
@@ -19,6 +20,7 @@ final class Session {
     private final PrintWriter out;
     private final CountDownLatch stopRequested = new CountDownLatch(1);
     private final CountDownLatch stopped = new CountDownLatch(1);
+    private volatile boolean started;
 
     Session(PrintWriter out) {
         this.out = out;
@@ -29,15 +31,22 @@ final class Session {
         AutoCloseable join(Suite suite) throws Exception;
     }
 
-    /** Returns when the user asked to stop and everything has stopped. */
-    int run(SuiteSettings settings, Guest guest) throws Exception {
-        Runtime.getRuntime().addShutdownHook(new Thread(this::stopFromOutside, "stop"));
+    /**
+     * Returns when the user asked to stop and everything has stopped.
+     *
+     * @param data kept across restarts; null for a temporary directory
+     */
+    int run(SuiteSettings settings, Path data, Guest guest) throws Exception {
         out.println("Furrow starts; Ctrl-C stops it.");
-        try (Suite suite = Suite.start(settings, new Progress(out));
-                AutoCloseable joined = guest.join(suite)) {
-            UrlTable.print(out, suite);
-            show(suite);
-            LOG.info("Stopping, {} included", joined);
+        try (RunDirectory directory = RunDirectory.open(data)) {
+            Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(directory), "stop"));
+            try (Suite suite = Suite.start(settings, directory, new Progress(out));
+                    AutoCloseable joined = guest.join(suite)) {
+                started = true;
+                UrlTable.print(out, suite);
+                show(suite);
+                LOG.info("Stopping, {} included", joined);
+            }
         } finally {
             stopped.countDown();
         }
@@ -59,13 +68,16 @@ final class Session {
         }
     }
 
-    /** Runs in the JVM's shutdown: lets {@link #run} stop everything, and ends the JVM if that takes too long. */
-    private void stopFromOutside() {
+    /**
+     * Runs in the JVM's shutdown: lets {@link #run} stop everything. What is only half started, or does not stop in time, is
+     * ended with the JVM; files that are kept survive that as they survive a power cut.
+     */
+    private void stopFromOutside(RunDirectory directory) {
         stopRequested.countDown();
         try {
-            if (!stopped.await(STOP_WITHIN.toMillis(), TimeUnit.MILLISECONDS)) {
-                out.println("Not everything stopped in time; ending it.");
-                out.flush();
+            long patience = started ? STOP_WITHIN.toMillis() : 0;
+            if (!stopped.await(patience, TimeUnit.MILLISECONDS)) {
+                directory.close();
                 Runtime.getRuntime().halt(STOPPED_BY_INTERRUPT);
             }
         } catch (InterruptedException e) {

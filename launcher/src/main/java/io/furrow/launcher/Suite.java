@@ -30,9 +30,9 @@ public final class Suite implements AutoCloseable {
     private static final int SLOTS = 8;
 
     private final SuiteSettings settings;
+    private final RunDirectory directory;
     private final Progress progress;
     private final Parts parts = new Parts();
-    private RunDirectory directory;
     private KafkaAccess kafka;
     private EmbeddedConnect connect;
     private EmbeddedFlink flink;
@@ -42,18 +42,20 @@ public final class Suite implements AutoCloseable {
     private URI contextBroker;
     private URI listener;
 
-    private Suite(SuiteSettings settings, Progress progress) {
+    private Suite(SuiteSettings settings, RunDirectory directory, Progress progress) {
         this.settings = settings;
+        this.directory = directory;
         this.progress = progress;
     }
 
     /**
      * Starts everything and returns when notifications are taken and all jobs run.
      *
+     * @param directory for all files; outlives the suite
      * @throws SuiteNotStartedException if something cannot be had; nothing is left running then
      */
-    public static Suite start(SuiteSettings settings, Progress progress) throws Exception {
-        Suite suite = new Suite(settings, progress);
+    public static Suite start(SuiteSettings settings, RunDirectory directory, Progress progress) throws Exception {
+        Suite suite = new Suite(settings, directory, progress);
         boolean started = false;
         try {
             suite.start();
@@ -70,7 +72,6 @@ public final class Suite implements AutoCloseable {
 
     private void start() throws Exception {
         checkPorts();
-        directory = parts.add("directory", RunDirectory.open(settings.data()));
         LogFile.writeTo(directory.resolve("furrow.log"));
         startKafka();
         runTogether(this::startConnect, this::startFlink, this::startFiware);
@@ -215,7 +216,7 @@ public final class Suite implements AutoCloseable {
     /** Stops everything in the opposite order; of a kept suite the jobs with a savepoint. Idempotent. */
     @Override
     public void close() {
-        if (jobs != null && settings.data() != null) {
+        if (jobs != null && !directory.isTemporary()) {
             jobs.stop();
         }
         jobs = null;

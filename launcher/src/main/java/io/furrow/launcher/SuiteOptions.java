@@ -93,6 +93,6 @@ final class SuiteOptions {
     SuiteSettings settings(URI orion, String kafka) {
         SuiteSettings.Ports ports = new SuiteSettings.Ports(
                 kafkaPort, connectPort, flinkPort, notifyPort, mqttPort, orionPort, iotAgentPort);
-        return new SuiteSettings(data, kafkaProperties, fiwareService, window, fields, ports, orion, kafka);
+        return new SuiteSettings(kafkaProperties, fiwareService, window, fields, ports, orion, kafka);
     }
 }

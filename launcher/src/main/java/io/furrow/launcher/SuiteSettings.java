@@ -6,7 +6,6 @@ import java.nio.file.Path;
 /**
  * How a suite is to be started.
  *
- * @param data kept across restarts; null for a temporary directory
  * @param kafkaProperties for every Kafka client; null for none
  * @param fiwareService tenant
  * @param window of the temperature job, for instance {@code 10s}
@@ -15,14 +14,7 @@ import java.nio.file.Path;
  * @param kafka bootstrap servers that already run; null to start a broker
  */
 public record SuiteSettings(
-        Path data,
-        Path kafkaProperties,
-        String fiwareService,
-        String window,
-        Path fields,
-        Ports ports,
-        URI orion,
-        String kafka) {
+        Path kafkaProperties, String fiwareService, String window, Path fields, Ports ports, URI orion, String kafka) {
 
     /** Ports on 127.0.0.1, each 0 for a free one. */
     public record Ports(int kafka, int connect, int flink, int listener, int mqtt, int orion, int iotAgent) {
@@ -32,13 +24,8 @@ public record SuiteSettings(
         }
     }
 
-    /** A throw-away suite on free ports, as tests and measurements want it. */
-    public static SuiteSettings throwAway(String window) {
-        return new SuiteSettings(null, null, "farm", window, null, Ports.free(), null, null);
-    }
-
-    /** The same suite with its files in a directory that stays. */
-    public SuiteSettings keptIn(Path directory) {
-        return new SuiteSettings(directory, kafkaProperties, fiwareService, window, fields, ports, orion, kafka);
+    /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
+    public static SuiteSettings onFreePorts(String window) {
+        return new SuiteSettings(null, "farm", window, null, Ports.free(), null, null);
     }
 }

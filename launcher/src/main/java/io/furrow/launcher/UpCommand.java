@@ -42,6 +42,7 @@ final class UpCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws Exception {
-        return new Session(spec.commandLine().getOut()).run(options.settings(orion, kafka), suite -> () -> {});
+        return new Session(spec.commandLine().getOut())
+                .run(options.settings(orion, kafka), options.data, suite -> () -> {});
     }
 }
