@@ -1,0 +1,111 @@
+package io.furrow.suite;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.Stream;
+
+import com.tngtech.archunit.base.DescribedPredicate;
+import com.tngtech.archunit.core.domain.JavaClass;
+import com.tngtech.archunit.core.domain.JavaClasses;
+import com.tngtech.archunit.core.importer.ClassFileImporter;
+import com.tngtech.archunit.lang.ArchRule;
+import com.tngtech.archunit.lang.syntax.ArchRuleDefinition;
+import com.tngtech.archunit.library.dependencies.SlicesRuleDefinition;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static com.tngtech.archunit.core.domain.JavaClass.Predicates.resideInAnyPackage;
+import static com.tngtech.archunit.lang.syntax.ArchRuleDefinition.noClasses;
+import static org.assertj.core.api.Assertions.assertThat;
+
+class ArchitectureTest {
+    private static final JavaClasses CLASSES = everyModule();
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            textBlock =
+                    """
+                    io.furrow.model      |
+                    io.furrow.embedded   |
+                    io.furrow.flink      | io.furrow.model
+                    io.furrow.connect    | io.furrow.model
+                    io.furrow.ingest     | io.furrow.model, io.furrow.flink
+                    io.furrow.analytics  | io.furrow.model, io.furrow.flink
+                    io.furrow.simulators | io.furrow.model
+                    io.furrow.bench      | io.furrow.model, io.furrow.flink, io.furrow.connect, io.furrow.ingest, io.furrow.analytics, io.furrow.simulators
+                    """)
+    void letsEachModuleDependOnWhatItMay(String module, String allowed) {
+        List<String> others = allowed == null ? List.of() : List.of(allowed.split(", "));
+        String[] mayUse = Stream.concat(Stream.of(module), others.stream())
+                .map(name -> name + "..")
+                .toArray(String[]::new);
+        DescribedPredicate<JavaClass> ours = resideInAnyPackage("io.furrow..");
+
+        noClasses()
+                .that()
+                .resideInAPackage(module + "..")
+                .should()
+                .dependOnClassesThat(ours.and(DescribedPredicate.not(resideInAnyPackage(mayUse))))
+                .check(CLASSES);
+    }
+
+    @ParameterizedTest
+    @CsvSource({"io.furrow.analytics.(*)..", "io.furrow.ingest.(*).."})
+    void keepsJobsApart(String jobs) {
+        SlicesRuleDefinition.slices()
+                .matching(jobs)
+                .should()
+                .notDependOnEachOther()
+                .check(CLASSES);
+    }
+
+    @Test
+    void givesNoPackageANameThatSaysNothing() {
+        ArchRule rule = ArchRuleDefinition.noClasses()
+                .should()
+                .resideInAnyPackage("..common..", "..util..", "..utils..", "..core..", "..misc..", "..impl..", "..helper..");
+
+        rule.check(CLASSES);
+    }
+
+    @Test
+    void keepsTheModelFreeOfEngines() {
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.model..")
+                .should()
+                .dependOnClassesThat()
+                .resideInAnyPackage("org.apache..", "org.eclipse..")
+                .check(CLASSES);
+    }
+
+    @Test
+    void seesEveryModule() {
+        assertThat(CLASSES).extracting(JavaClass::getPackageName).contains(
+                "io.furrow.model.ngsi",
+                "io.furrow.embedded",
+                "io.furrow.flink",
+                "io.furrow.connect.source",
+                "io.furrow.ingest.route",
+                "io.furrow.analytics.collision",
+                "io.furrow.simulators.fiware",
+                "io.furrow.bench.load",
+                "io.furrow.launcher");
+    }
+
+    /** From the folders, because the connector is on nobody's class path. */
+    private static JavaClasses everyModule() {
+        try (Stream<Path> folders = Files.list(Path.of(".."))) {
+            List<Path> compiled = folders.map(folder -> folder.resolve("target/classes"))
+                    .filter(Files::isDirectory)
+                    .toList();
+            return new ClassFileImporter().importPaths(compiled);
+        } catch (IOException e) {
+            throw new java.io.UncheckedIOException("cannot list the modules", e);
+        }
+    }
+}

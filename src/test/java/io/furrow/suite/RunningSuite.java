@@ -1,0 +1,48 @@
+package io.furrow.suite;
+
+import java.io.OutputStreamWriter;
+import java.io.PrintWriter;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+
+import io.furrow.launcher.Progress;
+import io.furrow.launcher.RunDirectory;
+import io.furrow.launcher.Suite;
+import io.furrow.launcher.SuiteSettings;
+
+/** A suite on free ports for the time of a test, with what a test asks of it. */
+final class RunningSuite implements AutoCloseable {
+    private final RunDirectory directory;
+    private final Suite suite;
+
+    private RunningSuite(RunDirectory directory, Suite suite) {
+        this.directory = directory;
+        this.suite = suite;
+    }
+
+    /** @param kept null for a temporary directory */
+    static RunningSuite start(Path kept) throws Exception {
+        RunDirectory directory = RunDirectory.open(kept);
+        PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, StandardCharsets.UTF_8));
+        return new RunningSuite(
+                directory, Suite.start(SuiteSettings.onFreePorts("2s"), directory, new Progress(out)));
+    }
+
+    Suite suite() {
+        return suite;
+    }
+
+    Ngsi ngsi() {
+        return new Ngsi(suite);
+    }
+
+    TopicLog topic(String name) {
+        return new TopicLog(suite, name);
+    }
+
+    @Override
+    public void close() {
+        suite.close();
+        directory.close();
+    }
+}

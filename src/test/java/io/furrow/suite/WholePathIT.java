@@ -1,0 +1,102 @@
+package io.furrow.suite;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.simulators.device.Fleet;
+import io.furrow.simulators.device.Scenario;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class WholePathIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+
+    private static RunningSuite running;
+    private static Fleet fleet;
+
+    @BeforeAll
+    static void startTheDemonstrationFarm() throws Exception {
+        running = RunningSuite.start(null);
+        fleet = Fleet.start(running.suite().devices(), Scenario.demo());
+    }
+
+    @AfterAll
+    static void stop() {
+        if (fleet != null) {
+            fleet.close();
+        }
+        if (running != null) {
+            running.close();
+        }
+    }
+
+    @Test
+    void writesTheAverageOfAFieldIntoTheContextBrokerAndNamesTheDefectiveThermometer() {
+        await().atMost(PATIENCE).untilAsserted(() -> {
+            JsonNode average = running.ngsi()
+                    .entities("id=Analytics:FieldTemperature:field-1")
+                    .path(0);
+            assertThat(average.path("suspects").path("value")).hasSize(1);
+            assertThat(average.at("/suspects/value/0").asText()).isEqualTo("urn:ngsi-ld:Thermometer:4");
+            assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
+            assertThat(average.at("/averageTemperature/value").asDouble())
+                    .isLessThan(average.at("/plainMean/value").asDouble());
+        });
+    }
+
+    @Test
+    void writesTheEncounterOfTwoRobotsIntoTheContextBroker() {
+        await().atMost(PATIENCE).untilAsserted(() -> {
+            JsonNode collision =
+                    running.ngsi().entities("type=Analytics:Collision").path(0);
+            assertThat(collision.at("/Device1_ID/value").asText()).isEqualTo("urn:ngsi-ld:Robot:1");
+            assertThat(collision.at("/Device2_ID/value").asText()).isEqualTo("urn:ngsi-ld:Robot:2");
+            assertThat(collision.at("/minDistance/value").asDouble()).isBetween(0.0, 5.0);
+        });
+    }
+
+    @Test
+    void routesEachMissionToItsOwnTopicWithEveryHopStamped() {
+        try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
+                TopicLog dummy = running.topic("data.canary.realtime.dummy")) {
+            await().atMost(PATIENCE).untilAsserted(() -> {
+                assertThat(weeding.records()).hasSizeGreaterThan(10);
+                assertThat(dummy.records()).hasSizeGreaterThan(10);
+            });
+            assertThat(weeding.records()).allSatisfy(record -> {
+                Entity entity = Entity.parse(record.value());
+                assertThat(entity.text("Mission")).contains("weeding");
+                assertThat(new String(record.key(), StandardCharsets.UTF_8)).isEqualTo(entity.id());
+                assertThat(TopicLog.headers(record))
+                        .containsKeys(HeaderNames.CE_ID, HeaderNames.TS_DEVICE, HeaderNames.TS_SOURCE, HeaderNames.TS_INGEST)
+                        .containsEntry(HeaderNames.CE_SPECVERSION, "1.0")
+                        .containsEntry(HeaderNames.ORIGIN, "notification")
+                        .containsEntry(HeaderNames.TS_DEVICE, Long.toString(record.timestamp()))
+                        .containsEntry(HeaderNames.SERVICE, "farm");
+            });
+        }
+    }
+
+    @Test
+    void doesNotTakeItsOwnResultsForNews() {
+        await().atMost(PATIENCE).untilAsserted(() -> assertThat(
+                        running.ngsi().entities("typePattern=Analytics:.*"))
+                .isNotEmpty());
+        try (TopicLog raw = running.topic("data.raw")) {
+            await().atMost(PATIENCE)
+                    .untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
+            assertThat(raw.records())
+                    .extracting(record -> Entity.parse(record.value()).type())
+                    .doesNotContain("Analytics:FieldTemperature", "Analytics:Collision")
+                    .contains("Thermometer", "Camera");
+        }
+    }
+}
