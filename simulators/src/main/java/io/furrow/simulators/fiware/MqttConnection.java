@@ -9,6 +9,7 @@ import java.io.OutputStream;
 import java.net.InetSocketAddress;
 import java.net.Socket;
 import java.net.SocketTimeoutException;
+import java.util.Arrays;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
@@ -161,6 +162,6 @@ final class MqttConnection implements Closeable {
     }
 
     private static byte[] acknowledged(Packet suback) {
-        return java.util.Arrays.copyOfRange(suback.body(), 2, suback.body().length);
+        return Arrays.copyOfRange(suback.body(), 2, suback.body().length);
     }
 }
