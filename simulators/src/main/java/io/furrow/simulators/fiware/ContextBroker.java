@@ -98,7 +98,7 @@ final class ContextBroker {
         }
     }
 
-    /** Deletes one attribute, or all of the entity where none is given. */
+    /** Deletes the whole entity. */
     void delete(FiwareScope scope, String id, Optional<String> type, Correlator correlator) throws NgsiError {
         Tenant tenant = tenant(scope.service());
         synchronized (tenant) {

@@ -1,5 +1,6 @@
 package io.furrow.simulators.fiware;
 
+import java.util.Map;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -49,7 +50,7 @@ record Device(
         return read(group.scope(), json, Optional.of(group));
     }
 
-    EntityUpdate update(java.util.Map<String, AttributeInput> attributes) {
+    EntityUpdate update(Map<String, AttributeInput> attributes) {
         return new EntityUpdate(entityId, Optional.of(entityType), attributes);
     }
 }

@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.TreeSet;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -54,10 +55,7 @@ record Rendering(List<String> attrs, Set<String> except, List<String> metadata, 
 
     /** The entity as a query returns it: its own attributes in the order of their names. */
     JsonNode of(StoredEntity entity) {
-        return write(
-                entity,
-                new ArrayList<>(new java.util.TreeSet<>(entity.attributes().keySet())),
-                Optional.empty());
+        return write(entity, new ArrayList<>(new TreeSet<>(entity.attributes().keySet())), Optional.empty());
     }
 
     /** The entity as a notification of the change shows it. */

@@ -23,7 +23,9 @@ import static org.awaitility.Awaitility.await;
 class IotAgentTest {
     private static final String THERMOMETER = "/v2/entities/urn:ngsi-ld:Thermometer:1";
 
-    private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(Map.of("agent", "secret", "device", "hidden"));
+    private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
+
+    private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(PASSWORDS);
     private final FiwareStandIn standIn = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "secret"));
     private final Client broker = Client.of(standIn.contextBroker());
     private final Client agent = Client.of(standIn.iotAgent());
@@ -43,11 +45,7 @@ class IotAgentTest {
                     "static_attributes": [{"name": "Domain", "type": "String", "value": "canary"}],
                     "commands": [{"name": "on", "type": "command"}]}]}""");
         assertThat(provisioned.status()).as(provisioned.body()).isEqualTo(201);
-        MqttConnectOptions options = new MqttConnectOptions();
-        options.setUserName("device");
-        options.setPassword("hidden".toCharArray());
-        device = new MqttClient(mqtt.uri().toString(), "device", new MemoryPersistence());
-        device.connect(options);
+        device = device(mqtt);
         device.subscribe(
                 "/k1/t1/cmd",
                 1,
@@ -172,6 +170,36 @@ class IotAgentTest {
                 .isInstanceOf(IllegalStateException.class)
                 .hasMessageContaining(mqtt.uri().toString())
                 .hasMessageContaining("password");
+    }
+
+    @Test
+    void comesBackWhenTheBrokerWasAway() throws MqttException {
+        EmbeddedMqtt first = EmbeddedMqtt.start(PASSWORDS);
+        int port = first.uri().getPort();
+        try (FiwareStandIn other = FiwareStandIn.start(new FiwareSettings(0, 0, first.uri(), "agent", "secret"))) {
+            Client.of(other.iotAgent()).post("/iot/services", "{\"services\": [{\"apikey\": \"k2\"}]}");
+            first.close();
+            EmbeddedMqtt second = EmbeddedMqtt.start(port, PASSWORDS);
+            MqttClient thing = device(second);
+
+            await().until(() -> {
+                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(StandardCharsets.UTF_8), 1, false);
+                return other.counters().measures() > 0;
+            });
+
+            thing.disconnect();
+            thing.close();
+            second.close();
+        }
+    }
+
+    private static MqttClient device(EmbeddedMqtt at) throws MqttException {
+        MqttConnectOptions options = new MqttConnectOptions();
+        options.setUserName("device");
+        options.setPassword("hidden".toCharArray());
+        MqttClient client = new MqttClient(at.uri().toString(), "device", new MemoryPersistence());
+        client.connect(options);
+        return client;
     }
 
     private void publish(String topic, String payload) throws MqttException {
