@@ -23,7 +23,8 @@ class EventIdTest {
 
     @Test
     void staysWhatItIsFromReleaseToRelease() throws Exception {
-        assertThat(id("{\"id\":\"a\",\"x\":1,\"y\":[null,true,{\"z\":\"t\"}]}")).isEqualTo("9e036b5de3a4895a73273bb0fb8329ba");
+        assertThat(id("{\"id\":\"a\",\"x\":1,\"y\":[null,true,{\"z\":\"t\"}]}"))
+                .isEqualTo("9e036b5de3a4895a73273bb0fb8329ba");
     }
 
     @ParameterizedTest
