@@ -20,9 +20,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
 
     private final Server server;
+    private final int port;
 
-    private EmbeddedMqtt(Server server) {
+    private EmbeddedMqtt(Server server, int port) {
         this.server = server;
+        this.port = port;
     }
 
     /** A broker on a free port. */
@@ -35,9 +37,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param passwords of each user
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords) {
+        // Found here because Moquette itself learns its port only some time after its start.
+        int bound = FreePort.orFree(port);
         Properties properties = new Properties();
         properties.setProperty("host", HOST);
-        properties.setProperty("port", Integer.toString(port));
+        properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
@@ -49,14 +53,14 @@ public final class EmbeddedMqtt implements AutoCloseable {
             server.startServer(
                     new MemoryConfig(properties), List.of(), null, authenticator, new PermitAllAuthorizatorPolicy());
         } catch (IOException e) {
-            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + port, e);
+            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + bound, e);
         }
-        return new EmbeddedMqtt(server);
+        return new EmbeddedMqtt(server, bound);
     }
 
     /** {@code tcp://127.0.0.1:<port>}. */
     public URI uri() {
-        return URI.create("tcp://" + HOST + ":" + server.getPort());
+        return URI.create("tcp://" + HOST + ":" + port);
     }
 
     @Override

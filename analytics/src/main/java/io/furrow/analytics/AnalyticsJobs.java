@@ -1,0 +1,26 @@
+package io.furrow.analytics;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Option;
+
+import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.temperature.TemperatureOptions;
+import io.furrow.flink.JobCommandLine;
+
+/** The analytics job jar: one subcommand per job. Touches no Flink type until a job is started. */
+@Command(
+        name = "furrow-analytics",
+        synopsisSubcommandLabel = "JOB",
+        description = "Answers one question about what devices report, per job.",
+        subcommands = {CollisionOptions.class, TemperatureOptions.class})
+public final class AnalyticsJobs {
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    public static void main(String[] args) {
+        JobCommandLine.run(new AnalyticsJobs(), args);
+    }
+}

@@ -1,0 +1,16 @@
+package io.furrow.analytics.collision;
+
+import java.util.Comparator;
+
+/**
+ * What becomes of a device in one grid cell.
+ *
+ * @param cell id of the cell
+ * @param time when, in epoch milliseconds
+ * @param presence what the device is to the cell from then on
+ * @param fix where it is from then on; where {@link Presence#GONE}, its last position in the cell
+ */
+public record CellUpdate(long cell, long time, Presence presence, PositionFix fix) implements Timed {
+    static final Comparator<CellUpdate> SEQUENCE = Comparator.comparingLong(CellUpdate::time)
+            .thenComparing(update -> update.fix().identity());
+}

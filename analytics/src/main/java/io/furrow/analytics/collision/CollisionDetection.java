@@ -1,0 +1,33 @@
+package io.furrow.analytics.collision;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
+
+/**
+ * The encounters among positions, as defined for this package.
+ *
+ * @param encounters every start and end, and what lies between at a limited rate; a pair's in order of time
+ * @param late positions that came after the watermark had passed them and were not counted
+ */
+public record CollisionDetection(DataStream<Encounter> encounters, DataStream<PositionFix> late) {
+    /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
+    public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules) {
+        SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::identity)
+                .process(new TrackDevices(rules))
+                .uid("track-devices")
+                .name("Track devices through the grid");
+
+        DataStream<Sighting> sightings = updates.keyBy(CellUpdate::cell)
+                .process(new MatchPairs(rules))
+                .uid("match-pairs")
+                .name("Match pairs in each cell");
+
+        DataStream<Encounter> encounters = sightings
+                .keyBy(Sighting::pair)
+                .process(new FollowEncounters(rules))
+                .uid("follow-encounters")
+                .name("Follow encounters of each pair");
+
+        return new CollisionDetection(encounters, updates.getSideOutput(TrackDevices.LATE));
+    }
+}

@@ -1,0 +1,40 @@
+package io.furrow.analytics.collision;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+
+/**
+ * An encounter as an entity: {@code Analytics:Collision:<pair>} of type {@code Analytics:Collision}, one per pair, so that
+ * the context broker keeps a pair's newest encounter and does not grow for ever.
+ */
+public final class CollisionEntity {
+    public static final String TYPE = "Analytics:Collision";
+
+    private CollisionEntity() {}
+
+    public static Entity of(Encounter encounter) {
+        EntityBuilder entity = Entity.builder(TYPE + ":" + encounter.pairId(), TYPE)
+                .number("distance", encounter.distance())
+                .integer("time", encounter.time());
+        device(entity, "Device1", encounter.first());
+        device(entity, "Device2", encounter.second());
+        return entity.text("encounter", encounter.id())
+                .text("phase", encounter.phase().code())
+                .number("minDistance", encounter.minDistance())
+                .integer("startTime", encounter.startTime())
+                .build();
+    }
+
+    /** The record's key: both entity ids, the lesser first. */
+    public static String key(Encounter encounter) {
+        return encounter.first().id() + "-" + encounter.second().id();
+    }
+
+    private static void device(EntityBuilder entity, String name, PositionFix fix) {
+        entity.text(name + "_ID", fix.id())
+                .number(name + "_latitude", fix.latitude())
+                .number(name + "_longitude", fix.longitude())
+                .integer(name + "_timestamp", fix.time())
+                .text(name + "_Mission", fix.mission());
+    }
+}

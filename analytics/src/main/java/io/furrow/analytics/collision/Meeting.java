@@ -1,0 +1,10 @@
+package io.furrow.analytics.collision;
+
+/**
+ * What is remembered of a pair while it is close.
+ *
+ * @param startTime since when, epoch milliseconds
+ * @param minDistance metres, the closest so far
+ * @param reported event time of the newest record about it
+ */
+public record Meeting(long startTime, double minDistance, long reported) {}

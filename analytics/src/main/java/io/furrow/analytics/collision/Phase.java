@@ -1,0 +1,16 @@
+package io.furrow.analytics.collision;
+
+import java.util.Locale;
+
+/** The part of an encounter's life that a record tells of. */
+public enum Phase {
+    STARTED,
+    /** The devices are still close; reported at a limited rate. */
+    ONGOING,
+    ENDED;
+
+    /** The name as it stands in messages, for instance {@code started}. */
+    public String code() {
+        return name().toLowerCase(Locale.ROOT);
+    }
+}

@@ -1,0 +1,26 @@
+package io.furrow.analytics.collision;
+
+import java.util.Comparator;
+
+/**
+ * What one grid cell saw of a pair at an instant at which either device reported or left.
+ *
+ * @param first where the one device is, in the order of {@link PositionFix#NAMING}; after a change of −1, where it was
+ * @param second where the other is, or was
+ * @param time epoch milliseconds
+ * @param change +1 close in this cell from now on, −1 no more, 0 still
+ */
+public record Sighting(PositionFix first, PositionFix second, long time, int change) implements Timed {
+    static final Comparator<Sighting> SEQUENCE = Comparator.comparingLong(Sighting::time);
+
+    static Sighting of(PositionFix one, PositionFix other, long time, int change) {
+        return PositionFix.NAMING.compare(one, other) < 0
+                ? new Sighting(one, other, time, change)
+                : new Sighting(other, one, time, change);
+    }
+
+    /** One text per pair; the length before it keeps two pairs from ever sharing one. */
+    String pair() {
+        return first.identity().length() + ":" + first.identity() + second.identity();
+    }
+}

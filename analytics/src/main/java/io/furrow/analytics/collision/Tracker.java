@@ -1,0 +1,74 @@
+package io.furrow.analytics.collision;
+
+import java.io.Serializable;
+import java.util.List;
+import java.util.function.Consumer;
+
+/** Moves a device through the grid: what its positions, and their end, mean for which cell at which instant. */
+final class Tracker implements Serializable {
+    private static final long serialVersionUID = 1L;
+
+    private final Grid grid;
+    private final long timeToLive;
+
+    Tracker(CollisionRules rules) {
+        grid = new Grid(rules);
+        timeToLive = rules.timeToLive().toMillis();
+    }
+
+    /**
+     * The track after all positions of one device up to an instant.
+     *
+     * @param due in the order of {@link PositionFix#SEQUENCE}, none later than {@code until}
+     * @param out takes the updates of cells in the order of time
+     */
+    Track advance(Track track, List<PositionFix> due, long until, Consumer<CellUpdate> out) {
+        Track now = track;
+        for (int i = 0; i < due.size(); i++) {
+            PositionFix fix = due.get(i);
+            boolean outdone = i + 1 < due.size() && due.get(i + 1).time() == fix.time();
+            if (!outdone) {
+                now = move(expire(now, fix.time() - 1, out), fix, out);
+            }
+        }
+        return expire(now, until, out);
+    }
+
+    /** The first instant at which the track's position counts no more. */
+    long expiry(Track track) {
+        return track.last().time() + timeToLive;
+    }
+
+    private Track expire(Track track, long until, Consumer<CellUpdate> out) {
+        if (track.isNowhere() || expiry(track) > until) {
+            return track;
+        }
+        for (long cell : track.cells()) {
+            out.accept(new CellUpdate(cell, expiry(track), Presence.GONE, track.last()));
+        }
+        return Track.NOWHERE;
+    }
+
+    private Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
+        long[] cells = grid.cells(fix.latitude(), fix.longitude());
+        for (long left : track.cells()) {
+            if (!contains(cells, left)) {
+                out.accept(new CellUpdate(left, fix.time(), Presence.GONE, track.last()));
+            }
+        }
+        for (int i = 0; i < cells.length; i++) {
+            Presence presence = i == 0 ? Presence.RESIDENT : Presence.HALO;
+            out.accept(new CellUpdate(cells[i], fix.time(), presence, fix));
+        }
+        return new Track(fix, cells);
+    }
+
+    private static boolean contains(long[] cells, long cell) {
+        for (long each : cells) {
+            if (each == cell) {
+                return true;
+            }
+        }
+        return false;
+    }
+}

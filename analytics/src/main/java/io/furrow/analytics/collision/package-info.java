@@ -1,0 +1,13 @@
+/**
+ * Which devices are closer to each other than a threshold, from when to when: exact, in event time, the same at any
+ * parallelism, cell size and order of arrival.
+ *
+ * <p>{@code last(d, t)} is the accepted position of device d with the greatest event time ≤ t, none once t has reached that
+ * time + time-to-live. A pair is close at t when the great-circle distance of both is ≤ threshold. An encounter lasts from
+ * the first instant at which a pair is close to the first at which it is no more; everything of one instant counts at once.
+ *
+ * <p>Three keyed stages find it: {@link io.furrow.analytics.collision.TrackDevices} puts each device into the grid cells
+ * that its surroundings touch, {@link io.furrow.analytics.collision.MatchPairs} compares the devices of a cell, and {@link
+ * io.furrow.analytics.collision.FollowEncounters} joins what the cells saw of a pair into encounters.
+ */
+package io.furrow.analytics.collision;

@@ -1,0 +1,33 @@
+package io.furrow.analytics.temperature;
+
+import java.util.ArrayList;
+
+import org.apache.flink.api.common.functions.AggregateFunction;
+
+/** Keeps the values of a device in a window and nothing else of its records. */
+final class CollectReadings implements AggregateFunction<FieldReading, DeviceReadings, DeviceReadings> {
+    private static final long serialVersionUID = 1L;
+
+    @Override
+    public DeviceReadings createAccumulator() {
+        return new DeviceReadings(null, null, null, null, new ArrayList<>());
+    }
+
+    @Override
+    public DeviceReadings add(FieldReading from, DeviceReadings so) {
+        Reading reading = from.reading();
+        so.values().add(reading.value());
+        return new DeviceReadings(from.field(), from.domain(), reading.scope(), reading.device(), so.values());
+    }
+
+    @Override
+    public DeviceReadings getResult(DeviceReadings readings) {
+        return readings;
+    }
+
+    @Override
+    public DeviceReadings merge(DeviceReadings one, DeviceReadings other) {
+        one.values().addAll(other.values());
+        return one;
+    }
+}

@@ -1,0 +1,2 @@
+/** How warm is each field? A field's average temperature in event-time windows, robust against defective thermometers. */
+package io.furrow.analytics.temperature;

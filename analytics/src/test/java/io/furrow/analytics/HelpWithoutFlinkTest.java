@@ -1,0 +1,88 @@
+package io.furrow.analytics;
+
+import java.io.File;
+import java.net.URISyntaxException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import picocli.CommandLine;
+
+import io.furrow.flink.JobOptions;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** In a process of its own, whose class path has neither Flink nor Kafka nor JTS. */
+@Timeout(60)
+class HelpWithoutFlinkTest {
+    private record Finished(int exitCode, String output) {}
+
+    @Test
+    void explainsTheOptionsOfTheTemperatureJob() throws Exception {
+        Finished help = analytics("temperature", "--help");
+
+        assertThat(help.output())
+                .contains("--fields=FILE", "--window=DURATION", "--mad-floor=NUMBER", "--delivery=MODE")
+                .contains("Default: 1min.", "Default: data.temperature.")
+                .doesNotContain("Exception");
+        assertThat(help.exitCode()).isZero();
+    }
+
+    @Test
+    void namesTheJobs() throws Exception {
+        Finished help = analytics("--help");
+
+        assertThat(help.output()).contains("temperature").doesNotContain("Exception");
+        assertThat(help.exitCode()).isZero();
+    }
+
+    @Test
+    void saysWhatIsMissing() throws Exception {
+        Finished refused = analytics("temperature");
+
+        assertThat(refused.output()).contains("Missing required option: '--fields=FILE'");
+        assertThat(refused.exitCode()).isNotZero();
+    }
+
+    private static Finished analytics(String... args) throws Exception {
+        List<String> command = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                "-cp",
+                classPath(),
+                AnalyticsJobs.class.getName()));
+        command.addAll(List.of(args));
+        Process process = new ProcessBuilder(command).redirectErrorStream(true).start();
+        try {
+            String output = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            assertThat(process.waitFor(30, TimeUnit.SECONDS)).isTrue();
+            return new Finished(process.exitValue(), output);
+        } finally {
+            process.destroyForcibly();
+        }
+    }
+
+    private static String classPath() {
+        return Stream.of(AnalyticsJobs.class, JobOptions.class, Topics.class, CommandLine.class)
+                .map(HelpWithoutFlinkTest::origin)
+                .collect(Collectors.joining(File.pathSeparator));
+    }
+
+    private static String origin(Class<?> type) {
+        try {
+            return Path.of(type.getProtectionDomain()
+                            .getCodeSource()
+                            .getLocation()
+                            .toURI())
+                    .toString();
+        } catch (URISyntaxException e) {
+            throw new AssertionError(e);
+        }
+    }
+}

@@ -1,0 +1,214 @@
+package io.furrow.analytics.collision;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Arrays;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.streaming.api.graph.StreamNode;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import picocli.CommandLine.ParameterException;
+
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.tuple;
+
+class CollisionJobTest {
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setNumberTaskManagers(1)
+            .setNumberSlotsPerTaskManager(2)
+            .build());
+
+    private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
+    private static final long START = 1_700_000_000_000L;
+
+    @Test
+    void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
+        List<TopicRecord> written = run(
+                options(),
+                robot("r1", 0, 0),
+                robot("r2", 100, 0),
+                robot("r2", 4, 1000),
+                robot("r2", 2, 2500),
+                robot("r2", 3, 2600),
+                robot("r2", 50, 4000));
+
+        assertThat(written).extracting(TopicRecord::topic).containsOnly("data.collision");
+        assertThat(written)
+                .extracting(
+                        TopicRecord::timestamp,
+                        record -> entity(record).text("phase").orElseThrow())
+                .containsExactly(
+                        tuple(START + 1000, "started"), tuple(START + 2500, "ongoing"), tuple(START + 4000, "ended"));
+        assertThat(written)
+                .extracting(record -> entity(record).id())
+                .containsOnly(entity(written.get(0)).id());
+        TopicRecord end = written.get(2);
+        assertThat(new String(end.key(), StandardCharsets.UTF_8)).isEqualTo("r1-r2");
+        assertThat(entity(end).number("minDistance"))
+                .hasValueSatisfying(d -> assertThat(d).isBetween(1.99, 2.01));
+        assertThat(entity(end).number("distance"))
+                .hasValueSatisfying(d -> assertThat(d).isBetween(2.99, 3.01));
+        assertThat(entity(end).text("Device2_Mission")).contains("hoeing");
+        assertThat(end.headers())
+                .containsEntry(HeaderNames.SERVICE, "farm")
+                .containsEntry(HeaderNames.SERVICE_PATH, "/north")
+                .containsKey(HeaderNames.CE_ID);
+    }
+
+    @Test
+    void takesTheThresholdFromItsOption() throws Exception {
+        TopicRecord[] apart = {robot("r1", 0, 0), robot("r2", 7, 0)};
+        assertThat(run(options("--threshold", "10"), apart)).hasSize(2);
+        assertThat(run(options(), apart)).isEmpty();
+    }
+
+    @Test
+    void setsAsideWhatIsUnreadableAndLateAndDetectsAmongTheRest() throws Exception {
+        // One subtask, so that the watermark is behind no channel when the late position comes.
+        TopicRecord garbage = record("x", 0, "{not json");
+        List<TopicRecord> written = run(
+                options("--parallelism", "1"),
+                robot("r1", 0, 0),
+                garbage,
+                robot("r2", 2, 0),
+                robot("r9", 900, 90_000),
+                robot("r3", 2, 50));
+
+        assertThat(written)
+                .extracting(TopicRecord::topic)
+                .containsExactlyInAnyOrder("data.collision", "data.collision", "data.collision.late", "data.raw.dead");
+        assertThat(written)
+                .filteredOn(record -> record.topic().equals("data.raw.dead"))
+                .singleElement()
+                .satisfies(dead -> assertThat(dead.headers())
+                        .containsEntry(DeadLetter.STAGE, "collision")
+                        .containsEntry(DeadLetter.REASON, "not-json"));
+        assertThat(written)
+                .filteredOn(record -> record.topic().equals("data.collision.late"))
+                .singleElement()
+                .satisfies(late -> {
+                    assertThat(entity(late).id()).isEqualTo("r3");
+                    assertThat(late.timestamp()).isEqualTo(START + 50);
+                });
+    }
+
+    @Test
+    void leavesOutWhatHasNoUsablePositionResultsAndPartsOfOneRobot() throws Exception {
+        EntityBuilder result = Entity.builder("Analytics:Collision:1", "Analytics:Collision");
+        EntityBuilder nowhere =
+                Entity.builder("r4", "ROBOT").number("Latitude", 0).number("Longitude", 0);
+        EntityBuilder silent = Entity.builder("r5", "ROBOT").text("Mission", "hoeing");
+        EntityBuilder camera = Entity.builder("c1", "Camera").text("carriedBy", "r1");
+        List<TopicRecord> written = run(
+                options(),
+                robot("r1", 0, 0),
+                record("r4", 0, text(nowhere)),
+                record("r5", 0, text(silent)),
+                record("r6", 0, null),
+                record("a", 0, text(placed(result, 1))),
+                record("c1", 0, text(placed(camera, 1))),
+                robot("r2", 2, 0));
+
+        // The camera on the first robot is also close to the second: two pairs, each with a start and an end.
+        assertThat(written)
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactlyInAnyOrder("c1-r2", "c1-r2", "r1-r2", "r1-r2");
+    }
+
+    @Test
+    void refusesRulesThatCannotBeKept() {
+        assertThatThrownBy(() -> options("--threshold", "0").rules())
+                .isInstanceOf(ParameterException.class)
+                .hasMessage("the threshold must be 0.1 to 100000 metres, not 0.0");
+        assertThatThrownBy(() -> options("--cell", "1").rules())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("the cell must be at least as high as the threshold");
+        assertThat(options().rules()).isEqualTo(CollisionRules.DEFAULT);
+    }
+
+    @Test
+    void keepsTheNamesThatSavepointsKnowItsOperatorsBy() {
+        assertThat(CollisionJob.assemble(options()).getStreamGraph(false).getStreamNodes().stream()
+                        .filter(node -> node.getTransformationUID() != null)
+                        .sorted(Comparator.comparing(StreamNode::getTransformationUID))
+                        .map(StreamNode::getTransformationUID))
+                .containsExactly(
+                        "Sink Committer: write-topics",
+                        "describe-encounters",
+                        "describe-late-positions",
+                        "follow-encounters",
+                        "match-pairs",
+                        "read-positions",
+                        "reported-changes",
+                        "track-devices",
+                        "write-topics");
+    }
+
+    private static List<TopicRecord> run(CollisionOptions options, TopicRecord... records) throws Exception {
+        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        env.setParallelism(options.parallelism().orElse(2));
+        DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
+                .setParallelism(1)
+                .uid("records")
+                .assignTimestampsAndWatermarks(
+                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(2000))
+                                .withTimestampAssigner((record, ignored) -> record.timestamp()))
+                .setParallelism(1)
+                .uid("timestamps");
+        List<TopicRecord> written = CollisionJob.define(source, options).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        written.sort(Comparator.comparingLong(TopicRecord::timestamp));
+        return written;
+    }
+
+    private static CollisionOptions options(String... args) {
+        CollisionOptions options = new CollisionOptions();
+        JobCommandLine.of(options).parseArgs(args);
+        return options;
+    }
+
+    /** So many metres east of a place on the equator. */
+    private static TopicRecord robot(String id, double east, long time) {
+        EntityBuilder robot = Entity.builder(id, "ROBOT").text("Mission", "hoeing");
+        return record(id, time, text(placed(robot, east)));
+    }
+
+    private static EntityBuilder placed(EntityBuilder entity, double east) {
+        PositionFix place = Fixes.east("", east, 0);
+        return entity.number("Latitude", place.latitude()).number("Longitude", place.longitude());
+    }
+
+    private static String text(EntityBuilder entity) {
+        return new String(entity.build().toBytes(), StandardCharsets.UTF_8);
+    }
+
+    private static TopicRecord record(String key, long time, String value) {
+        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
+        Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
+        return new TopicRecord("data.raw", 0, 7, START + time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
+    }
+
+    private static Entity entity(TopicRecord record) {
+        try {
+            return Entity.parse(record.value());
+        } catch (io.furrow.model.ngsi.UnreadableException e) {
+            throw new AssertionError("what the job wrote is an entity", e);
+        }
+    }
+}

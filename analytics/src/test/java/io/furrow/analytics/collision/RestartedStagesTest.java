@@ -1,0 +1,81 @@
+package io.furrow.analytics.collision;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Random;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class RestartedStagesTest {
+    private static final long BOUND = 1500;
+
+    @Test
+    void tellTheSameAsTheDefinitionHoweverOftenTheyRestart() throws Exception {
+        long seed = System.nanoTime();
+        System.out.println("restarted stages from seed " + seed);
+        Random random = new Random(seed);
+        int compared = 0;
+        for (int i = 0; i < 12; i++) {
+            double threshold = Worlds.THRESHOLDS[i % 4];
+            CollisionRules rules = Worlds.rules(threshold, 3, i % 3 == 0);
+            Worlds worlds = new Worlds(seed + i);
+            List<PositionFix> fixes = worlds.wander(Worlds.centre(i), threshold, 1_700_000_000_000L);
+            List<Encounter> expected = CollisionOracle.encounters(fixes, rules);
+            List<Encounter> found = encounters(worlds.shuffled(fixes, BOUND), rules, random);
+            assertThat(CollisionOracle.difference(found, expected))
+                    .as("case %d of seed %d", i, seed)
+                    .isEmpty();
+            compared += expected.size();
+        }
+        assertThat(compared).isGreaterThan(20);
+    }
+
+    private static List<Encounter> encounters(List<PositionFix> arrivals, CollisionRules rules, Random random)
+            throws Exception {
+        List<Encounter> encounters = new ArrayList<>();
+        var track = Stage.track(rules);
+        var match = Stage.match(rules);
+        var follow = Stage.follow(rules);
+        List<Stage<?, ?, ?>> stages = List.of(track, match, follow);
+        long newest = Long.MIN_VALUE;
+        for (PositionFix fix : arrivals) {
+            track.receive(fix);
+            newest = Math.max(newest, fix.time());
+            if (random.nextInt(10) == 0) {
+                stages.get(random.nextInt(3)).restart();
+            }
+            if (random.nextInt(4) == 0) {
+                encounters.addAll(advance(newest - BOUND - 1, random, track, match, follow));
+            }
+        }
+        encounters.addAll(advance(Long.MAX_VALUE, random, track, match, follow));
+        assertThat(track.side(TrackDevices.LATE)).isEmpty();
+        for (Stage<?, ?, ?> stage : stages) {
+            assertThat(stage.stateEntries()).isZero();
+            assertThat(stage.timers()).isZero();
+            stage.stop();
+        }
+
+        encounters.sort(CollisionOracle.ORDER);
+        return encounters;
+    }
+
+    private static List<Encounter> advance(
+            long watermark,
+            Random random,
+            Stage<String, PositionFix, CellUpdate> track,
+            Stage<Long, CellUpdate, Sighting> match,
+            Stage<String, Sighting, Encounter> follow)
+            throws Exception {
+        List<CellUpdate> updates = track.advance(watermark);
+        Collections.shuffle(updates, random);
+        match.receive(updates);
+        List<Sighting> sightings = match.advance(watermark);
+        Collections.shuffle(sightings, random);
+        follow.receive(sightings);
+        return follow.advance(watermark);
+    }
+}

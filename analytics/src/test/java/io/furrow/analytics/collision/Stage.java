@@ -1,0 +1,95 @@
+package io.furrow.analytics.collision;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Supplier;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.api.java.functions.KeySelector;
+import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.apache.flink.streaming.api.watermark.Watermark;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
+import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
+import org.apache.flink.util.OutputTag;
+
+/** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
+final class Stage<K, I extends Timed, O> {
+    private final Supplier<KeyedProcessFunction<K, I, O>> function;
+    private final KeySelector<I, K> key;
+    private final TypeInformation<K> keyType;
+    private KeyedOneInputStreamOperatorTestHarness<K, I, O> harness;
+
+    private Stage(Supplier<KeyedProcessFunction<K, I, O>> function, KeySelector<I, K> key, TypeInformation<K> keyType)
+            throws Exception {
+        this.function = function;
+        this.key = key;
+        this.keyType = keyType;
+        start();
+        harness.open();
+    }
+
+    static Stage<String, PositionFix, CellUpdate> track(CollisionRules rules) throws Exception {
+        return new Stage<>(() -> new TrackDevices(rules), PositionFix::identity, Types.STRING);
+    }
+
+    static Stage<Long, CellUpdate, Sighting> match(CollisionRules rules) throws Exception {
+        return new Stage<>(() -> new MatchPairs(rules), CellUpdate::cell, Types.LONG);
+    }
+
+    static Stage<String, Sighting, Encounter> follow(CollisionRules rules) throws Exception {
+        return new Stage<>(() -> new FollowEncounters(rules), Sighting::pair, Types.STRING);
+    }
+
+    void receive(List<I> inputs) throws Exception {
+        for (I input : inputs) {
+            receive(input);
+        }
+    }
+
+    void receive(I input) throws Exception {
+        harness.processElement(input, input.time());
+    }
+
+    /** What comes out on the way to the watermark. */
+    List<O> advance(long watermark) throws Exception {
+        harness.processWatermark(new Watermark(watermark));
+        List<O> out = new ArrayList<>(harness.extractOutputValues());
+        harness.getOutput().clear();
+        return out;
+    }
+
+    <T> List<T> side(OutputTag<T> tag) {
+        var output = harness.getSideOutput(tag);
+        return output == null
+                ? List.of()
+                : output.stream().map(StreamRecord::getValue).toList();
+    }
+
+    int stateEntries() {
+        return harness.numKeyedStateEntries();
+    }
+
+    int timers() {
+        return harness.numEventTimeTimers();
+    }
+
+    void restart() throws Exception {
+        OperatorSubtaskState snapshot = harness.snapshot(1, 1);
+        harness.close();
+        start();
+        harness.initializeState(snapshot);
+        harness.open();
+    }
+
+    private void start() throws Exception {
+        harness =
+                new KeyedOneInputStreamOperatorTestHarness<>(new KeyedProcessOperator<>(function.get()), key, keyType);
+    }
+
+    void stop() throws Exception {
+        harness.close();
+    }
+}

@@ -1,0 +1,93 @@
+package io.furrow.analytics.collision;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+
+/** Made-up farms: a handful of devices that wander about a place, with silences, repetitions and shared instants. */
+final class Worlds {
+    static final double[] THRESHOLDS = {0.5, 5, 50, 1000};
+
+    private static final long STEP = 100;
+    private static final int STEPS = 200;
+    private static final int SILENCE = 70;
+
+    private final Random random;
+
+    Worlds(long seed) {
+        random = new Random(seed);
+    }
+
+    /** Time-to-live 3 s, an ongoing record every 500 ms, sometimes a greatest skew. */
+    static CollisionRules rules(double threshold, double cellsPerThreshold, boolean skewed) {
+        Duration skew = skewed ? Duration.ofMillis(700) : Duration.ZERO;
+        return new CollisionRules(
+                threshold, Duration.ofSeconds(3), skew, Duration.ofMillis(500), threshold * cellsPerThreshold);
+    }
+
+    /** Where grids go wrong, and one place where they do not: latitude and longitude. */
+    static double[] centre(int which) {
+        return switch (which % 6) {
+            case 0 -> new double[] {40.3125, -3.4821};
+            case 1 -> new double[] {0, 0};
+            case 2 -> new double[] {52.1, 180};
+            case 3 -> new double[] {90, 0};
+            case 4 -> new double[] {-90, 0};
+            default -> new double[] {0.00001, -180};
+        };
+    }
+
+    /** The positions of one world, 20 s from the start on, in no order. */
+    List<PositionFix> wander(double[] centre, double threshold, long start) {
+        List<PositionFix> fixes = new ArrayList<>();
+        int devices = 2 + random.nextInt(6);
+        double room = threshold * (1 + 2 * random.nextDouble());
+        for (int device = 0; device < devices; device++) {
+            // Two tenants may know different devices by one id.
+            String id = "urn:ngsi-ld:Robot:" + random.nextInt(devices);
+            String identity = "farm" + device + "|/|" + id;
+            String carrier = device > 0 && random.nextInt(6) == 0 ? fixes.get(0).identity() : "";
+            double east = room * random.nextGaussian();
+            double north = room * random.nextGaussian();
+            int step = random.nextInt(30);
+            while (step < STEPS) {
+                double[] place = place(centre, east, north);
+                long time = start + step * STEP;
+                fixes.add(new PositionFix(identity, id, "m" + random.nextInt(2), carrier, place[0], place[1], time));
+                boolean stays = random.nextInt(4) == 0;
+                east += stays ? 0 : room * random.nextGaussian() / 3;
+                north += stays ? 0 : room * random.nextGaussian() / 3;
+                step += random.nextInt(20) == 0 ? random.nextInt(SILENCE) : random.nextInt(8);
+            }
+        }
+        return fixes;
+    }
+
+    /** An order of arrival in which nothing comes more than the bound behind something later. */
+    List<PositionFix> shuffled(List<PositionFix> fixes, long bound) {
+        Map<PositionFix, Long> arrivals = new HashMap<>();
+        fixes.forEach(fix -> arrivals.put(fix, fix.time() + random.nextLong(bound)));
+        List<PositionFix> order = new ArrayList<>(fixes);
+        order.sort(Comparator.comparing(arrivals::get));
+        return order;
+    }
+
+    /** A place so many metres from the centre, which around a pole may lie on any meridian. */
+    static double[] place(double[] centre, double east, double north) {
+        double perDegree = Geodesy.EARTH_RADIUS_METERS * Math.PI / 180;
+        if (Math.abs(centre[0]) == 90) {
+            double latitude = centre[0] - Math.signum(centre[0]) * Math.hypot(east, north) / perDegree;
+            return new double[] {latitude, Math.toDegrees(Math.atan2(north, east))};
+        }
+        double longitude = centre[1] + east / perDegree / Math.cos(Math.toRadians(centre[0]));
+        return new double[] {centre[0] + north / perDegree, wrapped(longitude)};
+    }
+
+    static double wrapped(double longitude) {
+        return longitude > 180 ? longitude - 360 : longitude < -180 ? longitude + 360 : longitude;
+    }
+}

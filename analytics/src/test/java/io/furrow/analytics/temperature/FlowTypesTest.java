@@ -1,0 +1,67 @@
+package io.furrow.analytics.temperature;
+
+import java.io.IOException;
+import java.lang.reflect.Modifier;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.Stream;
+
+import org.apache.flink.api.common.serialization.SerializerConfigImpl;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.java.typeutils.PojoTypeInfo;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.TopicRecord;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+/** What flows between operators or lies in state is a public record; no other record is public. */
+class FlowTypesTest {
+    @Test
+    void needNoGenericSerializer() throws Exception {
+        assertThat(publicRecords())
+                .contains(Reading.class, FieldReading.class, DeviceReadings.class, DeviceVote.class, TopicRecord.class);
+        for (Class<?> type : publicRecords()) {
+            assertThat(TypeInformation.of(type)).isInstanceOf(PojoTypeInfo.class);
+            assertThat(TypeInformation.of(type).createSerializer(withoutGenericTypes()))
+                    .isNotNull();
+        }
+    }
+
+    @Test
+    void wouldBeFoundIfOneDid() {
+        TypeInformation<Field> withGeometry = TypeInformation.of(Field.class);
+
+        assertThatThrownBy(() -> withGeometry.createSerializer(withoutGenericTypes()))
+                .isInstanceOf(UnsupportedOperationException.class)
+                .hasMessageContaining("Generic types have been disabled");
+    }
+
+    private static SerializerConfigImpl withoutGenericTypes() {
+        SerializerConfigImpl config = new SerializerConfigImpl();
+        config.setGenericTypes(false);
+        return config;
+    }
+
+    private static List<Class<?>> publicRecords() throws IOException {
+        Path classes = Path.of("target/classes", Reading.class.getPackageName().replace('.', '/'));
+        try (Stream<Path> files = Files.list(classes)) {
+            Stream<Class<?>> ours = files.map(file -> file.getFileName().toString())
+                    .filter(file -> file.endsWith(".class") && !file.equals("package-info.class"))
+                    .map(file -> named(Reading.class.getPackageName() + "." + file.replace(".class", "")));
+            return Stream.concat(ours, Stream.of(TopicRecord.class))
+                    .filter(type -> type.isRecord() && Modifier.isPublic(type.getModifiers()))
+                    .toList();
+        }
+    }
+
+    private static Class<?> named(String name) {
+        try {
+            return Class.forName(name, false, FlowTypesTest.class.getClassLoader());
+        } catch (ClassNotFoundException e) {
+            throw new AssertionError(e);
+        }
+    }
+}

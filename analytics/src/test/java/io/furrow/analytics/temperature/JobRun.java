@@ -1,0 +1,124 @@
+package io.furrow.analytics.temperature;
+
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.function.BinaryOperator;
+import java.util.stream.Collectors;
+
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.api.common.eventtime.Watermark;
+import org.apache.flink.api.common.eventtime.WatermarkGenerator;
+import org.apache.flink.api.common.eventtime.WatermarkOutput;
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.RestartStrategyOptions;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** One run of the job over records in a given order of arrival, with the watermark moving after each of them. */
+record JobRun(JobID id, List<TopicRecord> records) {
+    /** On the fields of {@link Farm}, with one subtask, so that the order of arrival is the order of the list. */
+    static JobRun over(List<TopicRecord> arrivals, String... more) throws Exception {
+        List<String> args = new ArrayList<>(List.of("--parallelism", "1", "--out-of-orderness", "1s"));
+        args.addAll(List.of(more));
+        return over(arrivals, Farm.options(Farm.FIELDS, args.toArray(String[]::new)));
+    }
+
+    static JobRun over(List<TopicRecord> arrivals, TemperatureOptions options) throws Exception {
+        StreamExecutionEnvironment env = environment(options);
+        Collected collected = new Collected();
+        TemperatureJob.define(source(env, arrivals, options), options)
+                .sinkTo(collected)
+                .uid("collect");
+        return new JobRun(env.execute().getJobID(), collected.records());
+    }
+
+    static StreamExecutionEnvironment environment(TemperatureOptions options) {
+        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        Configuration failAtOnce = new Configuration();
+        failAtOnce.set(RestartStrategyOptions.RESTART_STRATEGY, "none");
+        env.configure(failAtOnce);
+        return env;
+    }
+
+    static DataStream<TopicRecord> source(
+            StreamExecutionEnvironment env, List<TopicRecord> arrivals, TemperatureOptions options) {
+        long bound = options.outOfOrderness().toMillis();
+        return env.fromData(arrivals, TypeInformation.of(TopicRecord.class))
+                .setParallelism(1)
+                .uid("arrivals")
+                .assignTimestampsAndWatermarks(
+                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
+                                .withTimestampAssigner((record, unused) -> record.timestamp()))
+                .setParallelism(1)
+                .uid("watermarks");
+    }
+
+    List<TopicRecord> to(String topic) {
+        return records.stream().filter(record -> record.topic().equals(topic)).toList();
+    }
+
+    /** The results, later ones in place of earlier ones for the same field and window, by field and window. */
+    List<Entity> results(String topic) {
+        BinaryOperator<Entity> later = (first, second) -> second;
+        return to(topic).stream()
+                .map(JobRun::entity)
+                .collect(Collectors.toMap(JobRun::fieldAndWindow, result -> result, later, TreeMap::new))
+                .values()
+                .stream()
+                .sorted(Comparator.comparing(JobRun::fieldAndWindow))
+                .toList();
+    }
+
+    /** Field → average; of several windows the last. */
+    Map<String, Double> averages() {
+        Map<String, Double> averages = new TreeMap<>();
+        for (Entity result : results(Topics.TEMPERATURE)) {
+            averages.put(
+                    result.text("field").orElseThrow(),
+                    result.number("averageTemperature").orElseThrow());
+        }
+        return averages;
+    }
+
+    private static String fieldAndWindow(Entity result) {
+        return result.id() + "@" + result.number("windowStart").orElseThrow();
+    }
+
+    static Entity entity(TopicRecord record) {
+        try {
+            return Entity.parse(record.value());
+        } catch (UnreadableException e) {
+            throw new AssertionError("the job wrote what nobody can read", e);
+        }
+    }
+
+    /** Unlike the periodic one it makes lateness a matter of the records alone. */
+    private static final class AfterEachRecord implements WatermarkGenerator<TopicRecord> {
+        private final long bound;
+        private long newest = Long.MIN_VALUE;
+
+        AfterEachRecord(long bound) {
+            this.bound = bound;
+        }
+
+        @Override
+        public void onEvent(TopicRecord record, long timestamp, WatermarkOutput output) {
+            newest = Math.max(newest, timestamp);
+            output.emitWatermark(new Watermark(newest - bound - 1));
+        }
+
+        @Override
+        public void onPeriodicEmit(WatermarkOutput output) {}
+    }
+}

@@ -1,0 +1,109 @@
+package io.furrow.analytics.temperature;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The job as it is started, between the topics of a real broker. */
+@Timeout(120)
+class TemperatureJobIT {
+    private static final byte[] GARBAGE = "temperature=18".getBytes(StandardCharsets.UTF_8);
+
+    @Test
+    void readsReportedChangesAndWritesAveragesAndDeadLetters(@TempDir Path dir) throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(dir.resolve("kafka"));
+                EmbeddedFlink flink = EmbeddedFlink.start(1, 0)) {
+            List<TopicRecord> reported = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
+            reported.add(Farm.garbage(GARBAGE, 5_000));
+            reported.add(Farm.north("t1", 18, 200_000));
+            write(kafka, reported);
+
+            flink.submit(TemperatureJob.assemble(Farm.options(
+                            Farm.FIELDS,
+                            "--bootstrap-servers",
+                            kafka.bootstrapServers(),
+                            "--idle-timeout",
+                            "2s",
+                            "--parallelism",
+                            "1"))
+                    .getStreamGraph());
+
+            ConsumerRecord<byte[], byte[]> result = first(kafka, Topics.TEMPERATURE);
+            assertThat(Entity.parse(result.value()).number("averageTemperature"))
+                    .contains(19.0);
+            assertThat(result.key()).isEqualTo("north".getBytes(StandardCharsets.UTF_8));
+            assertThat(result.timestamp()).isEqualTo(59_999);
+            assertThat(header(result, HeaderNames.CE_SOURCE)).isEqualTo("/analytics/temperature");
+
+            ConsumerRecord<byte[], byte[]> dead = first(kafka, Topics.dead(Topics.RAW));
+            assertThat(dead.value()).isEqualTo(GARBAGE);
+            assertThat(header(dead, DeadLetter.SOURCE)).matches("data\\.raw-\\d@\\d+");
+        }
+    }
+
+    private static void write(EmbeddedKafka kafka, List<TopicRecord> records) {
+        try (var producer = new KafkaProducer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers()),
+                new ByteArraySerializer(),
+                new ByteArraySerializer())) {
+            for (TopicRecord record : records) {
+                var out = new ProducerRecord<>(record.topic(), null, record.timestamp(), record.key(), record.value());
+                record.headers()
+                        .forEach((name, text) -> out.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+                producer.send(out);
+            }
+            producer.flush();
+        }
+    }
+
+    private static ConsumerRecord<byte[], byte[]> first(EmbeddedKafka kafka, String topic) {
+        try (var consumer = new KafkaConsumer<>(
+                Map.of(
+                        "bootstrap.servers",
+                        kafka.bootstrapServers(),
+                        "group.id",
+                        "first-of-" + topic,
+                        "auto.offset.reset",
+                        "earliest"),
+                new ByteArrayDeserializer(),
+                new ByteArrayDeserializer())) {
+            consumer.subscribe(List.of(topic));
+            // A consumer is used from one thread only.
+            return await().pollInSameThread()
+                    .atMost(Duration.ofSeconds(60))
+                    .until(() -> consumer.poll(Duration.ofMillis(200)), polled -> !polled.isEmpty())
+                    .iterator()
+                    .next();
+        }
+    }
+
+    private static String header(ConsumerRecord<byte[], byte[]> record, String name) {
+        Header header = record.headers().lastHeader(name);
+        return new String(header.value(), StandardCharsets.UTF_8);
+    }
+}

@@ -1,0 +1,144 @@
+package io.furrow.analytics.temperature;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.dag.Transformation;
+import org.apache.flink.api.java.functions.KeySelector;
+import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.streaming.api.transformations.OneInputTransformation;
+import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Position;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** The operators as the job defines them, taken out of it and fed by hand. */
+class WindowStateTest {
+    private static final long MINUTE = Duration.ofMinutes(1).toMillis();
+    private static final TemperatureOptions OPTIONS =
+            Farm.options(Farm.FIELDS, "--slide", "30s", "--allowed-lateness", "10s");
+
+    private final List<KeyedOneInputStreamOperatorTestHarness<?, ?, ?>> opened = new ArrayList<>();
+
+    @AfterEach
+    void closeOperators() throws Exception {
+        for (KeyedOneInputStreamOperatorTestHarness<?, ?, ?> operator : opened) {
+            operator.close();
+        }
+    }
+
+    @Test
+    void votesLeaveNothingBehindWhenTheirWindowsClose() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> votes = operator("cast-votes");
+        for (int second = 0; second < 60; second++) {
+            votes.processElement(inField("t" + second % 5, 18, second * 1_000L), second * 1_000L);
+        }
+        votes.processWatermark(MINUTE - 1);
+        assertThat(votes.extractOutputValues()).as("of two windows that ended").hasSize(10);
+        assertThat(votes.numKeyedStateEntries()).isPositive();
+        assertThat(votes.numEventTimeTimers()).isPositive();
+
+        votes.processElement(inField("t1", 20, MINUTE - 1), MINUTE - 1);
+        assertThat(votes.extractOutputValues())
+                .as("late, within the allowed lateness")
+                .hasSize(11);
+
+        votes.processWatermark(2 * MINUTE);
+        assertThat(votes.numKeyedStateEntries()).isZero();
+        assertThat(votes.numEventTimeTimers()).isZero();
+    }
+
+    @Test
+    void averagesLeaveNothingBehindWhenTheirWindowsClose() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, DeviceVote, TopicRecord> averages = operator("average-votes");
+        for (int device = 0; device < 5; device++) {
+            averages.processElement(vote("t" + device, 18), MINUTE - 1);
+        }
+        assertThat(averages.numKeyedStateEntries()).isPositive();
+
+        averages.processWatermark(MINUTE - 1);
+        assertThat(averages.extractOutputValues()).hasSize(1);
+        averages.processWatermark(2 * MINUTE);
+        assertThat(averages.numKeyedStateEntries()).isZero();
+        assertThat(averages.numEventTimeTimers()).isZero();
+    }
+
+    @Test
+    void idsOfEventsAreForgottenOnceARepetitionWouldBeLate() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, Reading, Reading> once = operator("pass-once");
+        Reading reading = inField("t1", 18, 1_000).reading();
+        once.processElement(reading, 1_000);
+        once.processWatermark(MINUTE + 10_000);
+        once.processElement(reading, 1_000);
+        assertThat(once.extractOutputValues()).as("as long as it could count").hasSize(1);
+        assertThat(once.numKeyedStateEntries()).isPositive();
+
+        once.processWatermark(3 * MINUTE);
+        assertThat(once.numKeyedStateEntries()).isZero();
+        assertThat(once.numEventTimeTimers()).isZero();
+    }
+
+    @Test
+    void goesOnAfterARestartAsIfNothingHadHappened() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> votes = operator("cast-votes");
+        votes.processElement(inField("t1", 10, 31_000), 31_000);
+        votes.processElement(inField("t1", 40, 32_000), 32_000);
+        OperatorSubtaskState snapshot = votes.snapshot(1, 1);
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> again =
+                restored("cast-votes", snapshot);
+        again.processElement(inField("t1", 20, 33_000), 33_000);
+        again.processWatermark(MINUTE - 1);
+
+        assertThat(again.extractOutputValues()).isEqualTo(List.of(vote("t1", 20)));
+    }
+
+    private static FieldReading inField(String device, double value, long time) {
+        TopicRecord record = Farm.north(device, value, time);
+        return new FieldReading(
+                "north", "canary", new Reading(device, Farm.SCOPE, new Position(52, 12), value, "id-" + time, record));
+    }
+
+    private static DeviceVote vote(String device, double value) {
+        return new DeviceVote("north", "canary", Farm.SCOPE, device, value, 0, MINUTE);
+    }
+
+    private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> operator(String uid) throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, I, O> operator = outOfTheJob(uid);
+        operator.open();
+        return operator;
+    }
+
+    private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> restored(String uid, OperatorSubtaskState state)
+            throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, I, O> operator = outOfTheJob(uid);
+        operator.initializeState(state);
+        operator.open();
+        return operator;
+    }
+
+    @SuppressWarnings("unchecked") // the job's own types, which its graph does not carry
+    private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> outOfTheJob(String uid) throws Exception {
+        StreamExecutionEnvironment env = JobRun.environment(OPTIONS);
+        Transformation<?> job = TemperatureJob.define(
+                        JobRun.source(env, List.of(Farm.north("t", 1, 1)), OPTIONS), OPTIONS)
+                .getTransformation();
+        var operator = (OneInputTransformation<I, O>) job.getTransitivePredecessors().stream()
+                .filter(step -> uid.equals(step.getUid()))
+                .findFirst()
+                .orElseThrow();
+        var harness = new KeyedOneInputStreamOperatorTestHarness<>(
+                operator.getOperatorFactory(),
+                (KeySelector<I, String>) operator.getStateKeySelector(),
+                (TypeInformation<String>) operator.getStateKeyType());
+        harness.setup(operator.getOutputType().createSerializer(env.getConfig().getSerializerConfig()));
+        opened.add(harness);
+        return harness;
+    }
+}

@@ -1,0 +1,74 @@
+package io.furrow.bench.load;
+
+import java.nio.charset.StandardCharsets;
+import java.util.EnumMap;
+import java.util.HashSet;
+import java.util.Map;
+import java.util.Set;
+
+import org.HdrHistogram.Histogram;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.header.Headers;
+
+import io.furrow.model.event.HeaderNames;
+
+/** What has arrived: distinct events, repeats, and the delay of each {@link Hop} of the first arrival of each event. */
+final class Arrivals {
+    private static final long LONGEST_MS = 3_600_000;
+    private static final int DIGITS = 3;
+
+    private final Set<String> ids = new HashSet<>();
+    private final Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
+    private long repeats;
+
+    Arrivals() {
+        for (Hop hop : Hop.values()) {
+            delays.put(hop, new Histogram(LONGEST_MS, DIGITS));
+        }
+    }
+
+    /** @param now when the reader had the record, epoch ms */
+    synchronized void add(Headers headers, long now) {
+        if (!ids.add(text(headers, HeaderNames.CE_ID))) {
+            repeats++;
+            return;
+        }
+        long device = stamp(headers, HeaderNames.TS_DEVICE);
+        long source = stamp(headers, HeaderNames.TS_SOURCE);
+        long ingest = stamp(headers, HeaderNames.TS_INGEST);
+        record(Hop.DEVICE_TO_SOURCE, source - device);
+        record(Hop.SOURCE_TO_INGEST, ingest - source);
+        record(Hop.INGEST_TO_READER, now - ingest);
+        record(Hop.END_TO_END, now - device);
+    }
+
+    synchronized long distinct() {
+        return ids.size();
+    }
+
+    synchronized long repeats() {
+        return repeats;
+    }
+
+    /** A copy that no longer changes. */
+    synchronized Histogram delays(Hop hop) {
+        return delays.get(hop).copy();
+    }
+
+    /** The clock of one machine may be set back by a millisecond between two stamps. */
+    private void record(Hop hop, long millis) {
+        delays.get(hop).recordValue(Math.min(LONGEST_MS, Math.max(0, millis)));
+    }
+
+    private static long stamp(Headers headers, String name) {
+        return Long.parseLong(text(headers, name));
+    }
+
+    private static String text(Headers headers, String name) {
+        Header header = headers.lastHeader(name);
+        if (header == null) {
+            throw new IllegalStateException("a record without the header " + name);
+        }
+        return new String(header.value(), StandardCharsets.UTF_8);
+    }
+}

@@ -1,0 +1,109 @@
+package io.furrow.bench.load;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.EnumMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+
+import org.HdrHistogram.Histogram;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.common.errors.TopicExistsException;
+
+import io.furrow.model.topic.Topics;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.load.LoadFleet;
+import io.furrow.simulators.load.LoadPlan;
+
+/**
+ * Sends a load in at the devices' end and reads it at the mission's topic. The delays are of at-least-once delivery unless
+ * the suite says otherwise; sender, suite and reader share the machine and its clock.
+ */
+public final class LoadMeasurement {
+    /** After the last message is sent, this long without an arrival means that the rest is lost. */
+    private static final Duration QUIET = Duration.ofSeconds(15);
+
+    private static final int PARTITIONS = 4;
+    private static final long LOOK_MS = 100;
+    private static final int LOOKS_PER_SECOND = (int) (1000 / LOOK_MS);
+
+    private final FleetSettings devices;
+    private final Properties kafka;
+    private final Consumer<String> progress;
+
+    /** @param progress is told once a second how far it is */
+    public LoadMeasurement(FleetSettings devices, Properties kafka, Consumer<String> progress) {
+        this.devices = devices;
+        this.kafka = kafka;
+        this.progress = progress;
+    }
+
+    /** @throws IOException if the load could not be sent */
+    public LoadReport run(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
+        String topic = Topics.realtime(plan.domain(), plan.mission());
+        makeTopic(topic);
+        Arrivals arrivals = new Arrivals();
+        try (TopicReader reader = new TopicReader(kafka, topic, arrivals)) {
+            reader.start();
+            long sent = send(plan, arrivals);
+            awaitArrivals(sent, arrivals);
+            return new LoadReport(plan, sent, arrivals.distinct(), arrivals.repeats(), delays(arrivals));
+        }
+    }
+
+    private long send(LoadPlan plan, Arrivals arrivals) throws IOException, InterruptedException {
+        try (LoadFleet fleet = LoadFleet.start(devices, plan)) {
+            long looks = 0;
+            while (fleet.sent() < plan.messages()
+                    && looks * LOOK_MS < plan.duration().toMillis() * 2) {
+                TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+                if (looks++ % LOOKS_PER_SECOND == 0) {
+                    progress.accept(
+                            "%d of %d sent, %d arrived".formatted(fleet.sent(), plan.messages(), arrivals.distinct()));
+                }
+            }
+            fleet.await();
+            return fleet.acknowledged();
+        }
+    }
+
+    private void awaitArrivals(long expected, Arrivals arrivals) throws InterruptedException {
+        long seen = -1;
+        long movedNanos = System.nanoTime();
+        while (arrivals.distinct() < expected && System.nanoTime() - movedNanos < QUIET.toNanos()) {
+            if (arrivals.distinct() != seen) {
+                seen = arrivals.distinct();
+                movedNanos = System.nanoTime();
+            }
+            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+        }
+        TimeUnit.SECONDS.sleep(1); // repeats that are still on their way
+    }
+
+    /** Made before the first record, so that no delay holds the making of a topic. */
+    private void makeTopic(String topic) throws InterruptedException, ExecutionException {
+        try (Admin admin = Admin.create(kafka)) {
+            admin.createTopics(List.of(new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty())))
+                    .all()
+                    .get();
+        } catch (ExecutionException e) {
+            if (!(e.getCause() instanceof TopicExistsException)) {
+                throw e;
+            }
+        }
+    }
+
+    private static Map<Hop, Histogram> delays(Arrivals arrivals) {
+        Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
+        for (Hop hop : Hop.values()) {
+            delays.put(hop, arrivals.delays(hop));
+        }
+        return delays;
+    }
+}

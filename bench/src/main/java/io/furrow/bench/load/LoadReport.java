@@ -1,0 +1,84 @@
+package io.furrow.bench.load;
+
+import java.io.PrintWriter;
+import java.util.Locale;
+import java.util.Map;
+
+import org.HdrHistogram.Histogram;
+
+import io.furrow.simulators.load.LoadPlan;
+
+/**
+ * What became of a load.
+ *
+ * @param sent messages that the MQTT broker acknowledged
+ * @param delivered distinct events at the mission's topic
+ * @param repeats arrivals of events that had arrived before
+ * @param delays milliseconds, of first arrivals
+ */
+public record LoadReport(LoadPlan plan, long sent, long delivered, long repeats, Map<Hop, Histogram> delays) {
+    private static final double[] PERCENTILES = {50, 95, 99, 100};
+
+    /** Distinct events that arrived, per message sent: 1 is what is promised. */
+    public double deliveredRatio() {
+        return sent == 0 ? 0 : (double) delivered / sent;
+    }
+
+    /** Milliseconds from the device to the reader that so many percent of the events stayed within. */
+    public long endToEndMillis(double percent) {
+        return delays.get(Hop.END_TO_END).getValueAtPercentile(percent);
+    }
+
+    public void print(PrintWriter out) {
+        double perSecond = plan.devices() * 1000.0 / plan.period().toMillis();
+        out.printf(
+                Locale.ROOT,
+                "%d devices, one message of %d bytes each %d ms (%.0f per second) for %d s%n",
+                plan.devices(),
+                plan.payloadBytes(),
+                plan.period().toMillis(),
+                perSecond,
+                plan.duration().toSeconds());
+        out.printf(
+                Locale.ROOT,
+                "sent %d   delivered %d   ratio %.4f   repeats %d%n",
+                sent,
+                delivered,
+                deliveredRatio(),
+                repeats);
+        out.printf("%-18s %8s %8s %8s %8s%n", "delay in ms", "p50", "p95", "p99", "max");
+        for (Hop hop : Hop.values()) {
+            out.printf("%-18s", hop.title());
+            for (double percent : PERCENTILES) {
+                out.printf(" %8d", delays.get(hop).getValueAtPercentile(percent));
+            }
+            out.println();
+        }
+        out.flush();
+    }
+
+    /** A header line, then a line per hop. */
+    public String csv() {
+        StringBuilder csv = new StringBuilder(
+                "devices,period_ms,payload_bytes,seconds,sent,delivered,ratio,repeats,hop,p50_ms,p95_ms,p99_ms,max_ms\n");
+        for (Hop hop : Hop.values()) {
+            csv.append(String.format(
+                    Locale.ROOT,
+                    "%d,%d,%d,%d,%d,%d,%.6f,%d,%s",
+                    plan.devices(),
+                    plan.period().toMillis(),
+                    plan.payloadBytes(),
+                    plan.duration().toSeconds(),
+                    sent,
+                    delivered,
+                    deliveredRatio(),
+                    repeats,
+                    hop.name().toLowerCase(Locale.ROOT)));
+            for (double percent : PERCENTILES) {
+                csv.append(',').append(delays.get(hop).getValueAtPercentile(percent));
+            }
+            csv.append('\n');
+        }
+        return csv.toString();
+    }
+}

@@ -1,0 +1,38 @@
+package io.furrow.flink;
+
+import java.time.Instant;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+import io.furrow.model.event.EventId;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * What a job found out, as the record that it writes: an entity in normalized form with the headers of every {@code data.*}
+ * record. No wall clock goes into it, so a job that computes the same result again writes the same record with the same
+ * event id.
+ */
+public final class ResultRecord {
+    private ResultRecord() {}
+
+    /**
+     * @param timestamp event time of the result, epoch ms; also what {@code ts-device} says
+     * @param source which job it is, for instance {@code /analytics/temperature}
+     */
+    public static TopicRecord of(
+            String topic, String key, Entity entity, FiwareScope scope, long timestamp, String source) {
+        Instant time = Instant.ofEpochMilli(timestamp);
+        Map<String, String> headers = new LinkedHashMap<>();
+        headers.put(HeaderNames.CE_ID, EventId.of(scope, entity, time));
+        headers.put(HeaderNames.CE_SOURCE, source);
+        headers.put(HeaderNames.CE_TIME, time.toString());
+        headers.put(HeaderNames.CE_SPECVERSION, HeaderNames.SPECVERSION);
+        headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_CHANGED);
+        headers.put(HeaderNames.SERVICE, scope.service());
+        headers.put(HeaderNames.SERVICE_PATH, scope.servicePath());
+        headers.put(HeaderNames.TS_DEVICE, Long.toString(timestamp));
+        return TopicRecord.of(topic, timestamp, key, entity.toBytes(), headers);
+    }
+}

@@ -1,0 +1,96 @@
+package io.furrow.launcher;
+
+import java.io.PrintWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.bench.load.LoadMeasurement;
+import io.furrow.bench.load.LoadReport;
+import io.furrow.simulators.load.LoadPlan;
+
+/** {@code ./furrow bench}. */
+@Command(name = "bench", description = "Measures the suite on this machine.", synopsisSubcommandLabel = "COMMAND")
+final class BenchCommand {
+    private static final String DOMAIN = "bench";
+
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    @Command(
+            name = "load",
+            abbreviateSynopsis = true,
+            mixinStandardHelpOptions = false,
+            description =
+                    "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and how "
+                            + "long each hop took.")
+    int load(
+            @Option(
+                            names = "--devices",
+                            paramLabel = "N",
+                            defaultValue = "625",
+                            description = "Devices. Default: ${DEFAULT-VALUE}.")
+                    int devices,
+            @Option(
+                            names = "--period",
+                            paramLabel = "MS",
+                            defaultValue = "1000",
+                            description = "Milliseconds between two messages of a device. Default: ${DEFAULT-VALUE}.")
+                    long period,
+            @Option(
+                            names = "--payload",
+                            paramLabel = "BYTES",
+                            defaultValue = "1000",
+                            description = "Length of a message's payload. Default: ${DEFAULT-VALUE}.")
+                    int payload,
+            @Option(
+                            names = "--seconds",
+                            paramLabel = "S",
+                            defaultValue = "60",
+                            description = "How long to send. Default: ${DEFAULT-VALUE}.")
+                    long seconds,
+            @Option(
+                            names = "--warmup",
+                            paramLabel = "S",
+                            defaultValue = "20",
+                            description = "Seconds of the same load before it, not counted. Default: ${DEFAULT-VALUE}.")
+                    long warmup,
+            @Option(names = "--csv", paramLabel = "FILE", description = "Also write the figures here.") Path csv,
+            @Option(
+                            names = {"-h", "--help"},
+                            usageHelp = true,
+                            description = "Show this text.")
+                    boolean wantsHelp)
+            throws Exception {
+        PrintWriter out = spec.commandLine().getOut();
+        try (Suite suite = Suite.start(SuiteSettings.throwAway("10s"), new Progress(out))) {
+            LoadMeasurement measurement =
+                    new LoadMeasurement(suite.devices(), suite.kafka().clientProperties(), line -> {
+                        out.println("  " + line);
+                        out.flush();
+                    });
+            Duration period1 = Duration.ofMillis(period);
+            if (warmup > 0) {
+                measurement.run(new LoadPlan(devices, period1, payload, Duration.ofSeconds(warmup), DOMAIN, "warmup"));
+            }
+            LoadReport report = measurement.run(
+                    new LoadPlan(devices, period1, payload, Duration.ofSeconds(seconds), DOMAIN, "load"));
+            report.print(out);
+            if (csv != null) {
+                Files.writeString(csv, report.csv());
+            }
+            return report.delivered() == report.sent() ? 0 : 1;
+        }
+    }
+}

@@ -1,0 +1,86 @@
+package io.furrow.launcher;
+
+import java.net.URI;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/** Puts the two NGSI connectors into a Connect cluster through its REST API. */
+final class Connectors {
+    private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration BETWEEN_LOOKS = Duration.ofMillis(100);
+
+    private final RestClient rest = new RestClient();
+    private final URI connect;
+
+    Connectors(URI connect) {
+        this.connect = connect;
+    }
+
+    /** Creates or changes the source that listens for notifications; returns when it does. */
+    void source(int port) {
+        put(
+                "ngsi-source",
+                Map.of(
+                        "connector.class", "io.furrow.connect.source.NgsiSourceConnector",
+                        "tasks.max", "1",
+                        "listen.port", Integer.toString(port)));
+    }
+
+    /** Creates or changes the sink that writes results into the context broker. */
+    void sink(URI contextBroker, List<String> topics) {
+        put(
+                "ngsi-sink",
+                Map.of(
+                        "connector.class",
+                        "io.furrow.connect.sink.NgsiSinkConnector",
+                        "tasks.max",
+                        "1",
+                        "topics",
+                        String.join(",", topics),
+                        "context.broker.url",
+                        contextBroker.toString()));
+    }
+
+    private void put(String name, Map<String, String> settings) {
+        ObjectNode body = NgsiJson.mapper().createObjectNode();
+        settings.forEach(body::put);
+        body.put("key.converter", "org.apache.kafka.connect.storage.StringConverter");
+        body.put("value.converter", "org.apache.kafka.connect.converters.ByteArrayConverter");
+        body.put("header.converter", "org.apache.kafka.connect.storage.StringConverter");
+        RestClient.Answer answer = rest.send("PUT", connect.resolve("/connectors/" + name + "/config"), Map.of(), body);
+        if (!answer.isSuccess()) {
+            throw new SuiteNotStartedException("Connect refused the connector %s: %s"
+                    .formatted(name, answer.body().path("message").asText()));
+        }
+        awaitRunning(name);
+    }
+
+    private void awaitRunning(String name) {
+        Instant end = Instant.now().plus(PATIENCE);
+        JsonNode status = NgsiJson.mapper().missingNode();
+        while (Instant.now().isBefore(end)) {
+            status = rest.get(connect.resolve("/connectors/" + name + "/status"), Map.of())
+                    .body();
+            String state = status.path("tasks").path(0).path("state").asText();
+            if (state.equals("RUNNING")) {
+                return;
+            }
+            if (state.equals("FAILED")) {
+                String trace = status.path("tasks").path(0).path("trace").asText();
+                throw new SuiteNotStartedException("The connector %s failed: %s"
+                        .formatted(name, trace.lines().findFirst().orElse("")));
+            }
+            Pause.of(BETWEEN_LOOKS);
+        }
+        throw new SuiteNotStartedException("The connector %s did not run within %d s; its status is %s"
+                .formatted(name, PATIENCE.toSeconds(), status));
+    }
+}

@@ -1,0 +1,39 @@
+package io.furrow.launcher;
+
+import java.util.concurrent.Callable;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.simulators.device.Fleet;
+import io.furrow.simulators.device.Scenario;
+
+/** {@code ./furrow demo}. */
+@Command(
+        name = "demo",
+        abbreviateSynopsis = true,
+        description =
+                "Starts everything in one JVM on 127.0.0.1, with the simulated devices of a small farm, and shows what "
+                        + "comes out.")
+final class DemoCommand implements Callable<Integer> {
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SuiteOptions options;
+
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    @Override
+    public Integer call() throws Exception {
+        return new Session(spec.commandLine().getOut())
+                .run(options.settings(null, null), suite -> Fleet.start(suite.devices(), Scenario.demo()));
+    }
+}

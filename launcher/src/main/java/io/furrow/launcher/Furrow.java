@@ -1,0 +1,40 @@
+package io.furrow.launcher;
+
+import picocli.CommandLine;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.JobCommandLine;
+
+/** The command {@code ./furrow}. */
+@Command(
+        name = "furrow",
+        description = "Stream processing for FIWARE farms: from the context broker through Kafka and Flink and back.",
+        synopsisSubcommandLabel = "COMMAND",
+        subcommands = {DemoCommand.class, UpCommand.class, BenchCommand.class})
+public final class Furrow {
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    private Furrow() {}
+
+    public static void main(String... args) {
+        // Kafka and Connect write their logs through log4j, which must know its file before the first of them loads.
+        System.setProperty("java.awt.headless", "true");
+        int exitCode = commandLine().execute(args);
+        System.exit(exitCode);
+    }
+
+    static CommandLine commandLine() {
+        return JobCommandLine.of(new Furrow()).setExecutionExceptionHandler((failure, command, parsed) -> {
+            if (failure instanceof SuiteNotStartedException refused) {
+                command.getErr().println(refused.getMessage());
+                return command.getCommandSpec().exitCodeOnExecutionException();
+            }
+            throw failure;
+        });
+    }
+}

@@ -1,0 +1,80 @@
+package io.furrow.launcher;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.analytics.collision.CollisionJob;
+import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.temperature.TemperatureJob;
+import io.furrow.analytics.temperature.TemperatureOptions;
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobOptions;
+import io.furrow.ingest.route.IngestJob;
+import io.furrow.ingest.route.IngestOptions;
+import io.furrow.simulators.device.Scenario;
+
+/** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */
+final class JobPlans {
+    private static final String CHECKPOINT_INTERVAL = "5s";
+
+    private final SuiteSettings settings;
+    private final KafkaAccess kafka;
+    private final RunDirectory directory;
+
+    JobPlans(SuiteSettings settings, KafkaAccess kafka, RunDirectory directory) {
+        this.settings = settings;
+        this.kafka = kafka;
+        this.directory = directory;
+    }
+
+    /** By name. */
+    Map<String, StreamExecutionEnvironment> all() throws IOException {
+        Map<String, StreamExecutionEnvironment> plans = new LinkedHashMap<>();
+        plans.put("ingest", IngestJob.assemble(parsed("ingest", new IngestOptions())));
+        plans.put(
+                "temperature",
+                TemperatureJob.assemble(parsed(
+                        "temperature",
+                        new TemperatureOptions(),
+                        "--fields",
+                        fields().toString(),
+                        "--window",
+                        settings.window())));
+        plans.put("collision", CollisionJob.assemble(parsed("collision", new CollisionOptions())));
+        return plans;
+    }
+
+    private <T extends JobOptions> T parsed(String name, T options, String... own) {
+        List<String> args = new ArrayList<>(List.of(own));
+        args.addAll(List.of("--bootstrap-servers", kafka.bootstrapServers()));
+        args.addAll(List.of("--checkpoint-interval", CHECKPOINT_INTERVAL));
+        args.addAll(List.of(
+                "--checkpoint-dir",
+                directory.resolve("jobs").resolve(name).toUri().toString()));
+        args.addAll(List.of("--parallelism", "1"));
+        kafka.propertiesFile().ifPresent(file -> args.addAll(List.of("--kafka-properties", file.toString())));
+        JobCommandLine.of(options).parseArgs(args.toArray(String[]::new));
+        return options;
+    }
+
+    /** The fields given, or those of the demonstration farm as a file. */
+    private Path fields() throws IOException {
+        if (settings.fields() != null) {
+            return settings.fields();
+        }
+        Path file = directory.resolve("fields.geojson");
+        try (InputStream demo = Scenario.class.getResourceAsStream("/io/furrow/simulators/demo/fields.geojson")) {
+            Files.copy(demo, file, StandardCopyOption.REPLACE_EXISTING);
+        }
+        return file;
+    }
+}

@@ -1,0 +1,122 @@
+package io.furrow.launcher;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.common.errors.TopicExistsException;
+
+import io.furrow.model.topic.Topics;
+
+/** The Kafka cluster of a suite, ours or another's, and how each kind of client reaches it. */
+public final class KafkaAccess implements AutoCloseable {
+    private static final int PARTITIONS = 4;
+    private static final long SECONDS = 20;
+    private static final List<String> TOPICS = List.of(
+            Topics.RAW,
+            Topics.dead(Topics.RAW),
+            Topics.TEMPERATURE,
+            Topics.TEMPERATURE_LATE,
+            Topics.COLLISION,
+            Topics.COLLISION_LATE);
+
+    private final String bootstrapServers;
+    private final Path propertiesFile;
+    private final Properties properties;
+    private final Admin admin;
+
+    private KafkaAccess(String bootstrapServers, Path propertiesFile, Properties properties) {
+        this.bootstrapServers = bootstrapServers;
+        this.propertiesFile = propertiesFile;
+        this.properties = properties;
+        this.admin = Admin.create(clientProperties());
+    }
+
+    /** @param propertiesFile for every client; null for none */
+    static KafkaAccess to(String bootstrapServers, Path propertiesFile) {
+        Properties properties = new Properties();
+        if (propertiesFile != null) {
+            try (Reader reader = Files.newBufferedReader(propertiesFile)) {
+                properties.load(reader);
+            } catch (IOException e) {
+                throw new SuiteNotStartedException(
+                        "--kafka-properties %s cannot be read; name a readable properties file"
+                                .formatted(propertiesFile),
+                        e);
+            }
+        }
+        return new KafkaAccess(bootstrapServers, propertiesFile, properties);
+    }
+
+    public String bootstrapServers() {
+        return bootstrapServers;
+    }
+
+    /** For any Kafka client. */
+    public Properties clientProperties() {
+        Properties all = new Properties();
+        all.putAll(properties);
+        all.setProperty("bootstrap.servers", bootstrapServers);
+        return all;
+    }
+
+    public Admin admin() {
+        return admin;
+    }
+
+    Optional<Path> propertiesFile() {
+        return Optional.ofNullable(propertiesFile);
+    }
+
+    /** For the Connect worker, which keeps the settings of its own clients and of those of connectors apart. */
+    Map<String, String> connectSettings() {
+        Map<String, String> settings = new HashMap<>();
+        for (String name : properties.stringPropertyNames()) {
+            for (String prefix : List.of("", "producer.", "consumer.", "admin.")) {
+                settings.put(prefix + name, properties.getProperty(name));
+            }
+        }
+        return settings;
+    }
+
+    /** Makes the topics that are read before anybody writes to them; those that exist stay as they are. */
+    void ensureTopics() throws InterruptedException {
+        for (String topic : TOPICS) {
+            NewTopic wanted = new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty());
+            try {
+                admin.createTopics(List.of(wanted)).all().get(SECONDS, TimeUnit.SECONDS);
+            } catch (ExecutionException e) {
+                if (!(e.getCause() instanceof TopicExistsException)) {
+                    throw new SuiteNotStartedException(
+                            "Kafka at %s does not make topic %s: %s"
+                                    .formatted(
+                                            bootstrapServers,
+                                            topic,
+                                            e.getCause().getMessage()),
+                            e);
+                }
+            } catch (TimeoutException e) {
+                throw new SuiteNotStartedException(
+                        "Kafka at %s does not answer. Check the address given with --kafka and that the broker runs."
+                                .formatted(bootstrapServers),
+                        e);
+            }
+        }
+    }
+
+    @Override
+    public void close() {
+        admin.close(java.time.Duration.ofSeconds(1));
+    }
+}

@@ -1,0 +1,33 @@
+package io.furrow.launcher;
+
+import java.util.ArrayDeque;
+import java.util.Deque;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/** What has been started, to be stopped in the opposite order; a part that fails to stop does not keep the others. */
+final class Parts implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(Parts.class);
+
+    private final Deque<Part> started = new ArrayDeque<>();
+
+    private record Part(String name, AutoCloseable closeable) {}
+
+    synchronized <T extends AutoCloseable> T add(String name, T part) {
+        started.push(new Part(name, part));
+        return part;
+    }
+
+    @Override
+    public synchronized void close() {
+        while (!started.isEmpty()) {
+            Part part = started.pop();
+            try {
+                part.closeable().close();
+            } catch (Exception e) { // AutoCloseable declares no narrower type
+                LOG.warn("{} did not stop cleanly", part.name(), e);
+            }
+        }
+    }
+}

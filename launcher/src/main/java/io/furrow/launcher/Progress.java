@@ -1,0 +1,26 @@
+package io.furrow.launcher;
+
+import java.io.PrintWriter;
+import java.time.Duration;
+import java.util.concurrent.Callable;
+
+/** Tells on the terminal what is being started and how long it took, so that nobody waits in silence. */
+final class Progress {
+    private final PrintWriter out;
+
+    Progress(PrintWriter out) {
+        this.out = out;
+    }
+
+    /** Runs one step; it may run beside others. */
+    <T> T step(String what, Callable<T> work) throws Exception {
+        long start = System.nanoTime();
+        out.printf("  starting %s …%n", what);
+        out.flush();
+        T result = work.call();
+        Duration took = Duration.ofNanos(System.nanoTime() - start);
+        out.printf("  %-42s ready after %4.1f s%n", what, took.toMillis() / 1000.0);
+        out.flush();
+        return result;
+    }
+}

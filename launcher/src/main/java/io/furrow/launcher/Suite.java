@@ -1,0 +1,246 @@
+package io.furrow.launcher;
+
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionException;
+
+import io.furrow.embedded.EmbeddedConnect;
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.embedded.FreePort;
+import io.furrow.model.topic.Topics;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.fiware.FiwareSettings;
+import io.furrow.simulators.fiware.FiwareStandIn;
+
+/**
+ * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, and, unless a context
+ * broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
+ */
+public final class Suite implements AutoCloseable {
+    /** The MQTT user of devices. */
+    public static final String MQTT_USER = "device";
+    /** Its password; good enough for a broker that only this machine reaches. */
+    public static final String MQTT_PASSWORD = "furrow";
+
+    private static final int SLOTS = 8;
+
+    private final SuiteSettings settings;
+    private final Progress progress;
+    private final Parts parts = new Parts();
+    private RunDirectory directory;
+    private KafkaAccess kafka;
+    private EmbeddedConnect connect;
+    private EmbeddedFlink flink;
+    private Jobs jobs;
+    private EmbeddedMqtt mqtt;
+    private FiwareStandIn fiware;
+    private URI contextBroker;
+    private URI listener;
+
+    private Suite(SuiteSettings settings, Progress progress) {
+        this.settings = settings;
+        this.progress = progress;
+    }
+
+    /**
+     * Starts everything and returns when notifications are taken and all jobs run.
+     *
+     * @throws SuiteNotStartedException if something cannot be had; nothing is left running then
+     */
+    public static Suite start(SuiteSettings settings, Progress progress) throws Exception {
+        Suite suite = new Suite(settings, progress);
+        boolean started = false;
+        try {
+            suite.start();
+            started = true;
+            return suite;
+        } catch (CompletionException e) {
+            throw e.getCause() instanceof SuiteNotStartedException refused ? refused : e;
+        } finally {
+            if (!started) {
+                suite.close();
+            }
+        }
+    }
+
+    private void start() throws Exception {
+        checkPorts();
+        directory = parts.add("directory", RunDirectory.open(settings.data()));
+        LogFile.writeTo(directory.resolve("furrow.log"));
+        startKafka();
+        runTogether(this::startConnect, this::startFlink, this::startFiware);
+        connectThem();
+    }
+
+    private void checkPorts() {
+        SuiteSettings.Ports ports = settings.ports();
+        if (settings.kafka() == null) {
+            PortCheck.free(ports.kafka(), "Kafka", "--kafka-port");
+        }
+        PortCheck.free(ports.connect(), "Connect", "--connect-port");
+        PortCheck.free(ports.flink(), "Flink's web UI", "--flink-port");
+        PortCheck.free(ports.listener(), "the listener for notifications", "--notify-port");
+        if (settings.orion() == null) {
+            PortCheck.free(ports.mqtt(), "the MQTT broker", "--mqtt-port");
+            PortCheck.free(ports.orion(), "the context broker", "--orion-port");
+            PortCheck.free(ports.iotAgent(), "the IoT Agent", "--iot-agent-port");
+        }
+    }
+
+    private void startKafka() throws Exception {
+        String servers = settings.kafka();
+        if (servers == null) {
+            Path log = directory.resolve("kafka");
+            servers = parts.add(
+                            "Kafka",
+                            progress.step(
+                                    "Kafka",
+                                    () -> EmbeddedKafka.start(
+                                            log, settings.ports().kafka())))
+                    .bootstrapServers();
+        }
+        kafka = parts.add("Kafka client", KafkaAccess.to(servers, settings.kafkaProperties()));
+        kafka.ensureTopics();
+    }
+
+    private void startConnect() throws Exception {
+        connect = parts.add(
+                "Connect",
+                progress.step(
+                        "Kafka Connect",
+                        () -> EmbeddedConnect.start(
+                                kafka.bootstrapServers(),
+                                Path.of(System.getProperty("furrow.plugins")),
+                                settings.ports().connect(),
+                                kafka.connectSettings())));
+    }
+
+    private void startFlink() throws Exception {
+        flink = parts.add(
+                "Flink",
+                progress.step(
+                        "Flink",
+                        () -> EmbeddedFlink.start(SLOTS, settings.ports().flink())));
+        jobs = new Jobs(flink, directory.resolve("jobs"));
+        progress.step("jobs", () -> {
+            new JobPlans(settings, kafka, directory).all().forEach(jobs::submit);
+            return jobs.running();
+        });
+    }
+
+    private void startFiware() throws Exception {
+        if (settings.orion() != null) {
+            contextBroker = settings.orion();
+            return;
+        }
+        mqtt = parts.add("MQTT", EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD)));
+        fiware = parts.add(
+                "FIWARE stand-in",
+                progress.step(
+                        "MQTT and the FIWARE stand-in",
+                        () -> FiwareStandIn.start(new FiwareSettings(
+                                settings.ports().orion(),
+                                settings.ports().iotAgent(),
+                                mqtt.uri(),
+                                MQTT_USER,
+                                MQTT_PASSWORD))));
+        contextBroker = fiware.contextBroker();
+    }
+
+    private void connectThem() throws Exception {
+        int port = FreePort.orFree(settings.ports().listener());
+        listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
+        Connectors connectors = new Connectors(connect.uri());
+        progress.step("NGSI source and sink", () -> {
+            connectors.source(port);
+            connectors.sink(contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION));
+            new Subscription(contextBroker, settings.fiwareService()).ensure(listener);
+            return listener;
+        });
+    }
+
+    public KafkaAccess kafka() {
+        return kafka;
+    }
+
+    public URI contextBroker() {
+        return contextBroker;
+    }
+
+    public URI connect() {
+        return connect.uri();
+    }
+
+    public URI flink() {
+        return flink.webUi();
+    }
+
+    /** Where notifications are taken. */
+    public URI listener() {
+        return listener;
+    }
+
+    /** The files of this suite. */
+    public Path directory() {
+        return directory.path();
+    }
+
+    /** Job ids by name. */
+    public Map<String, String> jobs() {
+        return jobs.running().entrySet().stream()
+                .collect(java.util.stream.Collectors.toMap(
+                        Map.Entry::getKey, job -> job.getValue().toHexString()));
+    }
+
+    /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */
+    public FleetSettings devices() {
+        return new FleetSettings(
+                contextBroker, fiware.iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD, settings.fiwareService(), "/");
+    }
+
+    public String fiwareService() {
+        return settings.fiwareService();
+    }
+
+    /** Whether the MQTT broker and the stand-in are ours. */
+    public boolean hasStandIn() {
+        return fiware != null;
+    }
+
+    /** Stops everything in the opposite order; of a kept suite the jobs with a savepoint. Idempotent. */
+    @Override
+    public void close() {
+        if (jobs != null && settings.data() != null) {
+            jobs.stop();
+        }
+        jobs = null;
+        parts.close();
+    }
+
+    /** A step of the start; declared because {@code Callable} wants a result. */
+    private interface Step {
+        void run() throws Exception;
+    }
+
+    private static void runTogether(Step... steps) {
+        CompletableFuture<?>[] all = new CompletableFuture<?>[steps.length];
+        for (int i = 0; i < steps.length; i++) {
+            Step step = steps[i];
+            all[i] = CompletableFuture.runAsync(
+                    () -> {
+                        try {
+                            step.run();
+                        } catch (Exception e) { // carried to the caller by the future
+                            throw new CompletionException(e);
+                        }
+                    },
+                    task -> new Thread(task, "start").start());
+        }
+        CompletableFuture.allOf(all).join();
+    }
+}

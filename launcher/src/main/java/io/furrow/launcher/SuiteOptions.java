@@ -1,0 +1,98 @@
+package io.furrow.launcher;
+
+import java.net.URI;
+import java.nio.file.Path;
+
+import picocli.CommandLine.Option;
+
+/** What is common to {@code demo} and {@code up}: where things are kept, and on which ports of 127.0.0.1 they listen. */
+final class SuiteOptions {
+    @Option(
+            names = "--data",
+            paramLabel = "DIR",
+            description =
+                    "Keep everything here across restarts: Kafka's log, Connect's offsets, checkpoints, entities. "
+                            + "Default: a temporary directory that is deleted at the end.")
+    Path data;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for every Kafka client, for instance security settings.")
+    Path kafkaProperties;
+
+    @Option(
+            names = "--fiware-service",
+            paramLabel = "NAME",
+            defaultValue = "farm",
+            description = "Tenant of the context broker. Default: ${DEFAULT-VALUE}.")
+    String fiwareService;
+
+    @Option(
+            names = "--window",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description =
+                    "Length of the windows over which a field's temperature is averaged. Default: ${DEFAULT-VALUE}.")
+    String window;
+
+    @Option(
+            names = "--fields",
+            paramLabel = "FILE",
+            description = "GeoJSON file with the farm's fields. Default: the fields of the demonstration farm.")
+    Path fields;
+
+    @Option(
+            names = "--kafka-port",
+            paramLabel = "PORT",
+            defaultValue = "9092",
+            description = PORT_OF + "Kafka" + DEFAULT)
+    int kafkaPort;
+
+    @Option(
+            names = "--connect-port",
+            paramLabel = "PORT",
+            defaultValue = "8083",
+            description = PORT_OF + "Connect's REST API" + DEFAULT)
+    int connectPort;
+
+    @Option(
+            names = "--flink-port",
+            paramLabel = "PORT",
+            defaultValue = "8081",
+            description = PORT_OF + "Flink's web UI" + DEFAULT)
+    int flinkPort;
+
+    @Option(
+            names = "--notify-port",
+            paramLabel = "PORT",
+            defaultValue = "8090",
+            description = PORT_OF + "the listener for notifications" + DEFAULT)
+    int notifyPort;
+
+    @Option(names = "--mqtt-port", paramLabel = "PORT", defaultValue = "1883", description = PORT_OF + "MQTT" + DEFAULT)
+    int mqttPort;
+
+    @Option(
+            names = "--orion-port",
+            paramLabel = "PORT",
+            defaultValue = "1026",
+            description = PORT_OF + "the context broker's stand-in" + DEFAULT)
+    int orionPort;
+
+    @Option(
+            names = "--iot-agent-port",
+            paramLabel = "PORT",
+            defaultValue = "4041",
+            description = PORT_OF + "the IoT Agent's stand-in" + DEFAULT)
+    int iotAgentPort;
+
+    private static final String PORT_OF = "Port of ";
+    private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
+
+    SuiteSettings settings(URI orion, String kafka) {
+        SuiteSettings.Ports ports = new SuiteSettings.Ports(
+                kafkaPort, connectPort, flinkPort, notifyPort, mqttPort, orionPort, iotAgentPort);
+        return new SuiteSettings(data, kafkaProperties, fiwareService, window, fields, ports, orion, kafka);
+    }
+}

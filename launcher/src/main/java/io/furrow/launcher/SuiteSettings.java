@@ -1,0 +1,44 @@
+package io.furrow.launcher;
+
+import java.net.URI;
+import java.nio.file.Path;
+
+/**
+ * How a suite is to be started.
+ *
+ * @param data kept across restarts; null for a temporary directory
+ * @param kafkaProperties for every Kafka client; null for none
+ * @param fiwareService tenant
+ * @param window of the temperature job, for instance {@code 10s}
+ * @param fields GeoJSON; null for the demonstration farm's
+ * @param orion a context broker that already runs; null to start the stand-in
+ * @param kafka bootstrap servers that already run; null to start a broker
+ */
+public record SuiteSettings(
+        Path data,
+        Path kafkaProperties,
+        String fiwareService,
+        String window,
+        Path fields,
+        Ports ports,
+        URI orion,
+        String kafka) {
+
+    /** Ports on 127.0.0.1, each 0 for a free one. */
+    public record Ports(int kafka, int connect, int flink, int listener, int mqtt, int orion, int iotAgent) {
+        /** All free ones. */
+        public static Ports free() {
+            return new Ports(0, 0, 0, 0, 0, 0, 0);
+        }
+    }
+
+    /** A throw-away suite on free ports, as tests and measurements want it. */
+    public static SuiteSettings throwAway(String window) {
+        return new SuiteSettings(null, null, "farm", window, null, Ports.free(), null, null);
+    }
+
+    /** The same suite with its files in a directory that stays. */
+    public SuiteSettings keptIn(Path directory) {
+        return new SuiteSettings(directory, kafkaProperties, fiwareService, window, fields, ports, orion, kafka);
+    }
+}

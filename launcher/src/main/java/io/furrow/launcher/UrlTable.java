@@ -1,0 +1,32 @@
+package io.furrow.launcher;
+
+import java.io.PrintWriter;
+
+/** Where everything is, printed once. */
+final class UrlTable {
+    private UrlTable() {}
+
+    static void print(PrintWriter out, Suite suite) {
+        out.println();
+        row(out, "Flink web UI", suite.flink());
+        row(out, "Kafka", suite.kafka().bootstrapServers());
+        row(out, "Connect REST", suite.connect() + "/connectors");
+        row(out, "Notifications (NGSI source)", suite.listener());
+        row(out, "Context broker (NGSI-v2)", suite.contextBroker() + "/v2/entities");
+        if (suite.hasStandIn()) {
+            row(out, "IoT Agent", suite.devices().iotAgent() + "/iot/devices");
+            row(
+                    out,
+                    "MQTT",
+                    "%s  user %s, password %s".formatted(suite.devices().mqtt(), Suite.MQTT_USER, Suite.MQTT_PASSWORD));
+        }
+        row(out, "Tenant", "fiware-service: " + suite.fiwareService());
+        row(out, "Files and log", suite.directory());
+        out.println();
+        out.flush();
+    }
+
+    private static void row(PrintWriter out, String what, Object where) {
+        out.printf("  %-30s %s%n", what, where);
+    }
+}

@@ -1,0 +1,2 @@
+/** The whole suite started by one command. */
+package io.furrow.launcher;

@@ -1,0 +1,71 @@
+package io.furrow.launcher.status;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.Properties;
+import java.util.function.Consumer;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.WakeupException;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Reads averages and collisions from the moment it is made, on a thread of its own. */
+final class Results implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(Results.class);
+
+    private final KafkaConsumer<byte[], byte[]> consumer;
+    private final Consumer<Entity> listener;
+    private final Thread thread = new Thread(this::read, "status-results");
+
+    /** @param listener gets each result entity, always on the same thread */
+    Results(Properties client, Consumer<Entity> listener) {
+        Properties properties = new Properties();
+        properties.putAll(client);
+        properties.setProperty("isolation.level", "read_committed");
+        properties.setProperty("auto.offset.reset", "latest");
+        this.consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        this.listener = listener;
+    }
+
+    void start() {
+        List<TopicPartition> partitions = List.of(Topics.TEMPERATURE, Topics.COLLISION).stream()
+                .flatMap(topic -> consumer.partitionsFor(topic).stream())
+                .map(info -> new TopicPartition(info.topic(), info.partition()))
+                .toList();
+        consumer.assign(partitions);
+        consumer.seekToEnd(partitions);
+        thread.setDaemon(true);
+        thread.start();
+    }
+
+    private void read() {
+        try (consumer) {
+            while (true) {
+                consumer.poll(Duration.ofMillis(500)).forEach(this::tell);
+            }
+        } catch (WakeupException e) {
+            LOG.debug("closed", e);
+        }
+    }
+
+    private void tell(ConsumerRecord<byte[], byte[]> record) {
+        try {
+            listener.accept(Entity.parse(record.value()));
+        } catch (UnreadableException e) {
+            LOG.warn("{}-{}@{} is no entity", record.topic(), record.partition(), record.offset(), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        consumer.wakeup();
+    }
+}

@@ -1,0 +1,48 @@
+package io.furrow.connect.sink;
+
+import java.util.Collections;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.connect.connector.Task;
+import org.apache.kafka.connect.sink.SinkConnector;
+
+import io.furrow.connect.PluginVersion;
+
+/** Writes the entities of topics into a context broker. Tasks share the partitions. */
+public class NgsiSinkConnector extends SinkConnector {
+    private Map<String, String> properties;
+
+    /** Made by the worker. */
+    public NgsiSinkConnector() {}
+
+    @Override
+    public String version() {
+        return PluginVersion.get();
+    }
+
+    @Override
+    public ConfigDef config() {
+        return NgsiSinkConfig.definition();
+    }
+
+    @Override
+    public Class<? extends Task> taskClass() {
+        return NgsiSinkTask.class;
+    }
+
+    @Override
+    public void start(Map<String, String> properties) {
+        new NgsiSinkConfig(properties);
+        this.properties = Map.copyOf(properties);
+    }
+
+    @Override
+    public List<Map<String, String>> taskConfigs(int maxTasks) {
+        return Collections.nCopies(maxTasks, properties);
+    }
+
+    @Override
+    public void stop() {}
+}

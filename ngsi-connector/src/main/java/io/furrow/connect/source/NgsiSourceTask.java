@@ -1,0 +1,128 @@
+package io.furrow.connect.source;
+
+import java.io.UncheckedIOException;
+import java.net.InetSocketAddress;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.atomic.AtomicReference;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.producer.RecordMetadata;
+import org.apache.kafka.connect.data.Schema;
+import org.apache.kafka.connect.errors.ConnectException;
+import org.apache.kafka.connect.header.ConnectHeaders;
+import org.apache.kafka.connect.source.SourceRecord;
+import org.apache.kafka.connect.source.SourceTask;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.connect.PluginVersion;
+import io.furrow.connect.source.PendingNotifications.Pending;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** Listens for notifications, hands their records to the worker and answers when Kafka has them. */
+public class NgsiSourceTask extends SourceTask {
+    private static final Logger LOG = LoggerFactory.getLogger(NgsiSourceTask.class);
+
+    private static final String NOTIFICATION = "notification";
+    private static final Duration POLL_WAIT = Duration.ofMillis(200);
+    private static final Duration BIND_PATIENCE = Duration.ofSeconds(10);
+    private static final Duration IDLE_BEYOND_ACK = Duration.ofSeconds(30);
+
+    private final AtomicReference<NotificationServer> server = new AtomicReference<>();
+    private volatile PendingNotifications pending;
+    private SourceCounters counters;
+    private Map<String, String> partition;
+    private int batchSize;
+
+    /** Made by the worker. */
+    public NgsiSourceTask() {}
+
+    @Override
+    public String version() {
+        return PluginVersion.get();
+    }
+
+    @Override
+    public void start(Map<String, String> properties) {
+        NgsiSourceConfig config = new NgsiSourceConfig(properties);
+        counters = new SourceCounters();
+        pending = new PendingNotifications(config.maxPendingCount(), config.maxPendingBytes());
+        partition = Map.of("connector", config.name());
+        batchSize = config.batchSize();
+        server.set(listen(config));
+        LOG.info("{} takes notifications on {}:{}", config.name(), config.host(), port());
+    }
+
+    private NotificationServer listen(NgsiSourceConfig config) {
+        NotificationTranslator translator = new NotificationTranslator(config.translation(), counters);
+        ByteBudget bodies = new ByteBudget(config.maxPendingBytes());
+        NotificationHandler.Limits limits =
+                new NotificationHandler.Limits(config.maxBodyBytes(), bodies, config.ackTimeout());
+        NotificationHandler handler = new NotificationHandler(translator, pending, counters, limits, this::health);
+        InetSocketAddress address = new InetSocketAddress(config.host(), config.port());
+        try {
+            Duration idle = config.ackTimeout().plus(IDLE_BEYOND_ACK);
+            return NotificationServer.start(address, handler, idle, BIND_PATIENCE);
+        } catch (UncheckedIOException e) {
+            String remedy = "; free the address or change " + NgsiSourceConfig.HOST + " or " + NgsiSourceConfig.PORT;
+            throw new ConnectException(e.getCause().getMessage() + remedy, e);
+        }
+    }
+
+    /** The port that is listened on. */
+    int port() {
+        return server.get().port();
+    }
+
+    private byte[] health() {
+        ObjectNode health = counters.toJson();
+        health.put("pending", pending.count()).put("pendingBytes", pending.bytes());
+        return NgsiJson.write(health);
+    }
+
+    @Override
+    public List<SourceRecord> poll() throws InterruptedException {
+        List<Pending> next = pending.next(batchSize, POLL_WAIT);
+        return next.isEmpty() ? null : next.stream().map(this::toRecord).toList();
+    }
+
+    private SourceRecord toRecord(Pending next) {
+        OutgoingRecord record = next.record();
+        ConnectHeaders headers = new ConnectHeaders();
+        record.headers().forEach(headers::addString);
+        return new SourceRecord(
+                partition,
+                Map.of(NOTIFICATION, next.notification()),
+                record.topic(),
+                null,
+                record.key() == null ? null : Schema.STRING_SCHEMA,
+                record.key(),
+                Schema.BYTES_SCHEMA,
+                record.value(),
+                record.time().toEpochMilli(),
+                headers);
+    }
+
+    /** Without metadata the record was filtered out or skipped by the worker's own settings: that is the end of it, too. */
+    @Override
+    public void commitRecord(SourceRecord record, RecordMetadata metadata) {
+        if (metadata == null) {
+            counters.skipped.increment();
+        }
+        pending.acknowledge((Long) record.sourceOffset().get(NOTIFICATION));
+    }
+
+    @Override
+    public void stop() {
+        PendingNotifications open = pending;
+        if (open != null) {
+            open.close();
+        }
+        NotificationServer listening = server.getAndSet(null);
+        if (listening != null) {
+            listening.close();
+        }
+    }
+}

@@ -1,0 +1,138 @@
+package io.furrow.connect.source;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Optional;
+import java.util.regex.Pattern;
+
+import io.furrow.connect.source.Translation.Refusal;
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTime;
+import io.furrow.model.event.Origin;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Notification;
+import io.furrow.model.ngsi.Notification.Rejected;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Turns a notification into records: one per entity, one dead letter per entity that cannot be read, and one dead letter
+ * with the original bytes where nothing can be read. No record is larger than {@link Settings#maxRecordBytes}.
+ */
+final class NotificationTranslator {
+    static final String STAGE = "ngsi-source";
+
+    private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
+    private static final int LONGEST_MESSAGE = 500;
+    private static final int HEADERS_AT_MOST = 32 * 1024;
+
+    /**
+     * @param name of the connector, for {@code ce_source} where no subscription is named
+     * @param excluded entities of a type that one of these matches as a whole are dropped
+     */
+    record Settings(
+            String name,
+            String topic,
+            String deadLetterTopic,
+            List<Pattern> excluded,
+            Duration maxClockSkew,
+            int maxRecordBytes) {}
+
+    private final Settings settings;
+    private final SourceCounters counters;
+    private final ClockReport clocks = new ClockReport();
+
+    NotificationTranslator(Settings settings, SourceCounters counters) {
+        this.settings = settings;
+        this.counters = counters;
+    }
+
+    Translation translate(ReceivedNotification received) {
+        counters.notifications.increment();
+        if (!received.complete()) {
+            String message =
+                    "the body is larger than " + received.body().length + " bytes; only these were kept (truncated)";
+            return refused(received, new Refusal(Reason.TOO_LARGE, message));
+        }
+        try {
+            return translate(Notification.read(received.body(), received.attrsFormat()), received);
+        } catch (UnreadableException e) {
+            return refused(received, new Refusal(e.reason(), e.getMessage()));
+        }
+    }
+
+    private Translation translate(Notification notification, ReceivedNotification received) {
+        String source = "/ngsi/"
+                + notification
+                        .subscriptionId()
+                        .filter(id -> SUBSCRIPTION.matcher(id).matches())
+                        .orElse(settings.name());
+        List<OutgoingRecord> records = new ArrayList<>();
+        for (Entity entity : notification.entities()) {
+            if (isExcluded(entity)) {
+                counters.excluded.increment();
+            } else {
+                records.add(translate(entity, source, received));
+            }
+        }
+        for (Rejected rejected : notification.rejected()) {
+            Refusal refusal = new Refusal(rejected.reason(), rejected.message());
+            records.add(deadLetter(NgsiJson.write(rejected.reported()), refusal, received));
+        }
+        return new Translation(records, refusalOf(notification));
+    }
+
+    private boolean isExcluded(Entity entity) {
+        return settings.excluded().stream()
+                .anyMatch(type -> type.matcher(entity.type()).matches());
+    }
+
+    private OutgoingRecord translate(Entity entity, String source, ReceivedNotification received) {
+        EntityEvent event =
+                EntityEvent.of(entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
+        OutgoingRecord record = new OutgoingRecord(
+                settings.topic(), entity.id(), entity.toBytes(), event.time().time(), event.headers(source));
+        if (record.bytes() > settings.maxRecordBytes()) {
+            String message = "the entity makes a record of " + record.bytes() + " bytes, the limit is "
+                    + settings.maxRecordBytes();
+            return deadLetter(record.value(), new Refusal(Reason.TOO_LARGE, message), received);
+        }
+        if (event.time().basis() == EventTime.Basis.RECEIPT_FOR_FUTURE) {
+            counters.clockAhead.increment();
+            clocks.note(event);
+        }
+        counters.accepted.increment();
+        return record;
+    }
+
+    /** A request of which nothing can be used is the sender's fault; one good entity makes it a good request. */
+    private static Optional<Refusal> refusalOf(Notification notification) {
+        return notification.entities().isEmpty()
+                ? notification.rejected().stream()
+                        .findFirst()
+                        .map(rejected -> new Refusal(rejected.reason(), rejected.message()))
+                : Optional.empty();
+    }
+
+    private Translation refused(ReceivedNotification received, Refusal refusal) {
+        return new Translation(List.of(deadLetter(received.body(), refusal, received)), Optional.of(refusal));
+    }
+
+    private OutgoingRecord deadLetter(byte[] original, Refusal refusal, ReceivedNotification received) {
+        counters.rejected.increment();
+        int room = settings.maxRecordBytes() - HEADERS_AT_MOST;
+        boolean fits = original.length <= room;
+        String message = shortened(refusal.message()) + (fits ? "" : " (truncated to " + room + " bytes)");
+        DeadLetter letter = new DeadLetter(refusal.reason(), message, STAGE, shortened(received.sender()));
+        byte[] value = fits ? original : Arrays.copyOf(original, room);
+        return new OutgoingRecord(settings.deadLetterTopic(), null, value, received.at(), letter.headers());
+    }
+
+    private static String shortened(String text) {
+        return text.length() <= LONGEST_MESSAGE ? text : text.substring(0, LONGEST_MESSAGE) + "…";
+    }
+}

@@ -1,0 +1,160 @@
+package io.furrow.connect;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.UncheckedIOException;
+import java.net.InetAddress;
+import java.net.ServerSocket;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.nio.file.DirectoryStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Map;
+import java.util.zip.ZipEntry;
+import java.util.zip.ZipInputStream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.embedded.EmbeddedConnect;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** A real broker and a real worker that knows the connectors from the packaged plugin folder. */
+public final class ConnectRig implements AutoCloseable {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+
+    private final Path directory;
+    private final HttpClient client =
+            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
+    private final int kafkaPort = freePort();
+    private EmbeddedKafka kafka;
+    private final EmbeddedConnect worker;
+
+    private ConnectRig(Path directory) {
+        this.directory = directory;
+        startKafka();
+        worker = EmbeddedConnect.start(bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, Map.of());
+    }
+
+    public static ConnectRig start(Path directory) {
+        return new ConnectRig(directory);
+    }
+
+    public String bootstrapServers() {
+        return "127.0.0.1:" + kafkaPort;
+    }
+
+    /** Starts the broker, also after {@link #stopKafka()}: on the same port with the same log. */
+    public void startKafka() {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"), kafkaPort);
+    }
+
+    public void stopKafka() {
+        kafka.close();
+    }
+
+    /** A connector from its example in {@code config/} with other options; returns when its task runs. */
+    public void create(String example, Map<String, String> options) {
+        JsonNode shipped = json(read(Path.of("config", example + ".json")));
+        ObjectNode config = shipped.path("config").deepCopy();
+        options.forEach(config::put);
+        String name = shipped.path("name").textValue();
+        HttpResponse<String> created =
+                send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/config"))
+                        .header("Content-Type", "application/json")
+                        .PUT(BodyPublishers.ofString(config.toString())));
+        assertThat(created.statusCode()).as(created.body()).isBetween(200, 201);
+        awaitRunning(name);
+    }
+
+    public void restart(String name) {
+        HttpResponse<String> restarted =
+                send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/restart?includeTasks=true"))
+                        .POST(BodyPublishers.noBody()));
+        assertThat(restarted.statusCode()).as(restarted.body()).isEqualTo(202);
+        awaitRunning(name);
+    }
+
+    /** The worker's answer to {@code GET path}. */
+    public JsonNode get(String path) {
+        return json(
+                send(HttpRequest.newBuilder(worker.uri().resolve(path))).body().getBytes());
+    }
+
+    private void awaitRunning(String name) {
+        await().atMost(PATIENCE).untilAsserted(() -> {
+            JsonNode status = get("/connectors/" + name + "/status");
+            assertThat(status.path("tasks").path(0).path("state").asText())
+                    .as(status.toString())
+                    .isEqualTo("RUNNING");
+        });
+    }
+
+    private HttpResponse<String> send(HttpRequest.Builder request) {
+        return client.sendAsync(request.build(), HttpResponse.BodyHandlers.ofString())
+                .join();
+    }
+
+    @Override
+    public void close() {
+        worker.close();
+        kafka.close();
+    }
+
+    /** A port that was free a moment ago. */
+    public static int freePort() {
+        try (ServerSocket socket = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
+            return socket.getLocalPort();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
+    private static Path unpackedPlugin(Path into) {
+        try (DirectoryStream<Path> zips = Files.newDirectoryStream(Path.of("target"), "*-plugin.zip");
+                ZipInputStream zip =
+                        new ZipInputStream(Files.newInputStream(zips.iterator().next()))) {
+            for (ZipEntry entry = zip.getNextEntry(); entry != null; entry = zip.getNextEntry()) {
+                Path file = into.resolve(entry.getName());
+                if (entry.isDirectory()) {
+                    Files.createDirectories(file);
+                } else {
+                    copy(zip, file);
+                }
+            }
+            return into;
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
+    private static void copy(InputStream from, Path file) throws IOException {
+        Files.createDirectories(file.getParent());
+        Files.copy(from, file);
+    }
+
+    private static byte[] read(Path file) {
+        try {
+            return Files.readAllBytes(file);
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
+    private static JsonNode json(byte[] bytes) {
+        try {
+            return NgsiJson.read(bytes);
+        } catch (UnreadableException e) {
+            throw new AssertionError(new String(bytes), e);
+        }
+    }
+}

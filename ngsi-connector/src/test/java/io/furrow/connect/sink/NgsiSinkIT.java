@@ -1,0 +1,130 @@
+package io.furrow.connect.sink;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Map;
+import java.util.concurrent.atomic.AtomicInteger;
+
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.ConnectRig;
+import io.furrow.connect.TopicReader;
+import io.furrow.connect.sink.FakeContextBroker.Reply;
+import io.furrow.connect.sink.FakeContextBroker.Update;
+import io.furrow.model.ngsi.Entity;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class NgsiSinkIT {
+    @TempDir
+    static Path directory;
+
+    private static ConnectRig rig;
+    private final FakeContextBroker broker = new FakeContextBroker();
+
+    @BeforeAll
+    static void startWorker() {
+        rig = ConnectRig.start(directory);
+    }
+
+    @AfterAll
+    static void stopWorker() {
+        rig.close();
+    }
+
+    @AfterEach
+    void stopBroker() {
+        broker.close();
+    }
+
+    @Test
+    void setsTheOneRefusedOfTwentyAsideAndWritesTheOthers() {
+        broker.behaviour = update -> update.body().toString().contains("\"e7\"")
+                ? new Reply(400, "{\"error\":\"BadRequest\",\"description\":\"forbidden characters\"}")
+                : Reply.WRITTEN;
+        produce("isolated", 20);
+
+        write("isolated");
+
+        await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 19);
+        try (TopicReader dead = new TopicReader(rig.bootstrapServers(), "isolated.dead")) {
+            assertThat(dead.atLeast(1))
+                    .singleElement()
+                    .satisfies(letter -> assertThat(letter.key()).isEqualTo("e7"))
+                    .extracting(letter -> new String(
+                            letter.headers()
+                                    .lastHeader("__connect.errors.exception.message")
+                                    .value(),
+                            StandardCharsets.UTF_8))
+                    .asString()
+                    .contains("forbidden characters");
+        }
+        assertThat(broker.requests).allSatisfy(update -> {
+            assertThat(update.service()).isEqualTo("agri");
+            assertThat(update.servicePath()).isEqualTo("/plot1");
+        });
+    }
+
+    @Test
+    void triesAgainWhenTheContextBrokerIsOverloaded() {
+        AtomicInteger refusals = new AtomicInteger(3);
+        broker.behaviour = update -> refusals.getAndDecrement() > 0 ? new Reply(503, "overloaded") : Reply.WRITTEN;
+        produce("retried", 5);
+
+        write("retried");
+
+        await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 5);
+        assertThat(broker.requests)
+                .hasSizeGreaterThan(3)
+                .extracting(Update::path)
+                .containsOnly("/v2/op/update");
+        assertThat(rig.get("/connectors/ngsi-sink/status")
+                        .path("tasks")
+                        .path(0)
+                        .path("state")
+                        .asText())
+                .isEqualTo("RUNNING");
+    }
+
+    private void write(String topic) {
+        rig.create(
+                "ngsi-sink",
+                Map.of(
+                        "topics",
+                        topic,
+                        "context.broker.url",
+                        broker.url().toString(),
+                        "errors.deadletterqueue.topic.name",
+                        topic + ".dead",
+                        "retry.backoff.ms",
+                        "100",
+                        "consumer.override.metadata.max.age.ms",
+                        "500"));
+    }
+
+    private static void produce(String topic, int count) {
+        try (KafkaProducer<String, byte[]> producer = new KafkaProducer<>(
+                Map.of("bootstrap.servers", rig.bootstrapServers()),
+                new StringSerializer(),
+                new ByteArraySerializer())) {
+            for (int i = 0; i < count; i++) {
+                byte[] entity =
+                        Entity.builder("e" + i, "T").integer("x", i).build().toBytes();
+                ProducerRecord<String, byte[]> record = new ProducerRecord<>(topic, "e" + i, entity);
+                record.headers().add("fiware-service", "agri".getBytes(StandardCharsets.UTF_8));
+                record.headers().add("fiware-servicepath", "/plot1".getBytes(StandardCharsets.UTF_8));
+                producer.send(record);
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+package io.furrow.connect.sink;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.errors.ConnectException;
+import org.apache.kafka.connect.errors.RetriableException;
+import org.apache.kafka.connect.sink.SinkRecord;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.connect.sink.FakeContextBroker.Reply;
+import io.furrow.connect.sink.FakeContextBroker.Update;
+import io.furrow.model.ngsi.Entity;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.groups.Tuple.tuple;
+
+class NgsiSinkTaskTest {
+    private final FakeContextBroker broker = new FakeContextBroker();
+    private final FakeSinkContext context = new FakeSinkContext(true);
+    private final NgsiSinkTask task = started(context, broker.url().toString());
+    private long offset;
+
+    @AfterEach
+    void stop() {
+        task.stop();
+        broker.close();
+    }
+
+    @Test
+    void writesADeliveryAsOneAppendPerScope() {
+        SinkRecord other = record("b", entity("b", 1));
+        other.headers().addString("fiware-service", "agri").addString("fiware-servicepath", "/plot1");
+
+        task.put(List.of(record("a", entity("a", 1)), other, record("a", entity("a", 2))));
+
+        assertThat(broker.requests)
+                .extracting(Update::path, Update::service, Update::servicePath, Update::size)
+                .containsExactlyInAnyOrder(
+                        tuple("/v2/op/update", "farm", "/root", 1), tuple("/v2/op/update", "agri", "/plot1", 1));
+        assertThat(broker.requests.get(0).body()).hasToString("""
+                        {"actionType":"append","entities":[{"id":"a","type":"T",\
+                        "x":{"type":"Integer","value":2,"metadata":{}}}]}""");
+    }
+
+    @Test
+    void readsBytesTextAndSchemalessJson() {
+        Object map = Map.of("id", "c", "type", "T", "x", Map.of("type", "Number", "value", 3L, "metadata", Map.of()));
+
+        task.put(List.of(record("a", entity("a", 1)), record("b", new String(entity("b", 1))), record("c", map)));
+
+        assertThat(broker.entities).containsOnlyKeys("a", "b", "c");
+    }
+
+    @Test
+    void findsTheOneOfABatchThatIsRefused() {
+        broker.behaviour = update -> update.body().toString().contains("\"e7\"")
+                ? new Reply(400, "{\"error\":\"BadRequest\",\"description\":\"invalid e7\"}")
+                : Reply.WRITTEN;
+        List<SinkRecord> records = new ArrayList<>();
+        for (int i = 0; i < 20; i++) {
+            records.add(record("e" + i, entity("e" + i, i)));
+        }
+
+        task.put(records);
+
+        assertThat(broker.entities).hasSize(19).doesNotContainKey("e7");
+        assertThat(context.reported).singleElement().satisfies(reported -> {
+            assertThat(reported.record().key()).isEqualTo("e7");
+            assertThat(reported.cause()).hasMessageContaining("400").hasMessageContaining("invalid e7");
+        });
+    }
+
+    @Test
+    void reportsWhatCannotBeReadAndWritesTheRest() {
+        SinkRecord badScope = record("c", entity("c", 1));
+        badScope.headers().addString("fiware-service", "a\nb");
+
+        task.put(List.of(record("a", "no json".getBytes()), record("b", entity("b", 1)), badScope, record("d", 5)));
+
+        assertThat(broker.entities).containsOnlyKeys("b");
+        assertThat(context.reported)
+                .extracting(reported -> reported.record().key())
+                .containsExactly("a", "c", "d");
+    }
+
+    @Test
+    void ignoresDeletions() {
+        task.put(List.of(record("a", null), record("b", entity("b", 1))));
+
+        assertThat(broker.entities).containsOnlyKeys("b");
+        assertThat(context.reported).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(ints = {500, 503, 429, 408})
+    void asksForTheSameRecordsAgainWhenTheContextBrokerIsAway(int status) {
+        broker.behaviour = update -> new Reply(status, "later");
+
+        assertThatThrownBy(() -> task.put(List.of(record("x", "no json".getBytes()), record("a", entity("a", 1)))))
+                .isInstanceOf(RetriableException.class)
+                .hasMessageContaining(status + " later");
+        assertThat(context.timeouts).containsExactly(50L);
+        assertThat(context.reported).as("it will come again, once is enough").isEmpty();
+    }
+
+    @Test
+    void asksForTheSameRecordsAgainWhenNobodyListens() {
+        broker.close();
+
+        assertThatThrownBy(() -> task.put(List.of(record("a", entity("a", 1)))))
+                .isInstanceOf(RetriableException.class)
+                .hasMessageContaining(broker.url().getAuthority().substring(0, 10));
+    }
+
+    @Test
+    void failsWhereNoReporterIsSetNamingTheRecordAndTheWordsOfTheBroker() {
+        NgsiSinkTask strict = started(new FakeSinkContext(false), broker.url().toString());
+        broker.behaviour = update -> new Reply(422, "too odd");
+
+        assertThatThrownBy(() -> strict.put(List.of(record("a", entity("a", 1)))))
+                .isInstanceOf(ConnectException.class)
+                .isNotInstanceOf(RetriableException.class)
+                .hasMessageContaining("results-0@0")
+                .hasMessageContaining("422 too odd");
+    }
+
+    @ParameterizedTest
+    @ValueSource(ints = {301, 401, 404})
+    void failsWhereWhatAnswersIsNoContextBroker(int status) {
+        broker.behaviour = update -> new Reply(status, "");
+
+        assertThatThrownBy(() -> task.put(List.of(record("a", entity("a", 1)))))
+                .isInstanceOf(ConnectException.class)
+                .isNotInstanceOf(RetriableException.class)
+                .hasMessageContaining("context.broker.url");
+        assertThat(context.reported).isEmpty();
+    }
+
+    @Test
+    void keepsAnInterruptSet() {
+        Thread.currentThread().interrupt();
+
+        assertThatThrownBy(() -> task.put(List.of(record("a", entity("a", 1))))).isInstanceOf(RetriableException.class);
+        assertThat(Thread.interrupted()).isTrue();
+    }
+
+    private static NgsiSinkTask started(FakeSinkContext context, String url) {
+        NgsiSinkTask task = new NgsiSinkTask();
+        task.initialize(context);
+        task.start(Map.of(
+                "context.broker.url", url + "/",
+                "fiware.service", "farm",
+                "fiware.servicepath", "/root",
+                "retry.backoff.ms", "50"));
+        return task;
+    }
+
+    private SinkRecord record(String key, Object value) {
+        long time = 1_000 + offset;
+        return new SinkRecord("results", 0, null, key, null, value, offset++, time, TimestampType.CREATE_TIME);
+    }
+
+    private static byte[] entity(String id, long x) {
+        return Entity.builder(id, "T").integer("x", x).build().toBytes();
+    }
+}

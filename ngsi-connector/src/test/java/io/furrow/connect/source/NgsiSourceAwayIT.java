@@ -1,0 +1,64 @@
+package io.furrow.connect.source;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Map;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.ConnectRig;
+import io.furrow.connect.TopicReader;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class NgsiSourceAwayIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final int NO_ANSWER = 0;
+
+    private final HttpClient client =
+            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
+
+    /** While Kafka is away the worker itself may stop the task: the sender then sees a closed connection. */
+    @Test
+    void saysNoOkWhileKafkaIsAwayAndGoesOnWhenItIsBack(@TempDir Path directory) throws InterruptedException {
+        int port = ConnectRig.freePort();
+        URI source = URI.create("http://127.0.0.1:" + port + "/notify");
+        try (ConnectRig rig = ConnectRig.start(directory)) {
+            rig.create("ngsi-source", Map.of("listen.port", Integer.toString(port), "ack.timeout.ms", "1500"));
+            await().atMost(PATIENCE).until(() -> post(source, "before") == 200);
+
+            rig.stopKafka();
+            int whileAway = post(source, "meanwhile");
+            rig.startKafka();
+
+            assertThat(whileAway).isIn(504, 503, NO_ANSWER);
+            await().atMost(PATIENCE).until(() -> post(source, "after") == 200);
+            try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "data.raw")) {
+                await().atMost(PATIENCE)
+                        .untilAsserted(() -> assertThat(reader.atLeast(2))
+                                .extracting(ConsumerRecord::key)
+                                .contains("before", "after"));
+            }
+        }
+    }
+
+    private int post(URI source, String id) throws InterruptedException {
+        HttpRequest request = HttpRequest.newBuilder(source)
+                .POST(BodyPublishers.ofString("{\"id\": \"" + id + "\", \"x\": 1}"))
+                .build();
+        try {
+            return client.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
+        } catch (IOException e) {
+            return NO_ANSWER;
+        }
+    }
+}

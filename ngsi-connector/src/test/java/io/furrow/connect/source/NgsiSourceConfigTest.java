@@ -1,0 +1,66 @@
+package io.furrow.connect.source;
+
+import java.util.Map;
+
+import org.apache.kafka.common.config.ConfigException;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class NgsiSourceConfigTest {
+    @Test
+    void needsNoOptionAtAll() {
+        NgsiSourceConfig config = new NgsiSourceConfig(Map.of());
+
+        assertThat(config.host()).isEqualTo("127.0.0.1");
+        assertThat(config.port()).isEqualTo(8090);
+        assertThat(config.topic()).isEqualTo("data.raw");
+        assertThat(config.deadLetterTopic()).isEqualTo("data.raw.dead");
+        assertThat(config.translation().excluded())
+                .extracting(Object::toString)
+                .containsExactly("Analytics:.*", "Domain", "Mission");
+    }
+
+    @Test
+    void derivesTheLargestRecordFromTheProducerOfTheConnector() {
+        assertThat(new NgsiSourceConfig(Map.of()).maxRecordBytes()).isEqualTo(1024 * 1024 - 16 * 1024);
+        assertThat(new NgsiSourceConfig(Map.of("producer.override.max.request.size", "16777216")).maxRecordBytes())
+                .isEqualTo(16777216 - 16 * 1024);
+        assertThat(new NgsiSourceConfig(Map.of("max.record.bytes", "500000")).maxRecordBytes())
+                .isEqualTo(500_000);
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "listen.port, 70000",
+        "listen.host, ''",
+        "topic, data raw",
+        "dead.letter.topic, a/b",
+        "dead.letter.topic, data.raw",
+        "exclude.types, 'A,(B'",
+        "max.clock.skew.ms, 3600000",
+        "max.body.bytes, 0",
+        "max.record.bytes, 1000",
+        "max.pending.count, 0",
+        "max.pending.bytes, 1000",
+        "ack.timeout.ms, soon",
+        "batch.size, 0"
+    })
+    void namesTheOptionThatCannotBeUsed(String option, String value) {
+        assertThatThrownBy(() -> new NgsiSourceConfig(Map.of(option, value)))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining(option);
+    }
+
+    @Test
+    void documentsEveryOption() {
+        assertThat(NgsiSourceConfig.definition().configKeys().values()).allSatisfy(option -> {
+            assertThat(option.documentation).endsWith(".").hasSizeGreaterThan(20);
+            assertThat(option.group).isNotBlank();
+            assertThat(option.validator).as(option.name).isNotNull();
+        });
+    }
+}

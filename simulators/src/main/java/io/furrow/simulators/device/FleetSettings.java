@@ -1,0 +1,30 @@
+package io.furrow.simulators.device;
+
+import java.net.URI;
+
+/**
+ * Where simulated devices report, and as whom.
+ *
+ * @param contextBroker base of the NGSI-v2 interface, as in {@code http://127.0.0.1:1026}
+ * @param iotAgent base of the IoT Agent's provisioning interface, as in {@code http://127.0.0.1:4041}
+ * @param mqtt the MQTT broker, as in {@code tcp://127.0.0.1:1883}
+ * @param mqttUser user name at the MQTT broker
+ * @param mqttPassword its password; left out of {@link #toString()}
+ * @param fiwareService tenant; blank for the default one
+ * @param servicePath service path, {@code /} for the root
+ */
+public record FleetSettings(
+        URI contextBroker,
+        URI iotAgent,
+        URI mqtt,
+        String mqttUser,
+        String mqttPassword,
+        String fiwareService,
+        String servicePath) {
+
+    @Override
+    public String toString() {
+        return "FleetSettings[contextBroker=%s, iotAgent=%s, mqtt=%s as %s, scope=%s %s]"
+                .formatted(contextBroker, iotAgent, mqtt, mqttUser, fiwareService, servicePath);
+    }
+}

@@ -1,0 +1,88 @@
+package io.furrow.simulators.fiware;
+
+import java.time.Instant;
+import java.util.Map;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * An attribute as a request gives it.
+ *
+ * @param type empty: that of the stored attribute, for a new one a default by the value
+ * @param metadata empty: that of the stored attribute
+ */
+record AttributeInput(Optional<String> type, JsonNode value, Optional<ObjectNode> metadata) {
+    static AttributeInput of(String type, JsonNode value) {
+        return new AttributeInput(Optional.of(type), value, Optional.empty());
+    }
+
+    static AttributeInput valueOnly(JsonNode value) {
+        return new AttributeInput(Optional.empty(), value, Optional.empty());
+    }
+
+    AttributeInput withMetadata(String name, ObjectNode entry) {
+        ObjectNode all = metadata.map(ObjectNode::deepCopy).orElseGet(JsonNodeFactory.instance::objectNode);
+        all.set(name, entry);
+        return new AttributeInput(type, value, Optional.of(all));
+    }
+
+    Attribute created(Instant now) throws NgsiError {
+        return attribute(
+                type.orElseGet(() -> defaultType(value)),
+                metadata.orElseGet(JsonNodeFactory.instance::objectNode),
+                now,
+                now);
+    }
+
+    /** Metadata that the request does not name stay, unless it overrides them all. */
+    Attribute merged(Attribute before, boolean overrideMetadata, Instant now) throws NgsiError {
+        ObjectNode merged = before.metadata();
+        if (overrideMetadata) {
+            merged = metadata.orElseGet(JsonNodeFactory.instance::objectNode);
+        } else if (metadata.isPresent()) {
+            merged = before.metadata().deepCopy();
+            merged.setAll(metadata.get());
+        }
+        return attribute(type.orElse(before.type()), merged, before.created(), now);
+    }
+
+    private Attribute attribute(String resolvedType, ObjectNode resolvedMetadata, Instant created, Instant modified)
+            throws NgsiError {
+        return new Attribute(resolvedType, dated(resolvedType, value), datedAll(resolvedMetadata), created, modified);
+    }
+
+    private static ObjectNode datedAll(ObjectNode metadata) throws NgsiError {
+        ObjectNode all = JsonNodeFactory.instance.objectNode();
+        for (Map.Entry<String, JsonNode> entry : metadata.properties()) {
+            String type = entry.getValue().path("type").asText();
+            ObjectNode dated = JsonNodeFactory.instance.objectNode().put("type", type);
+            dated.set("value", dated(type, entry.getValue().get("value")));
+            all.set(entry.getKey(), dated);
+        }
+        return all;
+    }
+
+    /** The context broker keeps a date as a number, so it gives every date back in its own spelling. */
+    private static JsonNode dated(String type, JsonNode value) throws NgsiError {
+        if (value.isNull() || !type.equals("DateTime") && !type.equals("ISO8601")) {
+            return value;
+        }
+        Instant time = (value.isTextual() ? NgsiTime.parse(value.textValue()) : Optional.<Instant>empty())
+                .orElseThrow(() -> NgsiError.badRequest("date has an invalid format"));
+        return JsonNodeFactory.instance.textNode(NgsiTime.format(time));
+    }
+
+    /** NGSI-v2, "Partial Representations". */
+    static String defaultType(JsonNode value) {
+        return switch (value.getNodeType()) {
+            case STRING -> "Text";
+            case NUMBER -> "Number";
+            case BOOLEAN -> "Boolean";
+            case OBJECT, ARRAY -> "StructuredValue";
+            default -> "None";
+        };
+    }
+}

@@ -1,0 +1,72 @@
+package io.furrow.simulators.fiware;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.simulators.fiware.EntityUpdate.Action;
+
+/** {@code POST /v2/op/update}: the entities of a batch are updated one after the other, each with its notifications. */
+final class BatchResource {
+    private final ContextBroker broker;
+
+    BatchResource(ContextBroker broker) {
+        this.broker = broker;
+    }
+
+    Reply answer(Call call) throws NgsiError {
+        if (call.path().size() != 3 || !call.path().get(2).equals("update")) {
+            throw NgsiError.noService();
+        }
+        if (!call.method().equals("POST")) {
+            throw NgsiError.badMethod();
+        }
+        JsonNode json = call.json();
+        Action action = Action.of(json.path("actionType").asText());
+        EntityReader reader = new EntityReader(call.option("keyValues"));
+        List<EntityUpdate> updates = new ArrayList<>();
+        for (JsonNode entity : json.path("entities")) {
+            updates.add(reader.entity(entity));
+        }
+        if (updates.isEmpty()) {
+            throw NgsiError.badRequest("empty entities vector");
+        }
+        apply(call, action, updates);
+        return Reply.noContent();
+    }
+
+    /** One entity that is refused does not stop the others. */
+    private void apply(Call call, Action action, List<EntityUpdate> updates) throws NgsiError {
+        FiwareScope scope = call.scope();
+        List<NgsiError> refused = new ArrayList<>();
+        for (EntityUpdate update : updates) {
+            try {
+                apply(call, scope, action, update);
+            } catch (NgsiError e) {
+                refused.add(e);
+            }
+        }
+        if (refused.size() == updates.size()) {
+            throw refused.get(0);
+        }
+        if (!refused.isEmpty()) {
+            throw NgsiError.partial(String.join(
+                    "; ", refused.stream().map(NgsiError::getMessage).toList()));
+        }
+    }
+
+    private void apply(Call call, FiwareScope scope, Action action, EntityUpdate update) throws NgsiError {
+        boolean known = !broker.tenant(scope.service())
+                .find(scope.servicePath(), update.id(), update.type())
+                .isEmpty();
+        if (action == Action.DELETE && update.attributes().isEmpty()) {
+            broker.delete(scope, update.id(), update.type(), call.correlator());
+        } else if (!known && (action == Action.APPEND || action == Action.APPEND_STRICT)) {
+            broker.upsert(scope, update, EntityResource.options(call), call.correlator());
+        } else {
+            broker.update(scope, update, action, EntityResource.options(call), call.correlator());
+        }
+    }
+}

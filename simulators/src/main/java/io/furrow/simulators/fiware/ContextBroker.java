@@ -1,0 +1,176 @@
+package io.furrow.simulators.fiware;
+
+import java.time.Clock;
+import java.time.Instant;
+import java.time.temporal.ChronoUnit;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.TreeSet;
+import java.util.concurrent.ConcurrentHashMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.simulators.fiware.EntityUpdate.Action;
+import io.furrow.simulators.fiware.EntityUpdate.Options;
+
+/** The entities of all tenants, and what happens when one changes: the subscriptions that match are notified. */
+final class ContextBroker {
+    /** Where updates of command attributes go instead of into the entity, as with a registration in Orion. */
+    interface Commands {
+        Set<String> names(FiwareScope scope, String entityId, Optional<String> type);
+
+        void issue(FiwareScope scope, String entityId, Map<String, JsonNode> commands) throws NgsiError;
+    }
+
+    private final Map<String, Tenant> tenants = new ConcurrentHashMap<>();
+    private final Notifier notifier;
+    private final Commands commands;
+    private final Clock clock;
+
+    ContextBroker(Notifier notifier, Commands commands, Clock clock) {
+        this.notifier = notifier;
+        this.commands = commands;
+        this.clock = clock;
+    }
+
+    Tenant tenant(String service) {
+        return tenants.computeIfAbsent(service, name -> new Tenant());
+    }
+
+    /** Milliseconds, as the context broker keeps them. */
+    Instant now() {
+        return clock.instant().truncatedTo(ChronoUnit.MILLIS);
+    }
+
+    void create(FiwareScope scope, EntityUpdate request, Correlator correlator) throws NgsiError {
+        Tenant tenant = tenant(scope.service());
+        Optional<String> type = Optional.of(request.type().orElse(EntityUpdate.DEFAULT_TYPE));
+        synchronized (tenant) {
+            if (!tenant.find(scope.servicePath(), request.id(), type).isEmpty()) {
+                throw NgsiError.exists();
+            }
+            commit(tenant, Change.create(scope, request, now()), correlator);
+        }
+    }
+
+    /** Appends to the entity, or creates it. */
+    void upsert(FiwareScope scope, EntityUpdate request, Options options, Correlator correlator) throws NgsiError {
+        Tenant tenant = tenant(scope.service());
+        synchronized (tenant) {
+            if (tenant.find(scope.servicePath(), request.id(), request.type()).isEmpty()) {
+                create(scope, request, correlator);
+            } else {
+                update(scope, request, Action.APPEND, options, correlator);
+            }
+        }
+    }
+
+    /**
+     * Changes an existing entity. What cannot be done is refused after the rest is done.
+     *
+     * @throws NgsiError 404, 409 or 422, as Orion
+     */
+    void update(FiwareScope scope, EntityUpdate request, Action action, Options options, Correlator correlator)
+            throws NgsiError {
+        Map<String, AttributeInput> own = new LinkedHashMap<>(request.attributes());
+        Map<String, JsonNode> issued = commandsIn(scope, request, action, own);
+        if (!issued.isEmpty()) {
+            commands.issue(scope, request.id(), issued);
+            if (own.isEmpty()) {
+                return;
+            }
+        }
+        Tenant tenant = tenant(scope.service());
+        synchronized (tenant) {
+            StoredEntity before = single(tenant.find(scope.servicePath(), request.id(), request.type()));
+            Set<String> refused = refused(before, own.keySet(), action);
+            own.keySet().removeAll(refused);
+            if (!own.isEmpty() || refused.isEmpty()) {
+                commit(tenant, change(before, own, action, options), correlator);
+            }
+            if (!refused.isEmpty()) {
+                throw refusal(before, refused, action, own.isEmpty());
+            }
+        }
+    }
+
+    /** Deletes one attribute, or all of the entity where none is given. */
+    void delete(FiwareScope scope, String id, Optional<String> type, Correlator correlator) throws NgsiError {
+        Tenant tenant = tenant(scope.service());
+        synchronized (tenant) {
+            StoredEntity before = single(tenant.find(scope.servicePath(), id, type));
+            tenant.remove(before);
+            announce(tenant, Change.delete(before), correlator);
+        }
+    }
+
+    static StoredEntity single(List<StoredEntity> found) throws NgsiError {
+        if (found.size() > 1) {
+            throw NgsiError.ambiguous();
+        }
+        return found.stream().findFirst().orElseThrow(NgsiError::noEntity);
+    }
+
+    private Map<String, JsonNode> commandsIn(
+            FiwareScope scope, EntityUpdate request, Action action, Map<String, AttributeInput> own) {
+        Map<String, JsonNode> issued = new LinkedHashMap<>();
+        if (action != Action.DELETE) {
+            for (String name : commands.names(scope, request.id(), request.type())) {
+                AttributeInput command = own.remove(name);
+                if (command != null) {
+                    issued.put(name, command.value());
+                }
+            }
+        }
+        return issued;
+    }
+
+    private Change change(StoredEntity before, Map<String, AttributeInput> inputs, Action action, Options options)
+            throws NgsiError {
+        return switch (action) {
+            case APPEND, APPEND_STRICT, UPDATE -> Change.merge(before, inputs, options, now());
+            case REPLACE -> Change.replace(before, inputs, now());
+            case DELETE -> Change.without(before, inputs.keySet(), now());
+        };
+    }
+
+    private static Set<String> refused(StoredEntity before, Set<String> names, Action action) {
+        Set<String> refused = new TreeSet<>(names);
+        switch (action) {
+            case UPDATE, DELETE -> refused.removeAll(before.attributes().keySet());
+            case APPEND_STRICT -> refused.retainAll(before.attributes().keySet());
+            case APPEND, REPLACE -> refused.clear();
+        }
+        return refused;
+    }
+
+    private static NgsiError refusal(StoredEntity entity, Set<String> names, Action action, boolean all) {
+        boolean exist = action == Action.APPEND_STRICT;
+        String text = (exist ? "already exist: { " : "do not exist: { ") + entity.id() + "/" + entity.type() + " : "
+                + names + " }";
+        if (!all) {
+            return NgsiError.partial("The following attributes " + text);
+        }
+        return exist
+                ? NgsiError.unprocessable("one or more of the attributes in the request " + text)
+                : NgsiError.noAttribute();
+    }
+
+    private void commit(Tenant tenant, Change change, Correlator correlator) {
+        tenant.put(change.after());
+        announce(tenant, change, correlator);
+    }
+
+    private void announce(Tenant tenant, Change change, Correlator correlator) {
+        Instant now = now();
+        for (Subscription subscription : tenant.subscriptions()) {
+            if (subscription.triggeredBy(change, now)) {
+                notifier.offer(new Notification(subscription, change, correlator.next()));
+            }
+        }
+    }
+}

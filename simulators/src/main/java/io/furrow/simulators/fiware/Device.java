@@ -1,0 +1,55 @@
+package io.furrow.simulators.fiware;
+
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * A device and the entity that stands for it.
+ *
+ * @param mapping its own laid over that of its group
+ * @param json as it was provisioned
+ */
+record Device(
+        FiwareScope scope,
+        String id,
+        String apikey,
+        String entityId,
+        String entityType,
+        DeviceMapping mapping,
+        ObjectNode json) {
+    /** @param group of its scope, if there is one: gives what the device leaves open */
+    static Device read(FiwareScope scope, JsonNode json, Optional<ServiceGroup> group) throws NgsiError {
+        if (!json.path("device_id").isTextual()) {
+            throw new NgsiError(400, "WRONG_SYNTAX", "Wrong syntax in request: a device needs a device_id");
+        }
+        String id = json.get("device_id").textValue();
+        String type = json.path("entity_type")
+                .asText(group.map(ServiceGroup::entityType).orElse(EntityUpdate.DEFAULT_TYPE));
+        DeviceMapping own = DeviceMapping.read(json);
+        String entityId = json.path("entity_name").asText(type + ":" + id);
+        EntityReader.checkEntity(entityId, Optional.of(type));
+        return new Device(
+                scope,
+                id,
+                json.path("apikey").asText(group.map(ServiceGroup::apikey).orElse("")),
+                entityId,
+                type,
+                group.map(of -> own.over(of.mapping())).orElse(own),
+                json.deepCopy());
+    }
+
+    /** A device that nobody provisioned, under a known API key. */
+    static Device unprovisioned(ServiceGroup group, String id) throws NgsiError {
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("device_id", id);
+        return read(group.scope(), json, Optional.of(group));
+    }
+
+    EntityUpdate update(java.util.Map<String, AttributeInput> attributes) {
+        return new EntityUpdate(entityId, Optional.of(entityType), attributes);
+    }
+}

@@ -1,0 +1,140 @@
+package io.furrow.simulators.fiware;
+
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.function.Predicate;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+/** {@code GET /v2/entities}: which entities, in which order, and which page of them. */
+record EntityQuery(
+        Predicate<StoredEntity> filter, Comparator<StoredEntity> order, Page page, PathFilter paths, Rendering shown) {
+    private static final int DEFAULT_LIMIT = 20;
+    private static final int MAX_LIMIT = 1000;
+    private static final Set<String> PARAMETERS = Set.of(
+            "id",
+            "idPattern",
+            "type",
+            "typePattern",
+            "q",
+            "attrs",
+            "metadata",
+            "limit",
+            "offset",
+            "orderBy",
+            "options");
+
+    /** @param counted whether the answer says how many there are on all pages */
+    private record Page(int offset, int limit, boolean counted) {}
+
+    static EntityQuery of(Call call) throws NgsiError {
+        for (String name : call.query().getNames()) {
+            if (!PARAMETERS.contains(name)) {
+                throw NgsiError.unsupported("parameter '" + name + "' in a query of entities");
+            }
+        }
+        Page page = new Page(number(call, "offset", 0), limit(call), call.option("count"));
+        return new EntityQuery(filter(call), order(call.list("orderBy")), page, call.paths(), rendering(call));
+    }
+
+    Reply reply(Tenant tenant) {
+        List<StoredEntity> found = new ArrayList<>();
+        for (StoredEntity entity : tenant.all(paths)) {
+            if (filter.test(entity)) {
+                found.add(entity);
+            }
+        }
+        found.sort(order);
+        ArrayNode entities = JsonNodeFactory.instance.arrayNode();
+        found.stream().skip(page.offset()).limit(page.limit()).map(shown::of).forEach(entities::add);
+        Map<String, String> headers =
+                page.counted() ? Map.of("Fiware-Total-Count", Integer.toString(found.size())) : Map.of();
+        return new Reply(200, Optional.of(entities), headers);
+    }
+
+    static Rendering rendering(Call call) {
+        Rendering.Format format = Rendering.Format.NORMALIZED;
+        for (Rendering.Format candidate : Rendering.Format.values()) {
+            if (!candidate.isBare() && call.option(candidate.label())) {
+                format = candidate;
+            }
+        }
+        return new Rendering(call.list("attrs"), Set.of(), call.list("metadata"), format);
+    }
+
+    private static Predicate<StoredEntity> filter(Call call) throws NgsiError {
+        Predicate<String> id = names(call, "id", "idPattern");
+        Predicate<String> type = names(call, "type", "typePattern");
+        Predicate<StoredEntity> both = entity -> type.test(entity.type()) && id.test(entity.id());
+        return call.parameter("q").isPresent()
+                ? both.and(QueryFilter.parse(call.parameter("q").get()))
+                : both;
+    }
+
+    private static Predicate<String> names(Call call, String exact, String pattern) throws NgsiError {
+        List<String> names = call.list(exact);
+        Optional<String> regex = call.parameter(pattern);
+        if (!names.isEmpty() && regex.isPresent()) {
+            throw NgsiError.badRequest("Incompatible parameters: " + exact + ", " + pattern);
+        }
+        if (regex.isPresent()) {
+            return QueryFilter.pattern(regex.get());
+        }
+        return names.isEmpty() ? any -> true : Set.copyOf(names)::contains;
+    }
+
+    /** In the order of creation unless it is asked for by attributes, of which a leading {@code !} turns the order. */
+    private static Comparator<StoredEntity> order(List<String> fields) {
+        Comparator<StoredEntity> order = (a, b) -> 0;
+        for (String field : fields) {
+            boolean descending = field.startsWith("!");
+            Comparator<StoredEntity> next = by(descending ? field.substring(1) : field);
+            order = order.thenComparing(descending ? next.reversed() : next);
+        }
+        return order;
+    }
+
+    private static Comparator<StoredEntity> by(String field) {
+        return switch (field) {
+            case "id" -> Comparator.comparing(StoredEntity::id);
+            case "type" -> Comparator.comparing(StoredEntity::type);
+            case "dateCreated" -> Comparator.comparing(StoredEntity::created);
+            case "dateModified" -> Comparator.comparing(StoredEntity::modified);
+            default ->
+                (a, b) -> compare(a.attributes().get(field), b.attributes().get(field));
+        };
+    }
+
+    private static int compare(Attribute a, Attribute b) {
+        if (a == null || b == null) {
+            return Boolean.compare(a != null, b != null);
+        }
+        return a.value().isNumber() && b.value().isNumber()
+                ? a.value().decimalValue().compareTo(b.value().decimalValue())
+                : a.value().asText().compareTo(b.value().asText());
+    }
+
+    static int limit(Call call) throws NgsiError {
+        int limit = number(call, "limit", DEFAULT_LIMIT);
+        if (limit == 0) {
+            throw NgsiError.badRequest("Bad pagination limit: /0/ [a value of ZERO is unacceptable]");
+        }
+        if (limit > MAX_LIMIT) {
+            throw NgsiError.badRequest("Bad pagination limit: /" + limit + "/ [max: " + MAX_LIMIT + "]");
+        }
+        return limit;
+    }
+
+    static int number(Call call, String name, int otherwise) throws NgsiError {
+        String text = call.parameter(name).orElse(Integer.toString(otherwise));
+        if (!text.matches("\\d{1,9}")) {
+            throw NgsiError.badRequest("Bad pagination " + name + ": /" + text + "/ [must be a decimal number]");
+        }
+        return Integer.parseInt(text);
+    }
+}

@@ -1,0 +1,163 @@
+package io.furrow.simulators.fiware;
+
+import java.math.BigDecimal;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** Reads entities and attributes of requests, normalized or {@code keyValues}, and refuses what Orion refuses. */
+final class EntityReader {
+    private static final Pattern IDENTIFIER = Pattern.compile("[\\x21-\\x7e&&[^&?/#<>\"'=;()]]{1,256}");
+    private static final Set<String> ATTRIBUTE_FIELDS = Set.of("type", "value", "metadata");
+    private static final Set<String> NOT_ATTRIBUTES = Set.of("id", "type");
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+
+    private final boolean keyValues;
+
+    EntityReader(boolean keyValues) {
+        this.keyValues = keyValues;
+    }
+
+    EntityUpdate entity(JsonNode json) throws NgsiError {
+        object(json);
+        String id = text(json, "id")
+                .orElseThrow(() -> NgsiError.badRequest("entity id length: 0, min length supported: 1"));
+        Optional<String> type = text(json, "type");
+        checkEntity(id, type);
+        return new EntityUpdate(id, type, members(json));
+    }
+
+    /** The attributes of a request whose URL names the entity. */
+    Map<String, AttributeInput> attributes(JsonNode json) throws NgsiError {
+        object(json);
+        if (json.has("id") || json.has("type")) {
+            throw NgsiError.badRequest("entity " + (json.has("id") ? "id" : "type") + " specified in payload");
+        }
+        return members(json);
+    }
+
+    private Map<String, AttributeInput> members(JsonNode json) throws NgsiError {
+        Map<String, AttributeInput> attributes = new LinkedHashMap<>();
+        for (Map.Entry<String, JsonNode> member : json.properties()) {
+            if (!NOT_ATTRIBUTES.contains(member.getKey())) {
+                checkAttribute(member.getKey());
+                attributes.put(member.getKey(), attribute(member.getValue()));
+            }
+        }
+        return attributes;
+    }
+
+    AttributeInput attribute(JsonNode json) throws NgsiError {
+        if (keyValues) {
+            return AttributeInput.valueOnly(canonical(json));
+        }
+        if (!json.isObject()) {
+            throw NgsiError.badRequest("attribute must be a JSON object, unless keyValues option is used");
+        }
+        for (Map.Entry<String, JsonNode> member : json.properties()) {
+            if (!ATTRIBUTE_FIELDS.contains(member.getKey())) {
+                throw NgsiError.badRequest("unrecognized property for context attribute");
+            }
+        }
+        Optional<String> type = text(json, "type");
+        if (type.isPresent()) {
+            check(type.get(), "attribute type");
+        }
+        return new AttributeInput(type, value(json), metadata(json.path("metadata")));
+    }
+
+    static void checkEntity(String id, Optional<String> type) throws NgsiError {
+        check(id, "entity id");
+        if (type.isPresent()) {
+            check(type.get(), "entity type");
+        }
+    }
+
+    static void checkAttribute(String name) throws NgsiError {
+        check(name, "attribute name");
+    }
+
+    private static Optional<ObjectNode> metadata(JsonNode json) throws NgsiError {
+        if (json.isMissingNode()) {
+            return Optional.empty();
+        }
+        if (!json.isObject()) {
+            throw NgsiError.badRequest("metadata must be a JSON object");
+        }
+        ObjectNode all = NODES.objectNode();
+        for (Map.Entry<String, JsonNode> member : json.properties()) {
+            check(member.getKey(), "metadata name");
+            if (!member.getValue().isObject()) {
+                throw NgsiError.badRequest("metadata item must be a JSON object");
+            }
+            JsonNode value = value(member.getValue());
+            String type = text(member.getValue(), "type").orElseGet(() -> AttributeInput.defaultType(value));
+            all.putObject(member.getKey()).put("type", type).set("value", value);
+        }
+        return Optional.of(all);
+    }
+
+    private static JsonNode value(JsonNode holder) {
+        JsonNode value = holder.path("value");
+        return value.isMissingNode() ? NODES.nullNode() : canonical(value);
+    }
+
+    /** The context broker keeps numbers as such: 18.0 and 18 are one value, written 18. */
+    static JsonNode canonical(JsonNode value) {
+        if (value.isBigDecimal()) {
+            BigDecimal number = value.decimalValue().stripTrailingZeros();
+            return number.scale() > 0 || number.precision() - number.scale() > 18
+                    ? NODES.numberNode(number)
+                    : NODES.numberNode(number.longValueExact());
+        }
+        if (value instanceof ObjectNode object) {
+            object.properties().forEach(member -> member.setValue(canonical(member.getValue())));
+        } else if (value instanceof ArrayNode array) {
+            for (int i = 0; i < array.size(); i++) {
+                array.set(i, canonical(array.get(i)));
+            }
+        } else if (value.isInt()) {
+            return NODES.numberNode(value.longValue());
+        }
+        return value;
+    }
+
+    private static void object(JsonNode json) throws NgsiError {
+        if (!json.isObject()) {
+            throw NgsiError.badRequest("not a JSON object");
+        }
+        if (json.isEmpty()) {
+            throw NgsiError.badRequest("empty payload");
+        }
+    }
+
+    private static Optional<String> text(JsonNode json, String field) throws NgsiError {
+        JsonNode value = json.path(field);
+        if (value.isMissingNode()) {
+            return Optional.empty();
+        }
+        if (!value.isTextual()) {
+            throw NgsiError.badRequest("Invalid JSON type for " + field);
+        }
+        return Optional.of(value.textValue());
+    }
+
+    private static void check(String text, String what) throws NgsiError {
+        if (text.isEmpty()) {
+            throw NgsiError.badRequest(what + " length: 0, min length supported: 1");
+        }
+        if (text.length() > 256) {
+            throw NgsiError.badRequest(what + " length: " + text.length() + ", max length supported: 256");
+        }
+        if (!IDENTIFIER.matcher(text).matches()) {
+            throw NgsiError.badRequest("Invalid characters in " + what);
+        }
+    }
+}

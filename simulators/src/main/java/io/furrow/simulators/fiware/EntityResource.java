@@ -1,0 +1,68 @@
+package io.furrow.simulators.fiware;
+
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.simulators.fiware.EntityUpdate.Options;
+
+/** {@code /v2/entities} and {@code /v2/entities/<id>}. */
+final class EntityResource {
+    private final ContextBroker broker;
+
+    EntityResource(ContextBroker broker) {
+        this.broker = broker;
+    }
+
+    Reply answer(Call call) throws NgsiError {
+        if (call.path().size() == 2) {
+            return switch (call.method()) {
+                case "GET" -> EntityQuery.of(call).reply(broker.tenant(call.service()));
+                case "POST" -> create(call);
+                default -> throw NgsiError.badMethod();
+            };
+        }
+        return switch (call.method()) {
+            case "GET" -> Reply.ok(EntityQuery.rendering(call).of(find(call)));
+            case "DELETE" -> delete(call);
+            default -> throw NgsiError.badMethod();
+        };
+    }
+
+    private Reply create(Call call) throws NgsiError {
+        JsonNode json = call.json();
+        EntityUpdate entity = new EntityReader(call.option("keyValues")).entity(json);
+        String location =
+                "/v2/entities/" + entity.id() + "?type=" + entity.type().orElse(EntityUpdate.DEFAULT_TYPE);
+        if (call.option("upsert")) {
+            boolean known = !broker.tenant(call.service())
+                    .find(call.scope().servicePath(), entity.id(), entity.type())
+                    .isEmpty();
+            broker.upsert(call.scope(), entity, options(call), call.correlator());
+            return known ? Reply.noContent() : Reply.created(location);
+        }
+        broker.create(call.scope(), entity, call.correlator());
+        return Reply.created(location);
+    }
+
+    private Reply delete(Call call) throws NgsiError {
+        broker.delete(call.scope(), call.path().get(2), call.parameter("type"), call.correlator());
+        return Reply.noContent();
+    }
+
+    private StoredEntity find(Call call) throws NgsiError {
+        return find(broker, call);
+    }
+
+    static StoredEntity find(ContextBroker broker, Call call) throws NgsiError {
+        String id = call.path().get(2);
+        Optional<String> type = call.parameter("type");
+        EntityReader.checkEntity(id, type);
+        PathFilter paths = call.paths();
+        return ContextBroker.single(broker.tenant(call.service()).find(paths, id, type));
+    }
+
+    static Options options(Call call) {
+        return new Options(call.option("forcedUpdate"), call.option("overrideMetadata"));
+    }
+}

@@ -1,0 +1,158 @@
+package io.furrow.simulators.fiware;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.UncheckedIOException;
+import java.net.URI;
+import java.net.URLDecoder;
+import java.nio.ByteBuffer;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.server.Handler;
+import org.eclipse.jetty.server.HttpConfiguration;
+import org.eclipse.jetty.server.HttpConnectionFactory;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.server.Server;
+import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.util.Callback;
+import org.eclipse.jetty.util.component.LifeCycle;
+import org.eclipse.jetty.util.thread.QueuedThreadPool;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/** An HTTP/1.1 server on 127.0.0.1 that answers JSON; request bodies are at most {@value #MAX_BODY} bytes, as Orion's. */
+final class LoopbackServer implements AutoCloseable {
+    static final int MAX_BODY = 1 << 20;
+    private static final String HOST = "127.0.0.1";
+    private static final int THREADS = 24;
+    private static final long IDLE_TIMEOUT_MS = 60_000;
+
+    /** What is served. */
+    interface Endpoint {
+        Reply answer(Call call) throws NgsiError;
+
+        JsonNode describe(NgsiError error);
+    }
+
+    private final Server server;
+    private final ServerConnector connector;
+
+    /** @param name of the threads */
+    static LoopbackServer start(String name, int port, Endpoint endpoint) {
+        LoopbackServer server = new LoopbackServer(name, port, endpoint);
+        try {
+            server.connector.open();
+        } catch (IOException e) {
+            throw new UncheckedIOException(
+                    "the " + name + " cannot listen on " + HOST + ":" + port
+                            + "; choose another port or 0 for a free one",
+                    e);
+        }
+        LifeCycle.start(server.server);
+        return server;
+    }
+
+    private LoopbackServer(String name, int port, Endpoint endpoint) {
+        QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
+        threads.setName(name);
+        threads.setDaemon(true);
+        server = new Server(threads);
+        HttpConfiguration configuration = new HttpConfiguration();
+        configuration.setSendServerVersion(false);
+        connector = new ServerConnector(server, 1, 1, new HttpConnectionFactory(configuration));
+        connector.setHost(HOST);
+        connector.setPort(port);
+        connector.setIdleTimeout(IDLE_TIMEOUT_MS);
+        connector.setShutdownIdleTimeout(0);
+        server.addConnector(connector);
+        server.setStopTimeout(0);
+        server.setHandler(new Answering(endpoint));
+    }
+
+    URI uri() {
+        return URI.create("http://" + HOST + ":" + connector.getLocalPort());
+    }
+
+    @Override
+    public void close() {
+        LifeCycle.stop(server);
+    }
+
+    private static final class Answering extends Handler.Abstract {
+        private final Endpoint endpoint;
+
+        private Answering(Endpoint endpoint) {
+            this.endpoint = endpoint;
+        }
+
+        @Override
+        public boolean handle(Request request, Response response, Callback callback) throws IOException {
+            Correlator correlator = correlator(request);
+            response.getHeaders().put(Correlator.HEADER, correlator.id());
+            try {
+                Reply reply = endpoint.answer(call(request, correlator));
+                reply.headers().forEach(response.getHeaders()::put);
+                write(
+                        response,
+                        callback,
+                        reply.status(),
+                        reply.body().map(NgsiJson::write).orElse(new byte[0]));
+            } catch (NgsiError e) {
+                write(response, callback, e.status(), NgsiJson.write(endpoint.describe(e)));
+            }
+            return true;
+        }
+
+        private static Correlator correlator(Request request) {
+            String id = request.getHeaders().get(Correlator.HEADER);
+            return id == null || id.isBlank() ? Correlator.fresh() : new Correlator(id);
+        }
+
+        private static Call call(Request request, Correlator correlator) throws IOException, NgsiError {
+            return new Call(
+                    request.getMethod(),
+                    segments(request.getHttpURI().getPath()),
+                    Request.extractQueryParameters(request, StandardCharsets.UTF_8),
+                    request.getHeaders(),
+                    correlator,
+                    body(request));
+        }
+
+        private static List<String> segments(String path) {
+            List<String> segments = new ArrayList<>();
+            for (String segment : path.split("/")) {
+                if (!segment.isEmpty()) {
+                    // A plus sign stands for itself in a path, the decoder takes it for a space.
+                    segments.add(URLDecoder.decode(segment.replace("+", "%2B"), StandardCharsets.UTF_8));
+                }
+            }
+            return segments;
+        }
+
+        private static byte[] body(Request request) throws IOException, NgsiError {
+            if (request.getLength() > MAX_BODY) {
+                throw NgsiError.tooLarge(request.getLength(), MAX_BODY);
+            }
+            try (InputStream in = Request.asInputStream(request)) {
+                byte[] body = in.readNBytes(MAX_BODY + 1);
+                if (body.length > MAX_BODY) {
+                    throw NgsiError.tooLarge(body.length, MAX_BODY);
+                }
+                return body;
+            }
+        }
+
+        private static void write(Response response, Callback callback, int status, byte[] body) {
+            response.setStatus(status);
+            if (body.length > 0) {
+                response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
+            }
+            response.write(true, ByteBuffer.wrap(body), callback);
+        }
+    }
+}

@@ -1,0 +1,68 @@
+package io.furrow.simulators.fiware;
+
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.CopyOnWriteArrayList;
+
+/**
+ * The entities and subscriptions of one tenant. Entities are guarded by the tenant's monitor: whoever changes one holds it until the
+ * notifications are queued, so that these keep the order of the changes.
+ */
+final class Tenant {
+    private record Place(String servicePath, String id) {}
+
+    /** By place, then by type; in the order of creation. */
+    private final Map<Place, Map<String, StoredEntity>> entities = new LinkedHashMap<>();
+
+    private final List<Subscription> subscriptions = new CopyOnWriteArrayList<>();
+
+    /** In the order of creation, which is the order in which they are notified. */
+    List<Subscription> subscriptions() {
+        return subscriptions;
+    }
+
+    synchronized List<StoredEntity> find(String servicePath, String id, Optional<String> type) {
+        Map<String, StoredEntity> byType = entities.getOrDefault(new Place(servicePath, id), Map.of());
+        return byType.values().stream()
+                .filter(entity -> type.isEmpty() || type.get().equals(entity.type()))
+                .toList();
+    }
+
+    synchronized List<StoredEntity> find(PathFilter paths, String id, Optional<String> type) {
+        if (paths.isOnePath()) {
+            return find(paths.patterns().get(0), id, type);
+        }
+        return all(paths).stream()
+                .filter(entity ->
+                        entity.id().equals(id) && (type.isEmpty() || type.get().equals(entity.type())))
+                .toList();
+    }
+
+    synchronized List<StoredEntity> all(PathFilter paths) {
+        List<StoredEntity> all = new ArrayList<>();
+        entities.forEach((place, byType) -> {
+            if (paths.matches(place.servicePath())) {
+                all.addAll(byType.values());
+            }
+        });
+        return all;
+    }
+
+    synchronized void put(StoredEntity entity) {
+        entities.computeIfAbsent(place(entity), place -> new LinkedHashMap<>()).put(entity.type(), entity);
+    }
+
+    synchronized void remove(StoredEntity entity) {
+        Map<String, StoredEntity> byType = entities.get(place(entity));
+        if (byType != null && byType.remove(entity.type()) != null && byType.isEmpty()) {
+            entities.remove(place(entity));
+        }
+    }
+
+    private static Place place(StoredEntity entity) {
+        return new Place(entity.scope().servicePath(), entity.id());
+    }
+}

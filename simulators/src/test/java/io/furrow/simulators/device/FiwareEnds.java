@@ -1,0 +1,81 @@
+package io.furrow.simulators.device;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.function.ToIntFunction;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.sun.net.httpserver.HttpServer;
+import org.awaitility.Awaitility;
+
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** A real MQTT broker, and one HTTP server in the place of IoT Agent and context broker that records what it is asked. */
+public final class FiwareEnds implements AutoCloseable {
+    public static final String USER = "farmer";
+    public static final String PASSWORD = "plough";
+
+    public record Asked(String path, String service, String servicePath, JsonNode body) {}
+
+    private final List<Asked> asked = new CopyOnWriteArrayList<>();
+    private final HttpServer http;
+    private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(Map.of(USER, PASSWORD));
+    private volatile ToIntFunction<Asked> status = request -> 201;
+
+    public FiwareEnds() throws IOException {
+        http = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        http.createContext("/", exchange -> {
+            Asked request = new Asked(
+                    exchange.getRequestURI().getPath(),
+                    exchange.getRequestHeaders().getFirst("fiware-service"),
+                    exchange.getRequestHeaders().getFirst("fiware-servicepath"),
+                    NgsiJson.mapper().readTree(exchange.getRequestBody()));
+            int answer = status.applyAsInt(request);
+            asked.add(request);
+            exchange.sendResponseHeaders(answer, -1);
+            exchange.close();
+        });
+        http.start();
+        // The broker learns its port shortly after it is bound.
+        Awaitility.await().until(() -> mqtt.uri().getPort() > 0);
+    }
+
+    public void answer(ToIntFunction<Asked> decision) {
+        status = decision;
+    }
+
+    /** As new: nothing asked, everything answered with 201. */
+    public void reset() {
+        status = request -> 201;
+        asked.clear();
+    }
+
+    public void stopMqtt() {
+        mqtt.close();
+    }
+
+    public List<Asked> asked(String path) {
+        return asked.stream().filter(request -> request.path().equals(path)).toList();
+    }
+
+    public FleetSettings settings(String password) {
+        URI base = URI.create("http://127.0.0.1:" + http.getAddress().getPort());
+        return new FleetSettings(base, base, mqtt.uri(), USER, password, "farm", "/fields");
+    }
+
+    public FleetSettings settings() {
+        return settings(PASSWORD);
+    }
+
+    @Override
+    public void close() {
+        mqtt.close();
+        http.stop(0);
+    }
+}

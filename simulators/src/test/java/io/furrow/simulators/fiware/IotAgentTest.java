@@ -1,0 +1,186 @@
+package io.furrow.simulators.fiware;
+
+import java.nio.charset.StandardCharsets;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.CopyOnWriteArrayList;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.eclipse.paho.client.mqttv3.MqttClient;
+import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
+import org.eclipse.paho.client.mqttv3.MqttException;
+import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMqtt;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+class IotAgentTest {
+    private static final String THERMOMETER = "/v2/entities/urn:ngsi-ld:Thermometer:1";
+
+    private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(Map.of("agent", "secret", "device", "hidden"));
+    private final FiwareStandIn standIn = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "secret"));
+    private final Client broker = Client.of(standIn.contextBroker());
+    private final Client agent = Client.of(standIn.iotAgent());
+    private final List<String> commands = new CopyOnWriteArrayList<>();
+    private MqttClient device;
+
+    @BeforeEach
+    void provision() throws MqttException {
+        Client.Answer group = agent.post("/iot/services", """
+                {"services": [{"apikey": "k1", "resource": "/iot/json", "entity_type": "Probe"}]}""");
+        assertThat(group.status()).as(group.body()).isEqualTo(201);
+        Client.Answer provisioned = agent.post("/iot/devices", """
+                {"devices": [{"device_id": "t1", "apikey": "k1", "entity_name": "urn:ngsi-ld:Thermometer:1",
+                    "entity_type": "Thermometer", "protocol": "json", "transport": "MQTT",
+                    "attributes": [{"object_id": "temp", "name": "Temperature", "type": "Float"},
+                                   {"object_id": "time", "name": "Time", "type": "Integer"}],
+                    "static_attributes": [{"name": "Domain", "type": "String", "value": "canary"}],
+                    "commands": [{"name": "on", "type": "command"}]}]}""");
+        assertThat(provisioned.status()).as(provisioned.body()).isEqualTo(201);
+        MqttConnectOptions options = new MqttConnectOptions();
+        options.setUserName("device");
+        options.setPassword("hidden".toCharArray());
+        device = new MqttClient(mqtt.uri().toString(), "device", new MemoryPersistence());
+        device.connect(options);
+        device.subscribe(
+                "/k1/t1/cmd",
+                1,
+                (topic, message) -> commands.add(new String(message.getPayload(), StandardCharsets.UTF_8)));
+    }
+
+    @AfterEach
+    void stop() throws MqttException {
+        device.disconnect();
+        device.close();
+        standIn.close();
+        mqtt.close();
+    }
+
+    @Test
+    void turnsAMeasureIntoAnEntityAndANotification() throws MqttException {
+        try (Receiver receiver = new Receiver()) {
+            broker.post("/v2/subscriptions", """
+                    {"subject": {"entities": [{"idPattern": ".*", "type": "Thermometer"}]},
+                     "notification": {"http": {"url": "%s"}}}""".formatted(receiver.url("/notify")));
+
+            publish("/k1/t1/attrs", "{\"temp\": 21.5, \"time\": 1795222800000, \"extra\": \"x\"}");
+
+            await().until(() -> !receiver.received().isEmpty());
+            JsonNode notified = receiver.received().get(0).json().path("data").get(0);
+            assertThat(notified.path("id").asText()).isEqualTo("urn:ngsi-ld:Thermometer:1");
+            assertThat(notified.path("Temperature").path("type").asText()).isEqualTo("Float");
+            assertThat(notified.path("Temperature").path("value").asDouble()).isEqualTo(21.5);
+            assertThat(notified.path("Time").path("value").asLong()).isEqualTo(1795222800000L);
+            assertThat(notified.path("Domain").path("value").asText()).isEqualTo("canary");
+            assertThat(notified.path("extra").path("value").asText()).isEqualTo("x");
+            JsonNode instant = notified.path("TimeInstant").path("value");
+            assertThat(NgsiTime.parse(instant.asText())).isPresent();
+            assertThat(notified.path("Temperature")
+                            .path("metadata")
+                            .path("TimeInstant")
+                            .path("value"))
+                    .isEqualTo(instant);
+        }
+    }
+
+    @Test
+    void keepsTheTimeInstantThatADeviceGives() throws MqttException {
+        publish("/k1/t1/attrs", "{\"temp\": 1, \"TimeInstant\": \"2026-11-21T01:00:00Z\"}");
+
+        awaitValue(THERMOMETER, "TimeInstant", "2026-11-21T01:00:00.000Z");
+    }
+
+    @Test
+    void takesEachMeasureOfAnArrayAndThePrefixedTopic() throws MqttException {
+        try (Receiver receiver = new Receiver()) {
+            broker.post("/v2/subscriptions", """
+                    {"subject": {"entities": [{"idPattern": ".*", "type": "Thermometer"}]}, "notification": {
+                        "http": {"url": "%s"}, "attrs": ["Temperature"], "attrsFormat": "values"}}""".formatted(receiver.url("/notify")));
+
+            publish("/json/k1/t1/attrs", "[{\"temp\": 1}, {\"temp\": 2}, {\"temp\": 3}]");
+
+            await().until(() -> receiver.received().size() == 3);
+            assertThat(receiver.received())
+                    .extracting(one -> one.json().path("data").get(0).get(0).intValue())
+                    .containsExactly(1, 2, 3);
+        }
+    }
+
+    @Test
+    void registersADeviceThatNobodyProvisioned() throws MqttException {
+        publish("/k1/new7/attrs", "{\"moisture\": 12}");
+
+        awaitValue("/v2/entities/Probe:new7", "moisture", "12");
+        assertThat(agent.get("/iot/devices/new7").json().path("entity_type").asText())
+                .isEqualTo("Probe");
+    }
+
+    @Test
+    void countsWhatItCannotUse() throws MqttException {
+        publish("/unknown/t1/attrs", "{\"temp\": 1}");
+        publish("/k1/t1/attrs", "{\"temp\":");
+        publish("/k1/t1/attrs", "17");
+        publish("/k1/t1/attrs", "{\"a b\": 1}");
+        publish("/k1/t1/attrs", "{\"temp\": 5}");
+
+        awaitValue(THERMOMETER, "Temperature", "5");
+        assertThat(standIn.counters().measuresRefused()).isEqualTo(4);
+        assertThat(standIn.counters().measures()).isEqualTo(1);
+    }
+
+    @Test
+    void sendsACommandAndShowsWhatBecameOfIt() throws MqttException {
+        assertThat(broker.get(THERMOMETER + "/attrs/on_status/value").body()).isEqualTo("\"UNKNOWN\"");
+
+        Client.Answer answer =
+                broker.patch(THERMOMETER + "/attrs", "{\"on\": {\"type\": \"command\", \"value\": {\"level\": 2}}}");
+
+        assertThat(answer.status()).as(answer.body()).isEqualTo(204);
+        await().until(() -> commands.size() == 1);
+        assertThat(commands).containsExactly("{\"on\":{\"level\":2}}");
+        assertThat(broker.get(THERMOMETER + "/attrs/on_status/value").body()).isEqualTo("\"PENDING\"");
+
+        publish("/k1/t1/cmdexe", "{\"on\": \"done\"}");
+
+        awaitValue(THERMOMETER, "on_status", "OK");
+        assertThat(broker.get(THERMOMETER + "/attrs/on_info/value").body()).isEqualTo("\"done\"");
+        assertThat(broker.get(THERMOMETER + "/attrs/on").status()).isEqualTo(404);
+    }
+
+    @Test
+    void sendsACommandHoweverItIsWritten() {
+        broker.patch(THERMOMETER + "/attrs/on", "{\"type\": \"command\", \"value\": 1}");
+        broker.post(THERMOMETER + "/attrs?options=keyValues", "{\"on\": 2, \"Note\": \"mixed\"}");
+        broker.post("/v2/op/update?options=keyValues", """
+                {"actionType": "update", "entities": [
+                    {"id": "urn:ngsi-ld:Thermometer:1", "type": "Thermometer", "on": 3}]}""");
+
+        await().until(() -> commands.size() == 3);
+        assertThat(commands).containsExactly("{\"on\":1}", "{\"on\":2}", "{\"on\":3}");
+        assertThat(broker.get(THERMOMETER + "/attrs/Note/value").body()).isEqualTo("\"mixed\"");
+    }
+
+    @Test
+    void refusesToStartWithAWrongPassword() {
+        assertThatThrownBy(() -> FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "wrong")))
+                .isInstanceOf(IllegalStateException.class)
+                .hasMessageContaining(mqtt.uri().toString())
+                .hasMessageContaining("password");
+    }
+
+    private void publish(String topic, String payload) throws MqttException {
+        device.publish(topic, payload.getBytes(StandardCharsets.UTF_8), 1, false);
+    }
+
+    private void awaitValue(String entity, String attribute, String value) {
+        await().untilAsserted(() -> assertThat(
+                        broker.get(entity).json().path(attribute).path("value").asText())
+                .isEqualTo(value));
+    }
+}
