@@ -3,6 +3,7 @@ package io.furrow.suite;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
+import java.util.Optional;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -18,6 +19,8 @@ import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.simulators.load.LoadFleet;
+import io.furrow.simulators.load.LoadPlan;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -128,6 +131,30 @@ class BadInputIT {
 
         awaitRouted("data._x-bad-2Einput.realtime", "dotted", record -> assertThat(record.value())
                 .isNotEmpty());
+    }
+
+    @Test
+    void losesNothingOfOthersNorOfADeviceThatNeverStops() throws Exception {
+        LoadPlan flood = new LoadPlan(1, Duration.ofMillis(2), 1000, Duration.ofSeconds(4), "bad", "flood");
+        LoadFleet.provision(running.suite().devices(), flood);
+        try (LoadFleet device = LoadFleet.start(running.suite().devices(), flood)) {
+            for (int i = 0; i < 20; i++) {
+                send("beside", "\"n\":{\"type\":\"Number\",\"value\":" + i + "}");
+            }
+            device.await();
+        }
+
+        try (TopicLog domain = running.topic("data.bad.realtime")) {
+            await().atMost(PATIENCE).untilAsserted(() -> {
+                assertThat(domain.of("beside")).hasSize(20);
+                assertThat(domain.of("urn:ngsi-ld:Device:flood-00000"))
+                        .extracting(record -> Entity.parse(record.value()).text("Payload"))
+                        .filteredOn(Optional::isPresent)
+                        .doesNotHaveDuplicates()
+                        .size()
+                        .isEqualTo((int) flood.messages());
+            });
+        }
     }
 
     private static byte[] unreadable(String kind) {

@@ -1,0 +1,28 @@
+package io.furrow.launcher.status;
+
+import java.util.Map;
+import java.util.concurrent.TimeUnit;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class RatesTest {
+    private final Rates rates = new Rates();
+
+    @Test
+    void dividesWhatCameByTheTimeBetweenTwoLooks() {
+        rates.next(Map.of("a", 100L), 0);
+
+        assertThat(rates.next(Map.of("a", 150L), TimeUnit.SECONDS.toNanos(2))).containsEntry("a", 25.0);
+    }
+
+    @Test
+    void startsAtZeroForATopicSeenForTheFirstTime() {
+        rates.next(Map.of("a", 100L), 0);
+
+        assertThat(rates.next(Map.of("a", 100L, "b", 7L), TimeUnit.SECONDS.toNanos(1)))
+                .containsEntry("a", 0.0)
+                .containsEntry("b", 0.0);
+    }
+}
