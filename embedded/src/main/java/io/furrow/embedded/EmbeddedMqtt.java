@@ -43,6 +43,8 @@ public final class EmbeddedMqtt implements AutoCloseable {
         properties.setProperty("host", HOST);
         properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
+        // Clients without an id of their own, such as mosquitto_pub, leave it to the broker to give one.
+        properties.setProperty("allow_zero_byte_client_id", "true");
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
         properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));

@@ -3,6 +3,7 @@ package io.furrow.bench.load;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.EnumMap;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -13,7 +14,10 @@ import java.util.function.Consumer;
 
 import org.HdrHistogram.Histogram;
 import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
 import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.admin.OffsetSpec;
+import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.TopicExistsException;
 
 import io.furrow.model.topic.Topics;
@@ -28,6 +32,9 @@ import io.furrow.simulators.load.LoadPlan;
 public final class LoadMeasurement {
     /** After the last message is sent, this long without an arrival means that the rest is lost. */
     private static final Duration QUIET = Duration.ofSeconds(15);
+
+    /** This long without a record means that the provisioning has come through. */
+    private static final Duration SETTLED = Duration.ofSeconds(2);
 
     private static final int PARTITIONS = 4;
     private static final long LOOK_MS = 100;
@@ -48,6 +55,8 @@ public final class LoadMeasurement {
     public LoadReport run(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
         String topic = Topics.realtime(plan.domain(), plan.mission());
         makeTopic(topic);
+        LoadFleet.provision(devices, plan);
+        awaitQuiet(topic);
         Arrivals arrivals = new Arrivals();
         try (TopicReader reader = new TopicReader(kafka, topic, arrivals)) {
             reader.start();
@@ -95,6 +104,25 @@ public final class LoadMeasurement {
         } catch (ExecutionException e) {
             if (!(e.getCause() instanceof TopicExistsException)) {
                 throw e;
+            }
+        }
+    }
+
+    /** The context broker tells of each new device; only what comes after that is the load. */
+    private void awaitQuiet(String topic) throws InterruptedException, ExecutionException {
+        try (Admin admin = Admin.create(kafka)) {
+            Map<TopicPartition, OffsetSpec> ends = new HashMap<>();
+            for (int partition = 0; partition < PARTITIONS; partition++) {
+                ends.put(new TopicPartition(topic, partition), OffsetSpec.latest());
+            }
+            long before = -1;
+            long now = -2;
+            while (before != now) {
+                before = now;
+                TimeUnit.MILLISECONDS.sleep(SETTLED.toMillis());
+                now = admin.listOffsets(ends).all().get().values().stream()
+                        .mapToLong(ListOffsetsResultInfo::offset)
+                        .sum();
             }
         }
     }

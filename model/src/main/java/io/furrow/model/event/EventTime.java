@@ -10,6 +10,7 @@ import java.time.chrono.IsoChronology;
 import java.time.format.DateTimeFormatter;
 import java.time.format.DateTimeFormatterBuilder;
 import java.time.format.ResolverStyle;
+import java.time.temporal.ChronoUnit;
 import java.time.temporal.TemporalAccessor;
 import java.util.List;
 import java.util.Locale;
@@ -24,7 +25,7 @@ import io.furrow.model.ngsi.Entity;
  * 8601 or epoch ms), else {@code dateModified} of the context broker, else the time of receipt. The first of these that can be
  * read decides. A date and time without offset is UTC, as NGSI-v2 has it.
  *
- * @param time never before 1970, at most the allowed skew after the receipt
+ * @param time whole milliseconds, never before 1970, at most the allowed skew after the receipt
  * @param basis what it was taken from
  */
 public record EventTime(Instant time, Basis basis) {
@@ -35,6 +36,11 @@ public record EventTime(Instant time, Basis basis) {
         RECEIPT,
         /** The entity's own time was further in the future than allowed, so the time of receipt stands for it. */
         RECEIPT_FOR_FUTURE
+    }
+
+    /** Whole milliseconds: what a record timestamp can hold, so that all copies of the time agree. */
+    public EventTime {
+        time = time.truncatedTo(ChronoUnit.MILLIS);
     }
 
     /** The year 33658: 15 digits of milliseconds. What is later is no time. */

@@ -46,17 +46,25 @@ public final class LoadFleet implements AutoCloseable {
     }
 
     /**
-     * Provisions the devices, connects and starts to send.
+     * Provisions the devices; the context broker tells each new one as a change of its own, before any measure.
      *
-     * @throws IOException if the IoT Agent or the MQTT broker is away or refuses; nothing is left running then
+     * @throws IOException if the IoT Agent is away or refuses
      */
-    public static LoadFleet start(FleetSettings settings, LoadPlan plan) throws IOException, InterruptedException {
+    public static void provision(FleetSettings settings, LoadPlan plan) throws IOException, InterruptedException {
         new IotAgent(settings)
                 .provision(
                         API_KEY,
                         IntStream.range(0, plan.devices())
                                 .mapToObj(device -> registration(plan, device))
                                 .toList());
+    }
+
+    /**
+     * Connects the provisioned devices and starts to send.
+     *
+     * @throws IOException if the MQTT broker is away or refuses; nothing is left running then
+     */
+    public static LoadFleet start(FleetSettings settings, LoadPlan plan) throws IOException {
         int inflight = Math.max(LEAST_INFLIGHT, Math.min(MOST_INFLIGHT, INFLIGHT_BYTES / plan.payloadBytes()));
         LoadFleet fleet = new LoadFleet(plan);
         boolean started = false;

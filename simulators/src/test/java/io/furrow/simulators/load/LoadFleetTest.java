@@ -86,19 +86,16 @@ class LoadFleetTest {
         LoadPlan plan = plan(150, Duration.ofSeconds(10), 100, Duration.ofSeconds(10));
         ends.answer(request -> request.body().path("devices").size() == 50 ? 409 : 201);
 
-        try (LoadFleet load = LoadFleet.start(ends.settings(), plan)) {
-            assertThat(load.held()).isZero();
-            List<FiwareEnds.Asked> asked = ends.asked("/iot/devices");
-            assertThat(asked.stream()
-                            .map(request -> request.body().path("devices").size()))
-                    .hasSize(52)
-                    .startsWith(100, 50, 1);
-            JsonNode device = asked.get(51).body().at("/devices/0");
-            assertThat(device.path("device_id").textValue()).isEqualTo("load-00149");
-            assertThat(device.path("attributes").findValuesAsText("name")).containsExactly("Time", "Status", "Payload");
-            assertThat(device.path("static_attributes").findValuesAsText("value"))
-                    .containsExactly("bench", "load");
-        }
+        LoadFleet.provision(ends.settings(), plan);
+
+        List<FiwareEnds.Asked> asked = ends.asked("/iot/devices");
+        assertThat(asked.stream().map(request -> request.body().path("devices").size()))
+                .hasSize(52)
+                .startsWith(100, 50, 1);
+        JsonNode device = asked.get(51).body().at("/devices/0");
+        assertThat(device.path("device_id").textValue()).isEqualTo("load-00149");
+        assertThat(device.path("attributes").findValuesAsText("name")).containsExactly("Time", "Status", "Payload");
+        assertThat(device.path("static_attributes").findValuesAsText("value")).containsExactly("bench", "load");
     }
 
     @Test

@@ -1,0 +1,63 @@
+package io.furrow.suite;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** A program of the operating system, as a user would call it. */
+final class Command implements AutoCloseable {
+    private static final long SECONDS = 30;
+
+    private final List<String> words;
+    private final Process process;
+    private final Path output;
+
+    private Command(List<String> words, Process process, Path output) {
+        this.words = words;
+        this.process = process;
+        this.output = output;
+    }
+
+    /** Starts it and goes on; the words are its name and arguments. */
+    static Command start(String... words) {
+        try {
+            Path output = Files.createTempFile("command", ".out");
+            Process process = new ProcessBuilder(words)
+                    .redirectErrorStream(true)
+                    .redirectOutput(output.toFile())
+                    .start();
+            return new Command(List.of(words), process, output);
+        } catch (IOException e) {
+            throw new IllegalStateException(
+                    words[0] + " is missing; install the Debian packages mosquitto-clients and curl", e);
+        }
+    }
+
+    /** Runs it to its end and returns what it printed. */
+    static String run(String... words) throws IOException, InterruptedException {
+        try (Command command = start(words)) {
+            assertThat(command.exitCode()).as("%s: %s", command.words, command.printed()).isZero();
+            return command.printed();
+        }
+    }
+
+    int exitCode() throws InterruptedException {
+        assertThat(process.waitFor(SECONDS, TimeUnit.SECONDS)).as("%s ends", words).isTrue();
+        return process.exitValue();
+    }
+
+    String printed() throws IOException {
+        return Files.readString(output, StandardCharsets.UTF_8);
+    }
+
+    @Override
+    public void close() throws IOException {
+        process.destroy();
+        Files.deleteIfExists(output);
+    }
+}
