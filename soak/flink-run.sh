@@ -61,8 +61,12 @@ clean_up() {
     local code=$?
     trap - EXIT INT TERM
     stop_own
-    rm -rf "$run"
-    ((code == 0)) || printf 'flink-run: failed; logs: %s\n' "$logs"
+    rm -rf "$run" "${making:-}"
+    case $code in
+        0) ;;
+        130 | 143) echo "flink-run: interrupted" ;;
+        *) printf 'flink-run: failed; logs: %s\n' "$logs" ;;
+    esac
     exit "$code"
 }
 trap clean_up EXIT

@@ -18,8 +18,8 @@ make_flink() {
     python3 -m pip --version >/dev/null 2>&1 ||
         fail "No Python 3 with pip found, which fetches Flink. Install python3-pip, or set FLINK_HOME to a Flink $flink_version."
     mkdir -p "$1" || fail "$1 cannot be written. Set XDG_CACHE_HOME to a folder that can, or FLINK_HOME to a Flink $flink_version."
-    local work
-    work=$(mktemp -d "$1/making.XXXXXX")
+    making=$(mktemp -d "$1/making.XXXXXX") # for the soak to remove when it is stopped now
+    local work=$making
     say "fetching Flink $flink_version, some 315 MB, into $1"
     fetch "$work" --no-binary apache-flink-libraries "apache-flink-libraries==$flink_version"
     # Only the scripts of this one are wanted: any platform's do.
@@ -34,6 +34,7 @@ make_flink() {
     chmod +x "$work"/home/bin/*
     mv "$work/home" "$FLINK_HOME"
     rm -rf "$work"
+    making=
 }
 
 # fetch FOLDER PIP-OPTIONS…: shows how much is there already.
