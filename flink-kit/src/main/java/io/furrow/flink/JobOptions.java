@@ -163,13 +163,14 @@ public abstract class JobOptions {
         return Optional.ofNullable(parallelism);
     }
 
-    /** Every option with the value in force, as the web UI shows it under the job's configuration. */
+    /** Every option with the value in force, as one would write it; the web UI shows it as the job's configuration. */
     public Map<String, String> effective() {
         Map<String, String> values = new TreeMap<>();
         for (OptionSpec option : spec.options()) {
-            Object value = option.getValue();
-            if (!option.usageHelp() && value != null) {
-                values.put(option.longestName(), value.toString());
+            if (!option.usageHelp() && option.getValue() != null) {
+                List<String> given = option.originalStringValues();
+                values.put(
+                        option.longestName(), given.isEmpty() ? option.defaultValueString() : String.join(",", given));
             }
         }
         return values;

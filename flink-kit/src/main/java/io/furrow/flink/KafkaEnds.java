@@ -40,13 +40,9 @@ public final class KafkaEnds {
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> sink(JobOptions options) {
-        Properties properties = options.kafkaProperties();
-        properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
-        properties.putIfAbsent("batch.size", "131072");
-        properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
         return KafkaSink.<TopicRecord>builder()
                 .setBootstrapServers(options.bootstrapServers())
-                .setKafkaProducerConfig(properties)
+                .setKafkaProducerConfig(producerProperties(options))
                 .setDeliveryGuarantee(
                         switch (options.delivery()) {
                             case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
@@ -55,6 +51,21 @@ public final class KafkaEnds {
                 .setTransactionalIdPrefix("furrow-" + options.jobName())
                 .setRecordSerializer(new TopicRecordFormat())
                 .build();
+    }
+
+    /** What {@code --kafka-properties} says goes before what is set here. */
+    static Properties producerProperties(JobOptions options) {
+        Properties properties = options.kafkaProperties();
+        properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
+        properties.putIfAbsent("batch.size", "131072");
+        properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        // A mission's topic is made by its first record. Were two requests under way then, the broker could refuse the
+        // first
+        // (the partition is not there yet) and take the second, and would refuse the first for ever: two minutes
+        // without
+        // any result until the producer gives up (KAFKA-15591).
+        properties.putIfAbsent("max.in.flight.requests.per.connection", "1");
+        return properties;
     }
 
     /** Event time = record timestamp, behind by the job's out-of-orderness; quiet partitions do not hold it up. */

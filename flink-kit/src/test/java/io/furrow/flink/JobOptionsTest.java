@@ -56,10 +56,19 @@ class JobOptionsTest {
         assertThat(options.checkpointDir()).contains("file:///c");
         assertThat(options.parallelism()).contains(3);
         assertThat(options.kafkaProperties()).containsEntry("security.protocol", "SSL");
+        assertThat(options.effective()).containsEntry("--parallelism", "3").doesNotContainKey("--help");
+    }
+
+    @Test
+    void showTheValuesInForceAsOneWouldWriteThem() {
+        JobOptions options = parsed("copy", "--input", "x,y", "--idle-timeout", "1min");
+
         assertThat(options.effective())
-                .containsEntry("--parallelism", "3")
-                .containsEntry("--idle-timeout", "PT1M")
-                .doesNotContainKey("--help");
+                .containsEntry("--input", "x,y")
+                .containsEntry("--idle-timeout", "1min")
+                .containsEntry("--out-of-orderness", "2s")
+                .containsEntry("--delivery", "at-least-once")
+                .doesNotContainKey("--parallelism");
     }
 
     @Test

@@ -1,0 +1,156 @@
+#!/usr/bin/env bash
+# Runs the job jars on a standalone Flink cluster, stops them with a savepoint and goes on from it.
+set -euo pipefail
+
+soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+home=$(dirname "$soak")
+java=${JAVA_HOME:+$JAVA_HOME/bin/}java
+# shellcheck source=parts/machine.sh
+. "$soak/parts/machine.sh"
+# shellcheck source=parts/kafka.sh
+. "$soak/parts/kafka.sh"
+# shellcheck source=parts/flink.sh
+. "$soak/parts/flink.sh"
+
+seconds=60
+parallelism=1
+restore_parallelism=
+delivery=at-least-once
+window=5
+
+usage() {
+    cat <<USAGE
+Usage: ./furrow soak flink-run [OPTION VALUE]…
+Runs ingest, temperature and collision with flink run on a standalone Flink $flink_version beside a Kafka broker, both started
+for this; while numbered events come in, stops all jobs with a savepoint and goes on from it. Then everything that the
+jobs wrote must be there once. FLINK_HOME names a distribution; without it one is fetched once, some 315 MB.
+
+  --seconds N              How long events come in, at least 40 s. Default: $seconds.
+  --parallelism N          Subtasks before the savepoint, 1 or 2. Default: $parallelism.
+  --restore-parallelism N  Subtasks after it, 1 or 2. Default: as before.
+  --delivery MODE          at-least-once or exactly-once. Default: $delivery.
+USAGE
+}
+
+while (($# > 0)); do
+    case $1 in
+        -h | --help) usage && exit 0 ;;
+        --seconds) seconds=${2-} ;;
+        --parallelism) parallelism=${2-} ;;
+        --restore-parallelism) restore_parallelism=${2-} ;;
+        --delivery) delivery=${2-} ;;
+        *) fail "flink-run knows no option $1. See: ./furrow soak flink-run --help" ;;
+    esac
+    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak flink-run --help"
+    shift 2
+done
+restore_parallelism=${restore_parallelism:-$parallelism}
+[[ $seconds =~ ^[0-9]+$ && $seconds -ge 40 ]] || fail "--seconds must be a whole number from 40, not '$seconds'."
+[[ $parallelism =~ ^[12]$ && $restore_parallelism =~ ^[12]$ ]] || fail "The parallelism must be 1 or 2: the cluster has 6 slots for three jobs."
+[[ $delivery == at-least-once || $delivery == exactly-once ]] || fail "--delivery must be at-least-once or exactly-once, not '$delivery'."
+command -v curl >/dev/null || fail "No curl found, which asks Flink whether it is ready. Install curl."
+
+run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-flink-run.XXXXXX")
+logs=$home/target/soak/flink-run
+classes=$home/launcher/target/test-classes:$home/launcher/target/furrow/lib/*
+jobs=(ingest temperature collision)
+ids=()
+savepoints=()
+
+clean_up() {
+    local code=$?
+    trap - EXIT INT TERM
+    stop_own
+    rm -rf "$run" "${making:-}"
+    case $code in
+        0) ;;
+        130 | 143) echo "flink-run: interrupted" ;;
+        *) printf 'flink-run: failed; logs: %s\n' "$logs" ;;
+    esac
+    exit "$code"
+}
+trap clean_up EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+rm -rf "$logs"
+mkdir -p "$logs"
+
+build() {
+    local built=$home/launcher/target/soak-built
+    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src "$home/src" -newer "$built" -print -quit) ]] && return
+    say "building the job jars"
+    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dspotless.check.skip -pl ingest,analytics,launcher -am) \
+        >"$logs/build.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }
+    touch "$built" "$home/launcher/target/furrow/built"
+}
+
+jar_of() {
+    local module=analytics
+    [[ $1 == ingest ]] && module=ingest
+    ls "$home/$module/target/furrow-$module"-*-job.jar
+}
+
+# Each job explains itself where Flink is not.
+check_help() {
+    for name in "${jobs[@]}"; do
+        "$java" -jar "$(jar_of "$name")" "$name" --help >"$logs/$name.help" 2>&1 || fail "$name --help fails: $logs/$name.help"
+        grep -q -- '--bootstrap-servers' "$logs/$name.help" || fail "$name --help shows no options: $logs/$name.help"
+    done
+}
+
+# run_job NAME PARALLELISM FLINK-OPTIONS…: appends its id to ids.
+run_job() {
+    local name=$1 subtasks=$2 own_options=()
+    shift 2
+    [[ $name == temperature ]] && own_options=(--fields "$soak/fields.geojson" --window "${window}s")
+    "$FLINK_HOME/bin/flink" run -d "$@" "$(jar_of "$name")" "$name" --bootstrap-servers "$bootstrap" --checkpoint-interval 5s \
+        --delivery "$delivery" --parallelism "$subtasks" ${own_options[@]+"${own_options[@]}"} >"$logs/run-$name.out" 2>&1 ||
+        { tail -n 5 "$logs/run-$name.out" >&2; fail "flink run of $name failed."; }
+    ids+=("$(sed -n 's/.*submitted with JobID \([0-9a-f]*\).*/\1/p' "$logs/run-$name.out")")
+    say "flink run $* $name: ${ids[${#ids[@]} - 1]}"
+}
+
+# stop_job NAME ID: appends its savepoint to savepoints.
+stop_job() {
+    "$FLINK_HOME/bin/flink" stop --savepointPath "file://$run/savepoints" "$2" >"$logs/stop-$1.out" 2>&1 ||
+        { tail -n 5 "$logs/stop-$1.out" >&2; fail "flink stop of $1 failed."; }
+    savepoints+=("$(sed -n 's/.*Savepoint completed. Path: //p' "$logs/stop-$1.out")")
+    say "flink stop $1: ${savepoints[${#savepoints[@]} - 1]##*/}"
+}
+
+show_jobs() { "$java" -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.ClusterJobs "$rest" "${ids[@]}"; }
+writing() { grep -q '^writing' "$logs/events.out"; }
+
+build
+check_help
+say "--help of all jobs works without Flink"
+provide_flink
+start_kafka
+say "Kafka at $bootstrap"
+start_flink
+say "Flink at $rest, from $FLINK_HOME"
+
+"$java" -Xmx128m -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.NumberedEvents "$bootstrap" "$seconds" \
+    >"$logs/events.out" 2>&1 &
+events=$!
+own "$events"
+began=$SECONDS
+until_true 30 "The topic data.raw" writing
+say "events come in for $seconds s"
+for name in "${jobs[@]}"; do run_job "$name" "$parallelism"; done
+
+# Late enough for results, early enough for as long a time after it.
+while ((SECONDS < began + seconds * 2 / 5)); do sleep 0.5; done
+show_jobs || fail "The cluster does not show the jobs as they should be."
+for i in "${!jobs[@]}"; do stop_job "${jobs[i]}" "${ids[i]}"; done
+sleep 4
+ids=()
+for i in "${!jobs[@]}"; do run_job "${jobs[i]}" "$restore_parallelism" -s "${savepoints[i]}"; done
+
+wait "$events" || { cat "$logs/events.out" >&2; fail "The events could not be written."; }
+say "$(tail -n 1 "$logs/events.out")"
+"$java" -Xmx256m -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.NumberedResults "$bootstrap" $((window * 1000)) ||
+    fail "What the jobs wrote differs from what the events come to."
+show_jobs >"$logs/jobs-after.out" || { cat "$logs/jobs-after.out"; fail "The jobs did not go on undisturbed."; }
+say "the jobs run on, none failed"
+echo "flink-run: passed"

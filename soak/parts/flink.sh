@@ -1,0 +1,88 @@
+# A Flink distribution and a standalone cluster of it. Sourced, not run.
+# shellcheck shell=bash disable=SC2154 # run, logs come from the soak
+
+flink_version=2.2.1
+
+# Sets FLINK_HOME, unless it is set, to a distribution put together of Flink's two packages on PyPI.
+provide_flink() {
+    if [[ -n ${FLINK_HOME:-} ]]; then
+        [[ -x $FLINK_HOME/bin/flink ]] || fail "FLINK_HOME is $FLINK_HOME, where no bin/flink is. Set it to a Flink $flink_version, or unset it."
+        return
+    fi
+    local cache=${XDG_CACHE_HOME:-$HOME/.cache}/furrow
+    FLINK_HOME=$cache/flink-$flink_version
+    [[ -x $FLINK_HOME/bin/flink ]] || make_flink "$cache"
+}
+
+make_flink() {
+    python3 -m pip --version >/dev/null 2>&1 ||
+        fail "No Python 3 with pip found, which fetches Flink. Install python3-pip, or set FLINK_HOME to a Flink $flink_version."
+    mkdir -p "$1" || fail "$1 cannot be written. Set XDG_CACHE_HOME to a folder that can, or FLINK_HOME to a Flink $flink_version."
+    making=$(mktemp -d "$1/making.XXXXXX") # for the soak to remove when it is stopped now
+    local work=$making
+    say "fetching Flink $flink_version, some 315 MB, into $1"
+    fetch "$work" --no-binary apache-flink-libraries "apache-flink-libraries==$flink_version"
+    # Only the scripts of this one are wanted: any platform's do.
+    fetch "$work" --only-binary :all: --implementation cp --python-version 3.11 --platform manylinux2014_x86_64 \
+        "apache-flink==$flink_version"
+    mkdir "$work/home" "$work/scripts"
+    tar -xzf "$work"/apache*flink*libraries-*.tar.gz -C "$work"
+    mv "$work"/apache*flink*libraries-"$flink_version"/deps/{lib,opt,plugins,bin} "$work/home"
+    python3 -m zipfile -e "$work"/apache_flink-*.whl "$work/scripts"
+    cp "$work"/scripts/pyflink/bin/* "$work/home/bin"
+    cp -r "$work/scripts/pyflink/conf" "$work/home"
+    chmod +x "$work"/home/bin/*
+    mv "$work/home" "$FLINK_HOME"
+    rm -rf "$work"
+    making=
+}
+
+# fetch FOLDER PIP-OPTIONS…: shows how much is there already.
+fetch() {
+    local folder=$1 log=$1/pip.log pip
+    shift
+    TMPDIR=$folder python3 -m pip download --no-deps --disable-pip-version-check --dest "$folder" "$@" >"$log" 2>&1 &
+    pip=$!
+    own "$pip"
+    while kill -0 "$pip" 2>/dev/null; do
+        printf '\r\033[K%4d s  %s' "$SECONDS" "$(du -sm "$folder" | cut -f1) MB"
+        sleep 1
+    done
+    printf '\r\033[K'
+    wait "$pip" || { tail -n 3 "$log" >&2; rm -rf "$folder"; fail "Flink could not be fetched. Set FLINK_HOME to a Flink $flink_version."; }
+}
+
+# Starts a job manager and a task manager below $run; sets rest.
+start_flink() {
+    local port rpc opens
+    free_port && rest=http://127.0.0.1:$port
+    local rest_port=$port
+    free_port && rpc=$port
+    opens=$(grep -oE -- '--add-exports=java.rmi.*' "$FLINK_HOME/conf/config.yaml" | head -n 1)
+    cp -r "$FLINK_HOME/conf" "$run/flink-conf"
+    cat >"$run/flink-conf/config.yaml" <<YAML
+env.java.opts.all: $opens
+rest.address: 127.0.0.1
+rest.bind-address: 127.0.0.1
+rest.port: $rest_port
+jobmanager.rpc.address: 127.0.0.1
+jobmanager.rpc.port: $rpc
+jobmanager.bind-host: 127.0.0.1
+jobmanager.memory.process.size: 1024m
+taskmanager.host: 127.0.0.1
+taskmanager.bind-host: 127.0.0.1
+taskmanager.memory.process.size: 1536m
+taskmanager.numberOfTaskSlots: 6
+io.tmp.dirs: $run/flink-tmp
+execution.checkpointing.dir: file://$run/checkpoints
+YAML
+    export FLINK_CONF_DIR=$run/flink-conf FLINK_PID_DIR=$run FLINK_LOG_DIR=$logs
+    mkdir -p "$run/flink-tmp"
+    "$FLINK_HOME/bin/jobmanager.sh" start-foreground >"$logs/jobmanager.out" 2>&1 &
+    own $!
+    "$FLINK_HOME/bin/taskmanager.sh" start-foreground >"$logs/taskmanager.out" 2>&1 &
+    own $!
+    until_true 90 "A task manager of the Flink cluster at $rest" has_slots
+}
+
+has_slots() { curl -fs "$rest/overview" | grep -q '"slots-total":[1-9]'; }

@@ -1,0 +1,82 @@
+package io.furrow.soak;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.atomic.AtomicReference;
+import java.util.concurrent.locks.LockSupport;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+
+import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.Origin;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
+
+/** Makes {@code data.raw} and writes the reports of the {@link Farm} to it, numbered from 1, at a steady rate. */
+public final class NumberedEvents {
+    private static final int PARTITIONS = 4;
+    private static final int EVENTS_PER_SECOND = 40;
+    private static final Duration STEP = Duration.ofSeconds(1).dividedBy(EVENTS_PER_SECOND);
+    private static final FiwareScope SCOPE = FiwareScope.of("soak", "/");
+
+    private NumberedEvents() {}
+
+    /** Arguments: bootstrap servers, seconds. Says {@code writing} when the topic is there and the total at the end. */
+    public static void main(String... args) throws ExecutionException, InterruptedException {
+        Properties kafka = new Properties();
+        kafka.setProperty("bootstrap.servers", args[0]);
+        makeTopic(kafka);
+        kafka.setProperty("enable.idempotence", "true");
+        kafka.setProperty("acks", "all");
+        try (var producer = new KafkaProducer<>(kafka, new StringSerializer(), new ByteArraySerializer())) {
+            System.out.println("writing");
+            long written = write(producer, Duration.ofSeconds(Long.parseLong(args[1])));
+            System.out.println("wrote " + written + " events");
+        }
+    }
+
+    private static void makeTopic(Properties kafka) throws ExecutionException, InterruptedException {
+        try (Admin admin = Admin.create(kafka)) {
+            NewTopic raw = new NewTopic(Topics.RAW, Optional.of(PARTITIONS), Optional.empty());
+            admin.createTopics(List.of(raw)).all().get();
+        }
+    }
+
+    private static long write(KafkaProducer<String, byte[]> producer, Duration howLong) {
+        AtomicReference<Exception> lost = new AtomicReference<>();
+        long begin = System.nanoTime();
+        long events = howLong.dividedBy(STEP);
+        long time = 0;
+        for (long number = 1; number <= events; number++) {
+            LockSupport.parkNanos(begin + number * STEP.toNanos() - System.nanoTime());
+            time = Math.max(time + 1, System.currentTimeMillis());
+            producer.send(record(number, time), (written, failure) -> lost.compareAndSet(null, failure));
+        }
+        producer.flush();
+        if (lost.get() != null) {
+            throw new IllegalStateException("an event was not written", lost.get());
+        }
+        return events;
+    }
+
+    private static ProducerRecord<String, byte[]> record(long number, long time) {
+        Entity entity = Farm.report(number, time);
+        Instant now = Instant.ofEpochMilli(time);
+        EntityEvent event = EntityEvent.of(entity, SCOPE, now, Duration.ZERO, Origin.NOTIFICATION);
+        var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
+        event.headers("/soak")
+                .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+        return record;
+    }
+}

@@ -1,0 +1,84 @@
+package io.furrow.soak;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.stream.LongStream;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** All committed records of a topic from the beginning; grows with each reading. */
+final class TopicLog implements AutoCloseable {
+    private final KafkaConsumer<String, byte[]> consumer;
+    private final List<Entity> entities = new ArrayList<>();
+    private final List<Long> ingestTimes = new ArrayList<>();
+
+    TopicLog(String bootstrapServers, String topic) {
+        Properties kafka = new Properties();
+        kafka.setProperty("bootstrap.servers", bootstrapServers);
+        kafka.setProperty("isolation.level", "read_committed");
+        kafka.setProperty("auto.offset.reset", "earliest");
+        kafka.setProperty("enable.auto.commit", "false");
+        kafka.setProperty("allow.auto.create.topics", "false");
+        consumer = new KafkaConsumer<>(kafka, new StringDeserializer(), new ByteArrayDeserializer());
+        consumer.assign(consumer.partitionsFor(topic).stream()
+                .map(partition -> new TopicPartition(topic, partition.partition()))
+                .toList());
+    }
+
+    /** How many records the topics whose names end so hold, transaction markers included. */
+    static long count(String bootstrapServers, List<String> endings) {
+        try (TopicLog any = new TopicLog(bootstrapServers, io.furrow.model.topic.Topics.RAW)) {
+            List<TopicPartition> partitions = any.consumer.listTopics().entrySet().stream()
+                    .filter(topic -> endings.stream().anyMatch(topic.getKey()::endsWith))
+                    .flatMap(topic -> topic.getValue().stream())
+                    .map(info -> new TopicPartition(info.topic(), info.partition()))
+                    .toList();
+            return any.consumer.endOffsets(partitions).values().stream()
+                    .mapToLong(Long::longValue)
+                    .sum();
+        }
+    }
+
+    /** Reads for this long and at least to the end that the topic had at the beginning. */
+    List<Entity> read(Duration howLong) throws UnreadableException {
+        var ends = consumer.endOffsets(consumer.assignment());
+        long until = System.nanoTime() + howLong.toNanos();
+        while (System.nanoTime() < until
+                || ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
+            for (ConsumerRecord<String, byte[]> record : consumer.poll(Duration.ofMillis(100))) {
+                entities.add(Entity.parse(record.value()));
+                Header ingested = record.headers().lastHeader(HeaderNames.TS_INGEST);
+                if (ingested != null) {
+                    ingestTimes.add(Long.parseLong(new String(ingested.value(), StandardCharsets.UTF_8)));
+                }
+            }
+        }
+        return List.copyOf(entities);
+    }
+
+    /** The longest time in which ingest passed nothing on, ms. */
+    long longestSilence() {
+        long[] times = ingestTimes.stream().mapToLong(Long::longValue).sorted().toArray();
+        return LongStream.range(1, times.length)
+                .map(i -> times[(int) i] - times[(int) i - 1])
+                .max()
+                .orElse(0);
+    }
+
+    @Override
+    public void close() {
+        consumer.close();
+    }
+}
