@@ -25,10 +25,7 @@ class ArchitectureTest {
     private static final JavaClasses CLASSES = everyModule();
 
     @ParameterizedTest
-    @CsvSource(
-            delimiter = '|',
-            textBlock =
-                    """
+    @CsvSource(delimiter = '|', textBlock = """
                     io.furrow.model      |
                     io.furrow.embedded   |
                     io.furrow.flink      | io.furrow.model
@@ -67,7 +64,8 @@ class ArchitectureTest {
     void givesNoPackageANameThatSaysNothing() {
         ArchRule rule = ArchRuleDefinition.noClasses()
                 .should()
-                .resideInAnyPackage("..common..", "..util..", "..utils..", "..core..", "..misc..", "..impl..", "..helper..");
+                .resideInAnyPackage(
+                        "..common..", "..util..", "..utils..", "..core..", "..misc..", "..impl..", "..helper..");
 
         rule.check(CLASSES);
     }
@@ -85,16 +83,18 @@ class ArchitectureTest {
 
     @Test
     void seesEveryModule() {
-        assertThat(CLASSES).extracting(JavaClass::getPackageName).contains(
-                "io.furrow.model.ngsi",
-                "io.furrow.embedded",
-                "io.furrow.flink",
-                "io.furrow.connect.source",
-                "io.furrow.ingest.route",
-                "io.furrow.analytics.collision",
-                "io.furrow.simulators.fiware",
-                "io.furrow.bench.load",
-                "io.furrow.launcher");
+        assertThat(CLASSES)
+                .extracting(JavaClass::getPackageName)
+                .contains(
+                        "io.furrow.model.ngsi",
+                        "io.furrow.embedded",
+                        "io.furrow.flink",
+                        "io.furrow.connect.source",
+                        "io.furrow.ingest.route",
+                        "io.furrow.analytics.collision",
+                        "io.furrow.simulators.fiware",
+                        "io.furrow.bench.load",
+                        "io.furrow.launcher");
     }
 
     /** From the folders, because the connector is on nobody's class path. */

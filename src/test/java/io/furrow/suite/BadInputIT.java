@@ -48,7 +48,8 @@ class BadInputIT {
     @AfterEach
     void aGoodEventStillComesThrough() throws Exception {
         String id = "good-" + goodOnes++;
-        assertThat(running.ngsi().append(entity(id, "\"n\":{\"type\":\"Number\",\"value\":1}"))).isEqualTo(204);
+        assertThat(running.ngsi().append(entity(id, "\"n\":{\"type\":\"Number\",\"value\":1}")))
+                .isEqualTo(204);
         awaitRouted(id, record -> assertThat(record.value()).isNotEmpty());
     }
 
@@ -78,12 +79,17 @@ class BadInputIT {
 
     @ParameterizedTest
     @CsvSource({"NaN, -3.483", "-3.483, 40.3138", "0, 0", "95, -3.483"})
-    void routesADeviceWithoutAUsablePositionAndLeavesItOutOfTheAverage(String latitude, String longitude) throws Exception {
+    void routesADeviceWithoutAUsablePositionAndLeavesItOutOfTheAverage(String latitude, String longitude)
+            throws Exception {
         String id = "lost-" + latitude;
         String good = "found-" + latitude;
 
-        assertThat(running.ngsi().append(thermometer(id, 99, latitude, longitude))).isEqualTo(204);
-        awaitRouted(id, record -> assertThat(Entity.parse(record.value()).number("Temperature")).contains(99.0));
+        assertThat(running.ngsi().append(thermometer(id, 99, latitude, longitude)))
+                .isEqualTo(204);
+        awaitRouted(
+                id,
+                record -> assertThat(Entity.parse(record.value()).number("Temperature"))
+                        .contains(99.0));
 
         // The good one reports until a window that holds it has closed; the lost one is never part of it.
         await().atMost(PATIENCE).pollInterval(Duration.ofMillis(300)).untilAsserted(() -> {
@@ -127,10 +133,13 @@ class BadInputIT {
     @Test
     void routesADomainWithADotToATopicOfItsOwn() throws Exception {
         running.ngsi()
-                .append("{\"id\":\"dotted\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"bad.input\"}}");
+                .append(
+                        "{\"id\":\"dotted\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"bad.input\"}}");
 
-        awaitRouted("data._x-bad-2Einput.realtime", "dotted", record -> assertThat(record.value())
-                .isNotEmpty());
+        awaitRouted(
+                "data._x-bad-2Einput.realtime",
+                "dotted",
+                record -> assertThat(record.value()).isNotEmpty());
     }
 
     @Test
@@ -158,14 +167,13 @@ class BadInputIT {
     }
 
     private static byte[] unreadable(String kind) {
-        String body =
-                switch (kind) {
-                    case "no JSON" -> "temperature=21";
-                    case "no entity" -> "{\"subscriptionId\":\"s\",\"data\":\"none\"}";
-                    case "ten megabytes" -> "{\"id\":\"big\",\"x\":\"" + "y".repeat(10_000_000) + "\"}";
-                    case "deeply nested" -> "[".repeat(100_000) + "]".repeat(100_000);
-                    default -> throw new IllegalArgumentException(kind);
-                };
+        String body = switch (kind) {
+            case "no JSON" -> "temperature=21";
+            case "no entity" -> "{\"subscriptionId\":\"s\",\"data\":\"none\"}";
+            case "ten megabytes" -> "{\"id\":\"big\",\"x\":\"" + "y".repeat(10_000_000) + "\"}";
+            case "deeply nested" -> "[".repeat(100_000) + "]".repeat(100_000);
+            default -> throw new IllegalArgumentException(kind);
+        };
         return body.getBytes(StandardCharsets.UTF_8);
     }
 
@@ -188,11 +196,12 @@ class BadInputIT {
 
     private static void awaitDeadLetter(String reason, String stage) {
         try (TopicLog dead = running.topic("data.raw.dead")) {
-            await().atMost(PATIENCE).untilAsserted(() -> assertThat(dead.records())
-                    .map(TopicLog::headers)
-                    .anySatisfy(headers -> assertThat(headers)
-                            .containsEntry(DeadLetter.REASON, reason)
-                            .containsEntry(DeadLetter.STAGE, stage)));
+            await().atMost(PATIENCE)
+                    .untilAsserted(() -> assertThat(dead.records())
+                            .map(TopicLog::headers)
+                            .anySatisfy(headers -> assertThat(headers)
+                                    .containsEntry(DeadLetter.REASON, reason)
+                                    .containsEntry(DeadLetter.STAGE, stage)));
         }
     }
 

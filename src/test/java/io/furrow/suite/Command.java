@@ -41,13 +41,17 @@ final class Command implements AutoCloseable {
     /** Runs it to its end and returns what it printed. */
     static String run(String... words) throws IOException, InterruptedException {
         try (Command command = start(words)) {
-            assertThat(command.exitCode()).as("%s: %s", command.words, command.printed()).isZero();
+            assertThat(command.exitCode())
+                    .as("%s: %s", command.words, command.printed())
+                    .isZero();
             return command.printed();
         }
     }
 
     int exitCode() throws InterruptedException {
-        assertThat(process.waitFor(SECONDS, TimeUnit.SECONDS)).as("%s ends", words).isTrue();
+        assertThat(process.waitFor(SECONDS, TimeUnit.SECONDS))
+                .as("%s ends", words)
+                .isTrue();
         return process.exitValue();
     }
 

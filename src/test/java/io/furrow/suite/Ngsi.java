@@ -8,6 +8,7 @@ import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 
 import com.fasterxml.jackson.databind.JsonNode;
+
 import io.furrow.launcher.Suite;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -23,8 +24,7 @@ final class Ngsi {
 
     /** The entities that a query such as {@code type=Camera} finds. */
     JsonNode entities(String query) throws IOException, InterruptedException {
-        HttpRequest request = HttpRequest.newBuilder(
-                        suite.contextBroker().resolve("/v2/entities?limit=1000&" + query))
+        HttpRequest request = HttpRequest.newBuilder(suite.contextBroker().resolve("/v2/entities?limit=1000&" + query))
                 .header("fiware-service", suite.fiwareService())
                 .header("fiware-servicepath", "/#")
                 .build();
@@ -41,7 +41,9 @@ final class Ngsi {
     /** Creates or updates an entity in normalized form. */
     int append(String entities) throws IOException, InterruptedException {
         String update = "{\"actionType\":\"append\",\"entities\":[" + entities + "]}";
-        return send(suite.contextBroker().resolve("/v2/op/update"), update.getBytes(java.nio.charset.StandardCharsets.UTF_8));
+        return send(
+                suite.contextBroker().resolve("/v2/op/update"),
+                update.getBytes(java.nio.charset.StandardCharsets.UTF_8));
     }
 
     private int send(URI uri, byte[] body) throws IOException, InterruptedException {

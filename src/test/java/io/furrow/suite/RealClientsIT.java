@@ -20,8 +20,7 @@ import static org.awaitility.Awaitility.await;
 class RealClientsIT {
     private static final Duration PATIENCE = Duration.ofSeconds(30);
     private static final String ENTITY = "urn:ngsi-ld:Thermometer:mine";
-    private static final String DEVICE =
-            """
+    private static final String DEVICE = """
             {"devices": [{"device_id": "mine", "apikey": "secret", "entity_name": "urn:ngsi-ld:Thermometer:mine",
               "entity_type": "Thermometer", "transport": "MQTT", "commands": [{"name": "on", "type": "command"}],
               "attributes": [{"object_id": "temp", "name": "Temperature", "type": "Float"},
@@ -47,21 +46,31 @@ class RealClientsIT {
 
     @Test
     void takesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
-        Command.run(mosquitto("mosquitto_pub", Suite.MQTT_PASSWORD, "/secret/mine/attrs", "-m", "{\"temp\": 21.5, \"lat\": 40.3138, \"lon\": -3.483}"));
+        Command.run(mosquitto(
+                "mosquitto_pub",
+                Suite.MQTT_PASSWORD,
+                "/secret/mine/attrs",
+                "-m",
+                "{\"temp\": 21.5, \"lat\": 40.3138, \"lon\": -3.483}"));
 
         await().atMost(PATIENCE)
-                .untilAsserted(() -> assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
+                .untilAsserted(() ->
+                        assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
         try (TopicLog topic = running.topic("data.farm.realtime")) {
-            await().atMost(PATIENCE).untilAsserted(() -> assertThat(topic.of(ENTITY))
-                    .extracting(record -> Entity.parse(record.value()).number("Temperature").orElse(0.0))
-                    .contains(21.5));
+            await().atMost(PATIENCE)
+                    .untilAsserted(() -> assertThat(topic.of(ENTITY))
+                            .extracting(record -> Entity.parse(record.value())
+                                    .number("Temperature")
+                                    .orElse(0.0))
+                            .contains(21.5));
         }
     }
 
     @Test
     void sendsACommandOfCurlToTheDeviceAndItsAnswerBack() throws Exception {
         URI attributes = running.suite().contextBroker().resolve("/v2/entities/" + ENTITY + "/attrs");
-        try (Command device = Command.start(mosquitto("mosquitto_sub", Suite.MQTT_PASSWORD, "/secret/mine/cmd", "-C", "1", "-d"))) {
+        try (Command device =
+                Command.start(mosquitto("mosquitto_sub", Suite.MQTT_PASSWORD, "/secret/mine/cmd", "-C", "1", "-d"))) {
             await().atMost(PATIENCE).until(() -> device.printed().contains("SUBACK"));
 
             curl("PATCH", attributes, "{\"on\": {\"type\": \"command\", \"value\": \"now\"}}");
@@ -71,7 +80,8 @@ class RealClientsIT {
         }
         assertThat(entity().at("/on_status/value").asText()).isEqualTo("PENDING");
 
-        Command.run(mosquitto("mosquitto_pub", Suite.MQTT_PASSWORD, "/secret/mine/cmdexe", "-m", "{\"on\": \"is on\"}"));
+        Command.run(
+                mosquitto("mosquitto_pub", Suite.MQTT_PASSWORD, "/secret/mine/cmdexe", "-m", "{\"on\": \"is on\"}"));
 
         await().atMost(PATIENCE).untilAsserted(() -> {
             assertThat(entity().at("/on_status/value").asText()).isEqualTo("OK");
@@ -81,7 +91,8 @@ class RealClientsIT {
 
     @Test
     void refusesAWrongPassword() throws Exception {
-        try (Command stranger = Command.start(mosquitto("mosquitto_pub", "guessed", "/secret/mine/attrs", "-m", "{\"temp\": 99}"))) {
+        try (Command stranger =
+                Command.start(mosquitto("mosquitto_pub", "guessed", "/secret/mine/attrs", "-m", "{\"temp\": 99}"))) {
             assertThat(stranger.exitCode()).isNotZero();
             assertThat(stranger.printed()).contains("bad user name or password");
         }
@@ -93,14 +104,27 @@ class RealClientsIT {
 
     private static void curl(String method, URI uri, String body) throws Exception {
         Command.run(
-                "curl", "--silent", "--show-error", "--fail-with-body", "-X", method, uri.toString(),
-                "-H", "fiware-service: farm", "-H", "fiware-servicepath: /", "-H", "Content-Type: application/json",
-                "-d", body);
+                "curl",
+                "--silent",
+                "--show-error",
+                "--fail-with-body",
+                "-X",
+                method,
+                uri.toString(),
+                "-H",
+                "fiware-service: farm",
+                "-H",
+                "fiware-servicepath: /",
+                "-H",
+                "Content-Type: application/json",
+                "-d",
+                body);
     }
 
     private static String[] mosquitto(String program, String password, String topic, String... more) {
         URI broker = running.suite().devices().mqtt();
-        List<String> words = new ArrayList<>(List.of("stdbuf", "-oL", program)); // a line at once, though it is no terminal
+        List<String> words =
+                new ArrayList<>(List.of("stdbuf", "-oL", program)); // a line at once, though it is no terminal
         words.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(broker.getPort())));
         words.addAll(List.of("-u", Suite.MQTT_USER, "-P", password, "-q", "1", "-t", topic));
         words.addAll(List.of(more));

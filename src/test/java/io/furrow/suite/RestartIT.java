@@ -28,7 +28,10 @@ class RestartIT {
         try (RunningSuite second = RunningSuite.start(kept)) {
             send(second, EVENTS);
             List<String> ids = awaitRouted(second, 2 * EVENTS);
-            assertThat(ids).as("nothing is routed twice").doesNotHaveDuplicates().hasSize(2 * EVENTS);
+            assertThat(ids)
+                    .as("nothing is routed twice")
+                    .doesNotHaveDuplicates()
+                    .hasSize(2 * EVENTS);
         }
     }
 

@@ -24,8 +24,7 @@ final class RunningSuite implements AutoCloseable {
     static RunningSuite start(Path kept) throws Exception {
         RunDirectory directory = RunDirectory.open(kept);
         PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, StandardCharsets.UTF_8));
-        return new RunningSuite(
-                directory, Suite.start(SuiteSettings.onFreePorts("2s"), directory, new Progress(out)));
+        return new RunningSuite(directory, Suite.start(SuiteSettings.onFreePorts("2s"), directory, new Progress(out)));
     }
 
     Suite suite() {

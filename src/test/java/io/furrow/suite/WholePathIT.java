@@ -76,7 +76,8 @@ class WholePathIT {
                 assertThat(entity.text("Mission")).contains("weeding");
                 assertThat(new String(record.key(), StandardCharsets.UTF_8)).isEqualTo(entity.id());
                 assertThat(TopicLog.headers(record))
-                        .containsKeys(HeaderNames.CE_ID, HeaderNames.TS_DEVICE, HeaderNames.TS_SOURCE, HeaderNames.TS_INGEST)
+                        .containsKeys(
+                                HeaderNames.CE_ID, HeaderNames.TS_DEVICE, HeaderNames.TS_SOURCE, HeaderNames.TS_INGEST)
                         .containsEntry(HeaderNames.CE_SPECVERSION, "1.0")
                         .containsEntry(HeaderNames.ORIGIN, "notification")
                         .containsEntry(HeaderNames.TS_DEVICE, Long.toString(record.timestamp()))
@@ -87,9 +88,9 @@ class WholePathIT {
 
     @Test
     void doesNotTakeItsOwnResultsForNews() {
-        await().atMost(PATIENCE).untilAsserted(() -> assertThat(
-                        running.ngsi().entities("typePattern=Analytics:.*"))
-                .isNotEmpty());
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(running.ngsi().entities("typePattern=Analytics:.*"))
+                        .isNotEmpty());
         try (TopicLog raw = running.topic("data.raw")) {
             await().atMost(PATIENCE)
                     .untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
