@@ -19,7 +19,12 @@ import com.hivemq.client.mqtt.mqtt3.Mqtt3ClientBuilder;
 import com.hivemq.client.mqtt.mqtt3.message.publish.Mqtt3Publish;
 import com.hivemq.client.mqtt.mqtt3.message.subscribe.Mqtt3Subscribe;
 import com.hivemq.client.mqtt.mqtt3.message.subscribe.Mqtt3Subscription;
+import com.hivemq.client.mqtt.mqtt3.message.subscribe.suback.Mqtt3SubAck;
+import com.hivemq.client.mqtt.mqtt3.message.subscribe.suback.Mqtt3SubAckReturnCode;
 import com.hivemq.client.mqtt.mqtt3.message.unsubscribe.Mqtt3Unsubscribe;
+import io.reactivex.disposables.Disposable;
+import io.reactivex.disposables.Disposables;
+import io.reactivex.schedulers.Schedulers;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -41,7 +46,7 @@ final class MqttLink implements IotAgent.Downlink, AutoCloseable {
     private static final int DEFAULT_PORT = 1883;
     private static final int KEEP_ALIVE_SECONDS = 30;
     private static final long OPEN_SECONDS = 15;
-    private static final long CLOSE_SECONDS = 2;
+    private static final long CLOSE_SECONDS = 1;
     private static final long FIRST_PAUSE_MS = 250;
     private static final long LONGEST_PAUSE_MS = 5_000;
 
@@ -55,6 +60,7 @@ final class MqttLink implements IotAgent.Downlink, AutoCloseable {
     private final IotAgent agent;
     private final Mqtt3AsyncClient client;
     private final ExecutorService receiver = Executors.newSingleThreadExecutor(MqttLink::receiverThread);
+    private volatile Disposable messages = Disposables.disposed();
     private volatile Phase phase = Phase.OPENING;
     private volatile CompletableFuture<Void> pause = CompletableFuture.completedFuture(null);
 
@@ -83,6 +89,8 @@ final class MqttLink implements IotAgent.Downlink, AutoCloseable {
                 .serverPort(broker.getPort() < 0 ? DEFAULT_PORT : broker.getPort())
                 .executorConfig()
                 .nettyThreads(1)
+                // Messages go on to a thread of our own at once, the client needs no further one for them.
+                .applicationScheduler(Schedulers.trampoline())
                 .applyExecutorConfig()
                 .addDisconnectedListener(this::disconnected);
         if (settings.mqttUser() != null) {
@@ -117,17 +125,24 @@ final class MqttLink implements IotAgent.Downlink, AutoCloseable {
         phase = Phase.CLOSED;
         pause.complete(null);
         if (client.getState().isConnected()) {
-            // The session outlives the connection; without its subscriptions nothing gathers in it.
-            client.unsubscribe(Mqtt3Unsubscribe.builder().reverse(SUBSCRIBE).build())
-                    .thenCompose(done -> client.disconnect())
-                    .completeOnTimeout(null, CLOSE_SECONDS, TimeUnit.SECONDS)
-                    .exceptionally(gone -> {
-                        LOG.debug("The MQTT connection was gone before it was closed", gone);
-                        return null;
-                    })
-                    .join();
+            leave();
         }
+        // Else the client's thread would stay for the messages of a connection that may come back.
+        messages.dispose();
         receiver.shutdown();
+    }
+
+    /** The session outlives the connection; without its subscriptions nothing gathers in it. */
+    private void leave() {
+        client.unsubscribe(Mqtt3Unsubscribe.builder().reverse(SUBSCRIBE).build())
+                .orTimeout(CLOSE_SECONDS, TimeUnit.SECONDS)
+                .handle((left, failure) -> client.disconnect().orTimeout(CLOSE_SECONDS, TimeUnit.SECONDS))
+                .thenCompose(disconnected -> disconnected)
+                .exceptionally(failure -> {
+                    LOG.debug("The MQTT connection was gone before it was closed", failure);
+                    return null;
+                })
+                .join();
     }
 
     private void connect() {
@@ -135,12 +150,23 @@ final class MqttLink implements IotAgent.Downlink, AutoCloseable {
                 .cleanSession(false)
                 .keepAlive(KEEP_ALIVE_SECONDS)
                 .send()
-                .thenCompose(connected -> {
-                    phase = Phase.OPEN;
-                    return client.subscribe(SUBSCRIBE, this::received, Runnable::run, true);
-                })
+                .thenCompose(connected -> subscribe())
                 .orTimeout(OPEN_SECONDS, TimeUnit.SECONDS)
                 .join();
+    }
+
+    private CompletableFuture<Void> subscribe() {
+        phase = Phase.OPEN;
+        CompletableFuture<Mqtt3SubAck> acknowledged = new CompletableFuture<>();
+        messages = client.toRx()
+                .subscribePublishes(SUBSCRIBE, true)
+                .doOnSingle(acknowledged::complete)
+                .subscribe(this::received, acknowledged::completeExceptionally);
+        return acknowledged.thenAccept(answer -> {
+            if (answer.getReturnCodes().stream().anyMatch(Mqtt3SubAckReturnCode::isError)) {
+                throw new IllegalStateException("the MQTT broker refuses the subscription");
+            }
+        });
     }
 
     /** Comes back after a pause that grows with the attempts; the first connection of all is not tried twice. */
