@@ -3,6 +3,7 @@ package io.furrow.simulators.fiware;
 import java.time.Clock;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -30,15 +31,28 @@ final class ContextBroker {
     private final Notifier notifier;
     private final Commands commands;
     private final Clock clock;
+    private final Revision revision;
 
-    ContextBroker(Notifier notifier, Commands commands, Clock clock) {
+    /** @param revision advanced by every change of an entity or subscription */
+    ContextBroker(Notifier notifier, Commands commands, Clock clock, Revision revision) {
         this.notifier = notifier;
         this.commands = commands;
         this.clock = clock;
+        this.revision = revision;
     }
 
     Tenant tenant(String service) {
-        return tenants.computeIfAbsent(service, name -> new Tenant());
+        return tenants.computeIfAbsent(service, name -> new Tenant(revision));
+    }
+
+    Map<String, Tenant> tenants() {
+        return Collections.unmodifiableMap(tenants);
+    }
+
+    Subscription subscribe(String service, String id, PathFilter paths, SubscriptionDefinition definition) {
+        Subscription subscription = new Subscription(id, paths, definition, revision);
+        tenant(service).add(subscription);
+        return subscription;
     }
 
     /** Milliseconds, as the context broker keeps them. */

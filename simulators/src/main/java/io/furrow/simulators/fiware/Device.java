@@ -12,6 +12,7 @@ import io.furrow.model.event.FiwareScope;
 /**
  * A device and the entity that stands for it.
  *
+ * @param group that it belonged to when it was provisioned
  * @param mapping its own laid over that of its group
  * @param json as it was provisioned
  */
@@ -21,6 +22,7 @@ record Device(
         String apikey,
         String entityId,
         String entityType,
+        Optional<ServiceGroup> group,
         DeviceMapping mapping,
         ObjectNode json) {
     /** @param group of its scope, if there is one: gives what the device leaves open */
@@ -40,6 +42,7 @@ record Device(
                 json.path("apikey").asText(group.map(ServiceGroup::apikey).orElse("")),
                 entityId,
                 type,
+                group,
                 group.map(of -> own.over(of.mapping())).orElse(own),
                 json.deepCopy());
     }

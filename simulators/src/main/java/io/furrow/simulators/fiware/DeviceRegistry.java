@@ -1,5 +1,6 @@
 package io.furrow.simulators.fiware;
 
+import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -12,8 +13,17 @@ final class DeviceRegistry {
     private record Topic(String apikey, String deviceId) {}
 
     private final Map<String, ServiceGroup> groups = new LinkedHashMap<>();
-    private final Map<Topic, Device> devices = new LinkedHashMap<>();
-    private final Map<String, Device> byEntity = new LinkedHashMap<>();
+    /** By scope and id, in the order of their coming. */
+    private final Map<String, Device> devices = new LinkedHashMap<>();
+
+    private final Map<Topic, Device> byTopic = new HashMap<>();
+    private final Map<String, Device> byEntity = new HashMap<>();
+    private final Revision revision;
+
+    /** @param revision advanced by every change */
+    DeviceRegistry(Revision revision) {
+        this.revision = revision;
+    }
 
     synchronized void add(ServiceGroup group) throws NgsiError {
         if (groups.putIfAbsent(group.apikey(), group) != null) {
@@ -23,6 +33,7 @@ final class DeviceRegistry {
                     "A device configuration already exists for resource " + group.resource() + " and API Key "
                             + group.apikey());
         }
+        revision.advance();
     }
 
     synchronized void removeGroup(FiwareScope scope, String apikey) throws NgsiError {
@@ -31,6 +42,11 @@ final class DeviceRegistry {
             throw new NgsiError(404, "DEVICE_GROUP_NOT_FOUND", "Couldn't find device group");
         }
         groups.remove(apikey);
+        revision.advance();
+    }
+
+    synchronized List<ServiceGroup> groups() {
+        return List.copyOf(groups.values());
     }
 
     synchronized List<ServiceGroup> groups(String service, PathFilter paths) {
@@ -52,26 +68,33 @@ final class DeviceRegistry {
     }
 
     synchronized void add(Device device) throws NgsiError {
-        if (find(device.scope(), device.id()).isPresent()) {
+        if (devices.putIfAbsent(device.scope().identity(device.id()), device) != null) {
             throw new NgsiError(
                     409,
                     "DUPLICATE_DEVICE_ID",
                     "A device with the same pair (Service, DeviceId) was found:" + device.id());
         }
-        devices.put(new Topic(device.apikey(), device.id()), device);
+        byTopic.put(new Topic(device.apikey(), device.id()), device);
         byEntity.put(device.scope().identity(device.entityId()), device);
+        revision.advance();
     }
 
     synchronized Device remove(FiwareScope scope, String id) throws NgsiError {
         Device device = require(scope, id);
-        devices.remove(new Topic(device.apikey(), id));
+        devices.remove(scope.identity(id));
+        byTopic.remove(new Topic(device.apikey(), id));
         byEntity.remove(scope.identity(device.entityId()));
+        revision.advance();
         return device;
     }
 
     synchronized Device require(FiwareScope scope, String id) throws NgsiError {
-        return find(scope, id)
+        return Optional.ofNullable(devices.get(scope.identity(id)))
                 .orElseThrow(() -> new NgsiError(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id));
+    }
+
+    synchronized List<Device> devices() {
+        return List.copyOf(devices.values());
     }
 
     synchronized List<Device> devices(FiwareScope scope) {
@@ -82,7 +105,7 @@ final class DeviceRegistry {
 
     /** The device behind a topic; one that is new registers itself when its API key is known. */
     synchronized Optional<Device> behind(String apikey, String deviceId) throws NgsiError {
-        Device known = devices.get(new Topic(apikey, deviceId));
+        Device known = byTopic.get(new Topic(apikey, deviceId));
         ServiceGroup group = groups.get(apikey);
         if (known != null || group == null) {
             return Optional.ofNullable(known);
@@ -94,9 +117,5 @@ final class DeviceRegistry {
 
     synchronized Optional<Device> ofEntity(FiwareScope scope, String entityId) {
         return Optional.ofNullable(byEntity.get(scope.identity(entityId)));
-    }
-
-    private Optional<Device> find(FiwareScope scope, String id) {
-        return devices(scope).stream().filter(device -> device.id().equals(id)).findFirst();
     }
 }

@@ -7,7 +7,7 @@ import java.util.Deque;
 
 /**
  * An IoT agent and a context broker in this JVM: NGSI-v2 at {@link #contextBroker()}, provisioning at {@link #iotAgent()},
- * devices over MQTT. Both listen on 127.0.0.1 only and keep everything in memory.
+ * devices over MQTT. Both listen on 127.0.0.1 only and work in memory; with a state file they go on where they were.
  */
 public final class FiwareStandIn implements AutoCloseable {
     private final Notifier notifier;
@@ -25,8 +25,8 @@ public final class FiwareStandIn implements AutoCloseable {
     /**
      * Starts all of it.
      *
-     * @throws java.io.UncheckedIOException if a port is taken
-     * @throws IllegalStateException if the MQTT broker cannot be used
+     * @throws java.io.UncheckedIOException if a port is taken or the state file cannot be read
+     * @throws IllegalStateException if the MQTT broker cannot be used or the state file is damaged
      */
     public static FiwareStandIn start(FiwareSettings settings) {
         return start(settings, Clock.systemUTC());
@@ -38,13 +38,18 @@ public final class FiwareStandIn implements AutoCloseable {
     }
 
     private FiwareStandIn(FiwareSettings settings, Clock clock) {
-        DeviceRegistry registry = new DeviceRegistry();
+        Revision revision = new Revision();
+        DeviceRegistry registry = new DeviceRegistry(revision);
         notifier = new Notifier(clock);
         agent = new IotAgent(registry);
-        ContextBroker broker = new ContextBroker(notifier, agent, clock);
+        ContextBroker broker = new ContextBroker(notifier, agent, clock, revision);
         agent.connect(broker);
         boolean complete = false;
         try {
+            if (settings.state() != null) {
+                KeptState state = new KeptState(broker, registry, revision);
+                started.push(StateKeeper.open(settings.state(), state, revision)::close);
+            }
             notifier.start();
             started.push(notifier::close);
             contextBroker = LoopbackServer.start(
@@ -85,7 +90,7 @@ public final class FiwareStandIn implements AutoCloseable {
                 notifier.queued());
     }
 
-    /** Sends nothing more and stops all threads; a second call does nothing. */
+    /** Sends nothing more, stops all threads and writes the state; a second call does nothing. */
     @Override
     public synchronized void close() {
         while (!started.isEmpty()) {

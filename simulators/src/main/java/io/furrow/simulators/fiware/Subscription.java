@@ -1,8 +1,10 @@
 package io.furrow.simulators.fiware;
 
 import java.time.Instant;
-import java.util.Optional;
+import java.util.ArrayList;
+import java.util.List;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -10,21 +12,32 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 final class Subscription {
     private final String id;
     private final PathFilter paths;
+    private final Revision revision;
     private SubscriptionDefinition definition;
     private boolean active;
-    private long timesSent;
-    private int failsCounter;
-    private Optional<Instant> lastNotification = Optional.empty();
-    private Optional<Instant> lastSuccess = Optional.empty();
-    private int lastSuccessCode;
-    private Optional<Instant> lastFailure = Optional.empty();
-    private String lastFailureReason = "";
+    private Delivery delivery = Delivery.NONE;
 
-    Subscription(String id, PathFilter paths, SubscriptionDefinition definition) {
+    /** @param revision advanced by every change of it */
+    Subscription(String id, PathFilter paths, SubscriptionDefinition definition, Revision revision) {
         this.id = id;
         this.paths = paths;
+        this.revision = revision;
         this.definition = definition;
         this.active = definition.limits().active();
+    }
+
+    /** The inverse of {@link #state}. */
+    static Subscription restored(JsonNode state, Revision revision) throws NgsiError {
+        List<String> patterns = new ArrayList<>();
+        state.required("paths").forEach(pattern -> patterns.add(pattern.asText()));
+        Subscription subscription = new Subscription(
+                state.required("id").asText(),
+                new PathFilter(List.copyOf(patterns)),
+                SubscriptionReader.read(state.required("definition")),
+                revision);
+        subscription.active = state.required("active").asBoolean();
+        subscription.delivery = Delivery.shownIn(state.required("delivery"));
+        return subscription;
     }
 
     String id() {
@@ -44,8 +57,9 @@ final class Subscription {
         definition = other;
         if (statusGiven) {
             active = other.limits().active();
-            failsCounter = active ? 0 : failsCounter;
+            delivery = active ? delivery.forgiven() : delivery;
         }
+        revision.advance();
     }
 
     /** Whether the change is to be notified now; counts it as sent if so. */
@@ -55,44 +69,45 @@ final class Subscription {
                 && definition.subject().covers(change)
                 && !throttled(now);
         if (triggered) {
-            timesSent++;
-            lastNotification = Optional.of(now);
+            delivery = delivery.begun(now);
+            revision.advance();
         }
         return triggered;
     }
 
     synchronized void succeeded(Instant now, int statusCode) {
-        lastSuccess = Optional.of(now);
-        lastSuccessCode = statusCode;
-        failsCounter = 0;
+        delivery = delivery.succeeded(now, statusCode);
+        revision.advance();
     }
 
     synchronized void failed(Instant now, String reason) {
-        lastFailure = Optional.of(now);
-        lastFailureReason = reason;
-        failsCounter++;
-        if (definition.limits().maxFails().filter(limit -> failsCounter > limit).isPresent()) {
+        delivery = delivery.failed(now, reason);
+        if (definition
+                .limits()
+                .maxFails()
+                .filter(limit -> delivery.failsInARow() > limit)
+                .isPresent()) {
             active = false;
         }
+        revision.advance();
     }
 
+    /** As {@code GET} shows it. */
     synchronized ObjectNode json(Instant now) {
         ObjectNode json = JsonNodeFactory.instance.objectNode().put("id", id);
         json.setAll(definition.json().deepCopy());
         json.put("status", status(now));
-        ObjectNode notification = (ObjectNode) json.get("notification");
-        if (timesSent > 0) {
-            notification.put("timesSent", timesSent);
-        }
-        lastNotification.ifPresent(time -> notification.put("lastNotification", NgsiTime.format(time)));
-        lastSuccess.ifPresent(
-                time -> notification.put("lastSuccess", NgsiTime.format(time)).put("lastSuccessCode", lastSuccessCode));
-        lastFailure.ifPresent(time ->
-                notification.put("lastFailure", NgsiTime.format(time)).put("lastFailureReason", lastFailureReason));
-        if (failsCounter > 0) {
-            notification.put("failsCounter", failsCounter);
-        }
+        delivery.showIn((ObjectNode) json.get("notification"));
         return json;
+    }
+
+    /** All of it, for {@link #restored}. */
+    synchronized ObjectNode state() {
+        ObjectNode state = JsonNodeFactory.instance.objectNode().put("id", id).put("active", active);
+        paths.patterns().forEach(state.putArray("paths")::add);
+        state.set("definition", definition.requested());
+        delivery.showIn(state.putObject("delivery"));
+        return state;
     }
 
     private String status(Instant now) {
@@ -103,7 +118,7 @@ final class Subscription {
     }
 
     private boolean throttled(Instant now) {
-        return lastNotification
+        return delivery.lastNotification()
                 .filter(last -> now.isBefore(last.plus(definition.limits().throttling())))
                 .isPresent();
     }

@@ -18,6 +18,11 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  */
 record SubscriptionDefinition(
         Subject subject, Target target, Rendering rendering, boolean onlyChanged, Limits limits, ObjectNode json) {
+    /** As a request would give it, with its status. */
+    ObjectNode requested() {
+        return json.deepCopy().put("status", limits.active() ? "active" : "inactive");
+    }
+
     /** Entities whose id and type pass. */
     record Selector(Predicate<String> id, Predicate<String> type) {
         boolean matches(StoredEntity entity) {

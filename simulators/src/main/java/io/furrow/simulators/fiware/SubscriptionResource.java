@@ -44,8 +44,7 @@ final class SubscriptionResource {
 
     private Reply create(Call call) throws NgsiError {
         SubscriptionDefinition definition = SubscriptionReader.read(call.json());
-        Subscription subscription = new Subscription(nextId(), call.paths(), definition);
-        broker.tenant(call.service()).subscriptions().add(subscription);
+        Subscription subscription = broker.subscribe(call.service(), nextId(), call.paths(), definition);
         return Reply.created("/v2/subscriptions/" + subscription.id());
     }
 
@@ -55,10 +54,7 @@ final class SubscriptionResource {
         if (!patch.isObject() || patch.isEmpty()) {
             throw NgsiError.badRequest("empty payload");
         }
-        ObjectNode merged = subscription.definition().json().deepCopy();
-        if (!patch.has("status")) {
-            merged.put("status", subscription.definition().limits().active() ? "active" : "inactive");
-        }
+        ObjectNode merged = subscription.definition().requested();
         merged.setAll((ObjectNode) patch);
         subscription.redefine(SubscriptionReader.read(merged), patch.has("status"));
         return Reply.noContent();
@@ -66,7 +62,7 @@ final class SubscriptionResource {
 
     private Reply delete(Call call) throws NgsiError {
         Subscription subscription = find(call);
-        broker.tenant(call.service()).subscriptions().remove(subscription);
+        broker.tenant(call.service()).remove(subscription);
         notifier.forget(subscription.id());
         return Reply.noContent();
     }

@@ -1,6 +1,7 @@
 package io.furrow.simulators.fiware;
 
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -18,10 +19,26 @@ final class Tenant {
     private final Map<Place, Map<String, StoredEntity>> entities = new LinkedHashMap<>();
 
     private final List<Subscription> subscriptions = new CopyOnWriteArrayList<>();
+    private final Revision revision;
+
+    /** @param revision advanced by every change of an entity and by the coming and going of a subscription */
+    Tenant(Revision revision) {
+        this.revision = revision;
+    }
 
     /** In the order of creation, which is the order in which they are notified. */
     List<Subscription> subscriptions() {
-        return subscriptions;
+        return Collections.unmodifiableList(subscriptions);
+    }
+
+    void add(Subscription subscription) {
+        subscriptions.add(subscription);
+        revision.advance();
+    }
+
+    void remove(Subscription subscription) {
+        subscriptions.remove(subscription);
+        revision.advance();
     }
 
     synchronized List<StoredEntity> find(String servicePath, String id, Optional<String> type) {
@@ -53,6 +70,7 @@ final class Tenant {
 
     synchronized void put(StoredEntity entity) {
         entities.computeIfAbsent(place(entity), place -> new LinkedHashMap<>()).put(entity.type(), entity);
+        revision.advance();
     }
 
     synchronized void remove(StoredEntity entity) {
@@ -60,6 +78,7 @@ final class Tenant {
         if (byType != null && byType.remove(entity.type()) != null && byType.isEmpty()) {
             entities.remove(place(entity));
         }
+        revision.advance();
     }
 
     private static Place place(StoredEntity entity) {

@@ -2,10 +2,13 @@ package io.furrow.simulators.fiware;
 
 import java.io.UncheckedIOException;
 import java.net.URI;
+import java.util.Map;
 import java.util.Set;
 import java.util.stream.Collectors;
 
 import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMqtt;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -24,6 +27,19 @@ class FiwareStandInTest {
 
         await().untilAsserted(() -> assertThat(ours(before)).isEmpty());
         FiwareStandIn.start(new FiwareSettings(port, 0, null, null, null)).close();
+    }
+
+    @Test
+    void leavesNoThreadWhenItIsClosedAfterTheMqttBroker() {
+        Set<Thread> before = Thread.getAllStackTraces().keySet();
+        EmbeddedMqtt mqtt = EmbeddedMqtt.start(Map.of("agent", "secret"));
+        FiwareStandIn standIn = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "secret"));
+        assertThat(ours(before)).anyMatch(name -> name.startsWith("com.hivemq"));
+        mqtt.close();
+
+        standIn.close();
+
+        await().untilAsserted(() -> assertThat(ours(before)).isEmpty());
     }
 
     @Test
@@ -60,7 +76,8 @@ class FiwareStandInTest {
         return Thread.getAllStackTraces().keySet().stream()
                 .filter(thread -> !before.contains(thread))
                 .map(Thread::getName)
-                .filter(name -> name.matches("(furrow-notifier|context-broker|iot-agent|furrow-iot).*"))
+                .filter(name -> name.matches(
+                        "(furrow-notifier|furrow-fiware|context-broker|iot-agent|furrow-iot|com.hivemq).*"))
                 .collect(Collectors.toSet());
     }
 }

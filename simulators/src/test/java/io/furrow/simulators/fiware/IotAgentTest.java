@@ -10,7 +10,9 @@ import org.eclipse.paho.client.mqttv3.MqttClient;
 import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
+import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
@@ -25,12 +27,24 @@ class IotAgentTest {
 
     private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
 
-    private final EmbeddedMqtt mqtt = EmbeddedMqtt.start(PASSWORDS);
+    /** One for all tests: its stop takes 2 s. */
+    private static EmbeddedMqtt mqtt;
+
     private final FiwareStandIn standIn = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "secret"));
     private final Client broker = Client.of(standIn.contextBroker());
     private final Client agent = Client.of(standIn.iotAgent());
     private final List<String> commands = new CopyOnWriteArrayList<>();
     private MqttClient device;
+
+    @BeforeAll
+    static void startBroker() {
+        mqtt = EmbeddedMqtt.start(PASSWORDS);
+    }
+
+    @AfterAll
+    static void stopBroker() {
+        mqtt.close();
+    }
 
     @BeforeEach
     void provision() throws MqttException {
@@ -57,7 +71,6 @@ class IotAgentTest {
         device.disconnect();
         device.close();
         standIn.close();
-        mqtt.close();
     }
 
     @Test
