@@ -1,5 +1,9 @@
 package io.furrow.analytics.collision;
 
+import java.util.Set;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
+
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.MetricGroup;
@@ -26,6 +30,10 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
     /** The results of Furrow itself, which come back through the context broker. */
     private static final String OWN_TYPES = "Analytics:";
 
+    private static final Set<String> WANTED = Stream.concat(
+                    PositionReading.ATTRIBUTES.stream(), Stream.of("Mission", "carriedBy", "refRobot"))
+            .collect(Collectors.toUnmodifiableSet());
+
     private transient Counter rejected;
     private transient Counter skipped;
     private transient Counter faulty;
@@ -45,7 +53,7 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
             return;
         }
         try {
-            Entity entity = Entity.parse(record.value());
+            Entity entity = Entity.parse(record.value(), WANTED);
             if (entity.type().startsWith(OWN_TYPES)) {
                 skipped.inc();
             } else {

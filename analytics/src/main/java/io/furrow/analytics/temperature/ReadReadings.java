@@ -3,6 +3,9 @@ package io.furrow.analytics.temperature;
 import java.time.Instant;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
 
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.metrics.Counter;
@@ -33,6 +36,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
     private static final double GREATEST = 1e100;
 
     private final String attribute;
+    private transient Set<String> wanted;
     private transient Counter accepted;
     private transient Counter rejected;
     private transient Counter skipped;
@@ -45,6 +49,8 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
 
     @Override
     public void open(OpenContext context) {
+        wanted = Stream.concat(PositionReading.ATTRIBUTES.stream(), Stream.of(attribute))
+                .collect(Collectors.toUnmodifiableSet());
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         accepted = metrics.counter("accepted");
         rejected = metrics.counter("rejected");
@@ -60,7 +66,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
             return;
         }
         try {
-            Entity entity = Entity.parse(record.value());
+            Entity entity = Entity.parse(record.value(), wanted);
             if (entity.type().startsWith(OWN_TYPES) || entity.value(attribute).isEmpty()) {
                 skipped.inc();
             } else {
@@ -72,7 +78,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
         }
     }
 
-    private void measured(Entity entity, TopicRecord record, Collector<Reading> out) {
+    private void measured(Entity entity, TopicRecord record, Collector<Reading> out) throws UnreadableException {
         Optional<Double> value = entity.number(attribute).filter(number -> Math.abs(number) <= GREATEST);
         PositionReading place = PositionReading.of(entity);
         if (value.isEmpty() || place instanceof PositionReading.Faulty) {
@@ -83,7 +89,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
             FiwareScope scope = FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
             String eventId = headers.containsKey(HeaderNames.CE_ID)
                     ? headers.get(HeaderNames.CE_ID)
-                    : EventId.of(scope, entity, Instant.ofEpochMilli(record.timestamp()));
+                    : EventId.of(scope, Entity.parse(record.value()), Instant.ofEpochMilli(record.timestamp()));
             out.collect(new Reading(entity.id(), scope, located.position(), value.get(), eventId, record));
         } else {
             unlocated.inc();

@@ -1,6 +1,7 @@
 package io.furrow.ingest.route;
 
 import java.time.Instant;
+import java.util.Set;
 
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
@@ -18,6 +19,7 @@ import io.furrow.model.ngsi.UnreadableException;
 final class RecognizeEvents extends ProcessFunction<TopicRecord, ReportedEvent> {
     private static final long serialVersionUID = 1L;
     private static final String STAGE = "ingest";
+    private static final Set<String> ROUTE = Set.of("Domain", "Mission");
 
     @Override
     public void processElement(TopicRecord record, Context context, Collector<ReportedEvent> out) {
@@ -37,18 +39,16 @@ final class RecognizeEvents extends ProcessFunction<TopicRecord, ReportedEvent> 
         if (record.value() == null) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no value");
         }
-        Entity entity = Entity.parse(record.value());
+        String known = record.headers().get(HeaderNames.CE_ID);
+        Entity entity = known == null ? Entity.parse(record.value()) : Entity.parse(record.value(), ROUTE);
         FiwareScope scope = FiwareScope.of(
                 record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
-        String id = record.headers().get(HeaderNames.CE_ID);
-        if (id == null) {
-            id = EventId.of(scope, entity, Instant.ofEpochMilli(record.timestamp()));
-        }
+        String id = known == null ? EventId.of(scope, entity, Instant.ofEpochMilli(record.timestamp())) : known;
         return new ReportedEvent(
                 id,
                 scope.identity(entity.id()),
                 entity.text("Domain").orElse(""),
                 entity.text("Mission").orElse(""),
-                record.with(HeaderNames.CE_ID, id));
+                known == null ? record.with(HeaderNames.CE_ID, id) : record);
     }
 }

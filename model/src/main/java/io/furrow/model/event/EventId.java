@@ -24,11 +24,11 @@ public final class EventId {
     private EventId() {}
 
     public static String of(FiwareScope scope, Entity entity, Instant eventTime) {
-        StringBuilder text = new StringBuilder(256);
-        appendText(text, scope.service());
-        appendText(text, scope.servicePath());
-        appendText(text, entity.id());
-        text.append(eventTime.toEpochMilli());
+        MessageDigest digest = sha256();
+        addText(digest, scope.service());
+        addText(digest, scope.servicePath());
+        addText(digest, entity.id());
+        add(digest, Long.toString(eventTime.toEpochMilli()));
         TreeMap<String, JsonNode> values = new TreeMap<>();
         for (Map.Entry<String, JsonNode> attribute : entity.attributes()) {
             if (!Entity.BUILT_INS.contains(attribute.getKey())) {
@@ -36,37 +36,41 @@ public final class EventId {
             }
         }
         values.forEach((name, value) -> {
-            appendText(text, name);
-            appendValue(text, value);
+            addText(digest, name);
+            addValue(digest, value);
         });
-        byte[] digest = sha256().digest(text.toString().getBytes(StandardCharsets.UTF_8));
-        return HexFormat.of().formatHex(digest).substring(0, HEX_DIGITS);
+        return HexFormat.of().formatHex(digest.digest()).substring(0, HEX_DIGITS);
     }
 
-    private static void appendValue(StringBuilder text, JsonNode value) {
+    private static void addValue(MessageDigest digest, JsonNode value) {
         switch (value.getNodeType()) {
             case OBJECT -> {
                 TreeMap<String, JsonNode> members = new TreeMap<>();
                 value.properties().forEach(member -> members.put(member.getKey(), member.getValue()));
-                text.append('{').append(members.size());
+                add(digest, "{" + members.size());
                 members.forEach((name, member) -> {
-                    appendText(text, name);
-                    appendValue(text, member);
+                    addText(digest, name);
+                    addValue(digest, member);
                 });
             }
             case ARRAY -> {
-                text.append('[').append(value.size());
-                value.forEach(element -> appendValue(text, element));
+                add(digest, "[" + value.size());
+                value.forEach(element -> addValue(digest, element));
             }
-            case STRING -> appendText(text, value.textValue());
-            case NUMBER -> text.append('#').append(canonical(value.decimalValue()));
-            default -> text.append(value.asText("null"));
+            case STRING -> addText(digest, value.textValue());
+            case NUMBER -> add(digest, "#" + canonical(value.decimalValue()));
+            default -> add(digest, value.asText("null"));
         }
     }
 
     /** The length before the text makes the whole injective: no separator can be part of a text. */
-    private static void appendText(StringBuilder text, String part) {
-        text.append('"').append(part.length()).append(':').append(part);
+    private static void addText(MessageDigest digest, String part) {
+        add(digest, "\"" + part.length() + ":");
+        add(digest, part);
+    }
+
+    private static void add(MessageDigest digest, String part) {
+        digest.update(part.getBytes(StandardCharsets.UTF_8));
     }
 
     private static String canonical(BigDecimal number) {

@@ -49,12 +49,24 @@ public final class NgsiJson {
      * @throws UnreadableException with {@link Reason#NOT_JSON} or {@link Reason#TOO_DEEP}
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
-        try {
+        return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
             if (node == null || node.isMissingNode()) {
                 throw new UnreadableException(Reason.NOT_JSON, "the body is empty");
             }
             return node;
+        });
+    }
+
+    /** Something that Jackson does with input. */
+    interface Reading<T> {
+        T read() throws IOException, UnreadableException;
+    }
+
+    /** Does it, and says what is wrong with the input where Jackson cannot. */
+    static <T> T understand(Reading<T> reading) throws UnreadableException {
+        try {
+            return reading.read();
         } catch (StreamConstraintsException e) {
             throw new UnreadableException(Reason.TOO_DEEP, e.getOriginalMessage(), e);
         } catch (JsonProcessingException e) {

@@ -2,6 +2,7 @@ package io.furrow.model.ngsi;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Optional;
+import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -11,6 +12,9 @@ import com.fasterxml.jackson.databind.JsonNode;
  * {@code %27}). The first of these that is present decides. Out of range, not a number, or exactly 0,0 is no position.
  */
 public sealed interface PositionReading {
+    /** The attributes that can tell a position. */
+    Set<String> ATTRIBUTES = Set.of("location", "Latitude", "Longitude", "gnss", "pose");
+
     /** A position that can be used. */
     record Located(Position position) implements PositionReading {}
 
