@@ -22,9 +22,13 @@ final class RunningSuite implements AutoCloseable {
 
     /** @param kept null for a temporary directory */
     static RunningSuite start(Path kept) throws Exception {
+        return start(kept, SuiteSettings.onFreePorts("2s"));
+    }
+
+    static RunningSuite start(Path kept, SuiteSettings settings) throws Exception {
         RunDirectory directory = RunDirectory.open(kept);
         PrintWriter out = new PrintWriter(new OutputStreamWriter(System.out, StandardCharsets.UTF_8));
-        return new RunningSuite(directory, Suite.start(SuiteSettings.onFreePorts("2s"), directory, new Progress(out)));
+        return new RunningSuite(directory, Suite.start(settings, directory, new Progress(out)));
     }
 
     Suite suite() {

@@ -1,0 +1,51 @@
+package io.furrow.suite;
+
+import java.nio.file.Path;
+import java.time.Duration;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.launcher.SuiteSettings;
+import io.furrow.simulators.fiware.FiwareSettings;
+import io.furrow.simulators.fiware.FiwareStandIn;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class PartsThatAlreadyRunIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+
+    @TempDir
+    Path directory;
+
+    @Test
+    void usesTheContextBrokerAndTheKafkaThatItIsGiven() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
+                FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());
+                RunningSuite running = RunningSuite.start(
+                        null,
+                        new SuiteSettings(
+                                null,
+                                "farm",
+                                "2s",
+                                null,
+                                SuiteSettings.Ports.free(),
+                                orion.contextBroker(),
+                                kafka.bootstrapServers()))) {
+            assertThat(running.suite().hasStandIn()).isFalse();
+            assertThat(running.suite().kafka().bootstrapServers()).isEqualTo(kafka.bootstrapServers());
+
+            running.ngsi()
+                    .append(
+                            "{\"id\":\"probe\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"elsewhere\"}}");
+
+            await().atMost(PATIENCE).untilAsserted(() -> {
+                try (TopicLog topic = running.topic("data.elsewhere.realtime")) {
+                    assertThat(topic.of("probe")).hasSize(1);
+                }
+            });
+        }
+    }
+}
