@@ -26,6 +26,9 @@ class RestartIT {
             awaitRouted(first, EVENTS);
         }
         try (RunningSuite second = RunningSuite.start(kept)) {
+            assertThat(second.ngsi().entities("id=probe").at("/0/n/value").asInt())
+                    .as("the context broker has kept its entities")
+                    .isEqualTo(EVENTS - 1);
             send(second, EVENTS);
             List<String> ids = awaitRouted(second, 2 * EVENTS);
             assertThat(ids)

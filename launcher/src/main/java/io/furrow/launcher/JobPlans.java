@@ -11,6 +11,7 @@ import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
@@ -36,8 +37,20 @@ final class JobPlans {
         this.directory = directory;
     }
 
-    /** By name. */
+    /**
+     * By name.
+     *
+     * @throws SuiteNotStartedException if a job refuses its options, in the job's own words
+     */
     Map<String, StreamExecutionEnvironment> all() throws IOException {
+        try {
+            return assembled();
+        } catch (ParameterException e) {
+            throw new SuiteNotStartedException(e.getMessage(), e);
+        }
+    }
+
+    private Map<String, StreamExecutionEnvironment> assembled() throws IOException {
         Map<String, StreamExecutionEnvironment> plans = new LinkedHashMap<>();
         plans.put("ingest", IngestJob.assemble(parsed("ingest", new IngestOptions())));
         plans.put(

@@ -140,17 +140,22 @@ public final class Suite implements AutoCloseable {
             return;
         }
         mqtt = parts.add("MQTT", EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD)));
-        fiware = parts.add(
-                "FIWARE stand-in",
-                progress.step(
-                        "MQTT and the FIWARE stand-in",
-                        () -> FiwareStandIn.start(new FiwareSettings(
-                                settings.ports().orion(),
-                                settings.ports().iotAgent(),
-                                mqtt.uri(),
-                                MQTT_USER,
-                                MQTT_PASSWORD))));
+        fiware = parts.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
+    }
+
+    private FiwareStandIn startStandIn() {
+        try {
+            return FiwareStandIn.start(standIn());
+        } catch (IllegalStateException e) { // says what is wrong with its state or its broker, and what to do
+            throw new SuiteNotStartedException(e.getMessage(), e);
+        }
+    }
+
+    private FiwareSettings standIn() {
+        FiwareSettings here = new FiwareSettings(
+                settings.ports().orion(), settings.ports().iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD);
+        return directory.isTemporary() ? here : here.withState(directory.resolve("fiware.json.gz"));
     }
 
     private void connectThem() throws Exception {

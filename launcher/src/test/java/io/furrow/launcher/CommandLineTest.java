@@ -42,7 +42,8 @@ class CommandLineTest {
         try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
             String port = Integer.toString(taken.getLocalPort());
 
-            assertThat(furrow.execute("up", "--flink-port", port)).isNotZero();
+            assertThat(furrow.execute("up", "--kafka-port", "0", "--connect-port", "0", "--flink-port", port))
+                    .isNotZero();
 
             assertThat(err.toString().trim())
                     .isEqualTo("Port " + port
@@ -55,8 +56,7 @@ class CommandLineTest {
     void saysThatADirectoryCannotBeWritten() throws Exception {
         Path file = Files.createFile(directory.resolve("file"));
 
-        assertThat(furrow.execute("up", "--data", file.resolve("below").toString()))
-                .isNotZero();
+        assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
 
         assertThat(err.toString().trim())
                 .startsWith("Cannot write in " + file.resolve("below"))
@@ -67,7 +67,7 @@ class CommandLineTest {
     @Test
     void refusesASecondSuiteInTheSameDirectory() {
         try (RunDirectory held = RunDirectory.open(directory)) {
-            assertThat(furrow.execute("up", "--data", held.path().toString())).isNotZero();
+            assertThat(furrow.execute(upOnFreePorts(held.path()))).isNotZero();
         }
         assertThat(err.toString()).contains("Another Furrow uses " + directory);
     }
@@ -76,5 +76,11 @@ class CommandLineTest {
     void refusesAnUnknownOptionInOneSentence() {
         assertThat(furrow.execute("demo", "--orin", "x")).isNotZero();
         assertThat(err.toString()).contains("Unknown options: '--orin', 'x'").contains("furrow demo --help");
+    }
+
+    private static String[] upOnFreePorts(Path data) {
+        return ("up --kafka-port 0 --connect-port 0 --flink-port 0 --notify-port 0 --mqtt-port 0 --orion-port 0 "
+                        + "--iot-agent-port 0 --data " + data)
+                .split(" ");
     }
 }
