@@ -1,0 +1,18 @@
+package io.furrow.ingest.route;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobUids;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class IngestUidsTest {
+    @Test
+    void keepsTheUidsThatSavepointsKnow() {
+        IngestOptions options = new IngestOptions();
+        JobCommandLine.of(options).parseArgs();
+
+        assertThat(JobUids.of(IngestJob.assemble(options))).isEqualTo(JobUids.checkedIn("ingest"));
+    }
+}
