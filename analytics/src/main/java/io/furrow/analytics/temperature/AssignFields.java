@@ -1,5 +1,6 @@
 package io.furrow.analytics.temperature;
 
+import java.util.ArrayList;
 import java.util.List;
 
 import org.apache.flink.api.common.functions.OpenContext;
@@ -11,12 +12,12 @@ import org.apache.flink.util.Collector;
 final class AssignFields extends RichFlatMapFunction<Reading, FieldReading> {
     private static final long serialVersionUID = 1L;
 
-    private final List<Field> fields;
+    private final ArrayList<Field> fields; // by its class, because it travels serialized
     private transient FieldIndex index;
     private transient Counter outside;
 
     AssignFields(List<Field> fields) {
-        this.fields = List.copyOf(fields);
+        this.fields = new ArrayList<>(fields);
     }
 
     @Override
