@@ -7,7 +7,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.atomic.AtomicReference;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.producer.RecordMetadata;
 import org.apache.kafka.connect.data.Schema;
 import org.apache.kafka.connect.errors.ConnectException;
@@ -18,6 +17,8 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.PluginVersion;
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.ledger.LedgerJson;
 import io.furrow.connect.source.PendingNotifications.Pending;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -32,7 +33,7 @@ public class NgsiSourceTask extends SourceTask {
 
     private final AtomicReference<NotificationServer> server = new AtomicReference<>();
     private volatile PendingNotifications pending;
-    private SourceCounters counters;
+    private Ledger ledger;
     private Map<String, String> partition;
     private int batchSize;
 
@@ -47,26 +48,34 @@ public class NgsiSourceTask extends SourceTask {
     @Override
     public void start(Map<String, String> properties) {
         NgsiSourceConfig config = new NgsiSourceConfig(properties);
-        counters = new SourceCounters();
-        pending = new PendingNotifications(config.maxPendingCount(), config.maxPendingBytes());
+        ledger = new Ledger();
+        pending = new PendingNotifications(
+                config.pending().maxCount(), config.pending().maxBytes());
+        ledger.gauge("pending", "Records that wait for Kafka", pending::records);
+        ledger.gauge("pendingBytes", "Bytes of the records that wait for Kafka", pending::bytes);
         partition = Map.of("connector", config.name());
-        batchSize = config.batchSize();
+        batchSize = config.acknowledging().batchSize();
         server.set(listen(config));
-        LOG.info("{} takes notifications on {}:{}", config.name(), config.host(), port());
+        LOG.info(
+                "{} takes notifications on {}:{}",
+                config.name(),
+                config.listening().host(),
+                port());
     }
 
     private NotificationServer listen(NgsiSourceConfig config) {
-        NotificationTranslator translator = new NotificationTranslator(config.translation(), counters);
-        ByteBudget bodies = new ByteBudget(config.maxPendingBytes());
-        NotificationHandler.Limits limits =
-                new NotificationHandler.Limits(config.maxBodyBytes(), bodies, config.ackTimeout());
-        NotificationHandler handler = new NotificationHandler(translator, pending, counters, limits, this::health);
-        InetSocketAddress address = new InetSocketAddress(config.host(), config.port());
+        NotificationTranslator translator = new NotificationTranslator(config.translation(), ledger);
+        ByteBudget bodies = new ByteBudget(config.pending().maxBytes());
+        NotificationHandler.Limits limits = new NotificationHandler.Limits(
+                config.sizes().maxBodyBytes(), bodies, config.acknowledging().ackTimeout());
+        NotificationHandler handler = new NotificationHandler(translator, pending, ledger, limits, this::health);
+        InetSocketAddress address = new InetSocketAddress(
+                config.listening().host(), config.listening().port());
         try {
-            Duration idle = config.ackTimeout().plus(IDLE_BEYOND_ACK);
+            Duration idle = config.acknowledging().ackTimeout().plus(IDLE_BEYOND_ACK);
             return NotificationServer.start(address, handler, idle, BIND_PATIENCE);
         } catch (UncheckedIOException e) {
-            String remedy = "; free the address or change " + NgsiSourceConfig.HOST + " or " + NgsiSourceConfig.PORT;
+            String remedy = "; free the address or change " + ListeningOptions.HOST + " or " + ListeningOptions.PORT;
             throw new ConnectException(e.getCause().getMessage() + remedy, e);
         }
     }
@@ -77,9 +86,7 @@ public class NgsiSourceTask extends SourceTask {
     }
 
     private byte[] health() {
-        ObjectNode health = counters.toJson();
-        health.put("pending", pending.count()).put("pendingBytes", pending.bytes());
-        return NgsiJson.write(health);
+        return NgsiJson.write(LedgerJson.of(ledger));
     }
 
     @Override
@@ -108,9 +115,8 @@ public class NgsiSourceTask extends SourceTask {
     /** Without metadata the record was filtered out or skipped by the worker's own settings: that is the end of it, too. */
     @Override
     public void commitRecord(SourceRecord record, RecordMetadata metadata) {
-        if (metadata == null) {
-            counters.skipped.increment();
-        }
+        ledger.durable.increment();
+        (metadata == null ? ledger.skipped : ledger.produced).increment();
         pending.acknowledge((Long) record.sourceOffset().get(NOTIFICATION));
     }
 

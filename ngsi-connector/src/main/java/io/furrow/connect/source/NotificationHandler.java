@@ -16,6 +16,7 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
+import io.furrow.connect.ledger.Ledger;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -25,7 +26,7 @@ import io.furrow.model.event.FiwareScope;
 final class NotificationHandler extends Handler.Abstract.NonBlocking {
     private final NotificationTranslator translator;
     private final Intake intake;
-    private final SourceCounters counters;
+    private final Ledger ledger;
     private final Limits limits;
     private final Supplier<byte[]> health;
 
@@ -37,14 +38,10 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     record Limits(int maxBody, ByteBudget bodies, Duration ackTimeout) {}
 
     NotificationHandler(
-            NotificationTranslator translator,
-            Intake intake,
-            SourceCounters counters,
-            Limits limits,
-            Supplier<byte[]> health) {
+            NotificationTranslator translator, Intake intake, Ledger ledger, Limits limits, Supplier<byte[]> health) {
         this.translator = translator;
         this.intake = intake;
-        this.counters = counters;
+        this.ledger = ledger;
         this.limits = limits;
         this.health = health;
     }
@@ -86,7 +83,7 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
         if (cause == null) {
             write(response, answer, callback);
         } else if (cause instanceof BodyReader.NoRoomException) {
-            counters.unavailable.increment();
+            ledger.overload.increment();
             response.getHeaders().put(HttpHeader.CONNECTION, "close");
             write(response, Answer.full(), callback);
         } else {
@@ -96,19 +93,32 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
 
     private CompletableFuture<Answer> deliver(Translation translation) {
         return intake.take(translation.records())
-                .map(durable -> durable.copy()
+                .map(durable -> counted(durable, translation)
                         .orTimeout(limits.ackTimeout().toMillis(), TimeUnit.MILLISECONDS)
                         .handle((nothing, failure) ->
                                 failure == null ? Answer.taken(translation.refusal()) : notDurable(failure)))
                 .orElseGet(() -> {
-                    counters.unavailable.increment();
+                    ledger.turnedAway.add(translation.records().size());
+                    ledger.overload.increment();
                     return CompletableFuture.completedFuture(Answer.full());
                 });
     }
 
+    /** Counted when the intake says so, which may be later than the answer. */
+    private CompletableFuture<Void> counted(CompletableFuture<Void> durable, Translation translation) {
+        return durable.whenComplete((nothing, failure) -> {
+            if (failure != null) {
+                ledger.turnedAway.add(translation.records().size());
+            }
+        });
+    }
+
     private Answer notDurable(Throwable failure) {
         Answer answer = Answer.notDurable(failure).orElseThrow(() -> new CompletionException(failure));
-        (answer.status() == 504 ? counters.unconfirmed : counters.unavailable).increment();
+        ledger.overload.increment();
+        if (answer.status() == 504) {
+            ledger.late.increment();
+        }
         return answer;
     }
 

@@ -7,6 +7,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.regex.Pattern;
 
+import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.source.Translation.Refusal;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityEvent;
@@ -43,16 +44,16 @@ final class NotificationTranslator {
             int maxRecordBytes) {}
 
     private final Settings settings;
-    private final SourceCounters counters;
+    private final Ledger ledger;
     private final ClockReport clocks = new ClockReport();
 
-    NotificationTranslator(Settings settings, SourceCounters counters) {
+    NotificationTranslator(Settings settings, Ledger ledger) {
         this.settings = settings;
-        this.counters = counters;
+        this.ledger = ledger;
     }
 
     Translation translate(ReceivedNotification received) {
-        counters.notifications.increment();
+        ledger.requests.increment();
         if (!received.complete()) {
             String message =
                     "the body is larger than " + received.body().length + " bytes; only these were kept (truncated)";
@@ -72,9 +73,11 @@ final class NotificationTranslator {
                         .filter(id -> SUBSCRIPTION.matcher(id).matches())
                         .orElse(settings.name());
         List<OutgoingRecord> records = new ArrayList<>();
+        ledger.received.add(
+                notification.entities().size() + notification.rejected().size());
         for (Entity entity : notification.entities()) {
             if (isExcluded(entity)) {
-                counters.excluded.increment();
+                ledger.excluded.increment();
             } else {
                 records.add(translate(entity, source, received));
             }
@@ -102,10 +105,10 @@ final class NotificationTranslator {
             return deadLetter(record.value(), new Refusal(Reason.TOO_LARGE, message), received);
         }
         if (event.time().basis() == EventTime.Basis.RECEIPT_FOR_FUTURE) {
-            counters.clockAhead.increment();
+            ledger.clockAhead.increment();
             clocks.note(event);
         }
-        counters.accepted.increment();
+        ledger.accepted.increment();
         return record;
     }
 
@@ -119,11 +122,12 @@ final class NotificationTranslator {
     }
 
     private Translation refused(ReceivedNotification received, Refusal refusal) {
+        ledger.received.increment();
         return new Translation(List.of(deadLetter(received.body(), refusal, received)), Optional.of(refusal));
     }
 
     private OutgoingRecord deadLetter(byte[] original, Refusal refusal, ReceivedNotification received) {
-        counters.rejected.increment();
+        ledger.dead.increment();
         int room = settings.maxRecordBytes() - HEADERS_AT_MOST;
         boolean fits = original.length <= room;
         String message = shortened(refusal.message()) + (fits ? "" : " (truncated to " + room + " bytes)");

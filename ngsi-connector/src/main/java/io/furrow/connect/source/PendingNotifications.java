@@ -94,6 +94,13 @@ final class PendingNotifications implements Intake {
         return found.durable;
     }
 
+    /** Records without an acknowledgement. */
+    synchronized long records() {
+        return open.values().stream()
+                .mapToLong(notification -> notification.missing)
+                .sum();
+    }
+
     synchronized int count() {
         return open.size();
     }

@@ -15,10 +15,10 @@ class NgsiSourceConfigTest {
     void needsNoOptionAtAll() {
         NgsiSourceConfig config = new NgsiSourceConfig(Map.of());
 
-        assertThat(config.host()).isEqualTo("127.0.0.1");
-        assertThat(config.port()).isEqualTo(8090);
-        assertThat(config.topic()).isEqualTo("data.raw");
-        assertThat(config.deadLetterTopic()).isEqualTo("data.raw.dead");
+        assertThat(config.listening().host()).isEqualTo("127.0.0.1");
+        assertThat(config.listening().port()).isEqualTo(8090);
+        assertThat(config.topics().topic()).isEqualTo("data.raw");
+        assertThat(config.topics().deadLetterTopic()).isEqualTo("data.raw.dead");
         assertThat(config.translation().excluded())
                 .extracting(Object::toString)
                 .containsExactly("Analytics:.*", "Domain", "Mission");
@@ -26,10 +26,14 @@ class NgsiSourceConfigTest {
 
     @Test
     void derivesTheLargestRecordFromTheProducerOfTheConnector() {
-        assertThat(new NgsiSourceConfig(Map.of()).maxRecordBytes()).isEqualTo(1024 * 1024 - 16 * 1024);
-        assertThat(new NgsiSourceConfig(Map.of("producer.override.max.request.size", "16777216")).maxRecordBytes())
+        assertThat(new NgsiSourceConfig(Map.of()).sizes().maxRecordBytes()).isEqualTo(1024 * 1024 - 16 * 1024);
+        assertThat(new NgsiSourceConfig(Map.of("producer.override.max.request.size", "16777216"))
+                        .sizes()
+                        .maxRecordBytes())
                 .isEqualTo(16777216 - 16 * 1024);
-        assertThat(new NgsiSourceConfig(Map.of("max.record.bytes", "500000")).maxRecordBytes())
+        assertThat(new NgsiSourceConfig(Map.of("max.record.bytes", "500000"))
+                        .sizes()
+                        .maxRecordBytes())
                 .isEqualTo(500_000);
     }
 

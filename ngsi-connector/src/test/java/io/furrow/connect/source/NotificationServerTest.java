@@ -18,6 +18,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.connect.ledger.Ledger;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -42,7 +44,7 @@ class NotificationServerTest {
 
     private final FakeIntake intake = new FakeIntake();
     private final HttpClient client = HttpClient.newHttpClient();
-    private final SourceCounters counters = new SourceCounters();
+    private final Ledger ledger = new Ledger();
     private NotificationServer server;
 
     @BeforeEach
@@ -80,7 +82,7 @@ class NotificationServerTest {
 
         assertThat(answer.statusCode()).isEqualTo(504);
         assertThat(answer.body()).contains("\"error\":\"unconfirmed\"");
-        assertThat(counters.unconfirmed.sum()).isEqualTo(1);
+        assertThat(ledger.late.sum()).isEqualTo(1);
     }
 
     @Test
@@ -92,7 +94,7 @@ class NotificationServerTest {
 
         assertThat(answer.statusCode()).isEqualTo(503);
         assertThat(answer.headers().firstValue("Retry-After")).contains("1");
-        assertThat(counters.unavailable.sum()).isEqualTo(1);
+        assertThat(ledger.overload.sum()).isEqualTo(1);
     }
 
     @Test
@@ -223,11 +225,11 @@ class NotificationServerTest {
 
     private NotificationServer listen(int port, Duration ackTimeout, Duration patience) {
         NotificationTranslator translator =
-                new NotificationTranslator(new NgsiSourceConfig(java.util.Map.of()).translation(), counters);
+                new NotificationTranslator(new NgsiSourceConfig(java.util.Map.of()).translation(), ledger);
         NotificationHandler handler = new NotificationHandler(
                 translator,
                 intake,
-                counters,
+                ledger,
                 new NotificationHandler.Limits(MAX_BODY, new ByteBudget(2 * MAX_BODY), ackTimeout),
                 () -> "{\"well\":true}".getBytes());
         return NotificationServer.start(

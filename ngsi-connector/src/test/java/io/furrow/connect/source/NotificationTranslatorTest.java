@@ -8,6 +8,7 @@ import java.util.regex.Pattern;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.connect.ledger.Ledger;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -19,7 +20,7 @@ class NotificationTranslatorTest {
     private static final Instant NOW = Instant.parse("2026-11-21T02:00:00Z");
     private static final int RECORD_LIMIT = 200_000;
 
-    private final SourceCounters counters = new SourceCounters();
+    private final Ledger ledger = new Ledger();
     private final NotificationTranslator translator = new NotificationTranslator(
             new NotificationTranslator.Settings(
                     "farm",
@@ -28,7 +29,7 @@ class NotificationTranslatorTest {
                     List.of(Pattern.compile("Analytics:.*"), Pattern.compile("Domain")),
                     Duration.ofMinutes(5),
                     RECORD_LIMIT),
-            counters);
+            ledger);
 
     @Test
     void makesOneRecordPerEntityUnderItsIdAtItsEventTime() {
@@ -47,7 +48,7 @@ class NotificationTranslatorTest {
                 .containsEntry(HeaderNames.SERVICE, "agri")
                 .containsEntry(HeaderNames.SERVICE_PATH, "/plot1")
                 .containsEntry(HeaderNames.ORIGIN, "notification");
-        assertThat(counters.accepted.sum()).isEqualTo(2);
+        assertThat(ledger.accepted.sum()).isEqualTo(2);
     }
 
     @Test
@@ -72,7 +73,7 @@ class NotificationTranslatorTest {
 
         assertThat(translation.records()).extracting(OutgoingRecord::key).containsExactly("c");
         assertThat(translation.refusal()).isEmpty();
-        assertThat(counters.excluded.sum()).isEqualTo(2);
+        assertThat(ledger.excluded.sum()).isEqualTo(2);
     }
 
     @Test
@@ -160,7 +161,7 @@ class NotificationTranslatorTest {
 
         assertThat(ahead.records().get(0).time()).isEqualTo(NOW);
         assertThat(tolerated.records().get(0).time()).isEqualTo(NOW.plusSeconds(299));
-        assertThat(counters.clockAhead.sum()).isEqualTo(1);
+        assertThat(ledger.clockAhead.sum()).isEqualTo(1);
     }
 
     private Translation translate(String body) {

@@ -1,0 +1,17 @@
+package io.furrow.connect.ledger;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** The ledger as one flat JSON object: every counter and every gauge under its name. */
+public final class LedgerJson {
+    private LedgerJson() {}
+
+    /** The numbers of now. */
+    public static ObjectNode of(Ledger ledger) {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        ledger.counters().forEach(counter -> json.put(counter.name(), counter.sum()));
+        ledger.gauges().forEach(gauge -> json.put(gauge.name(), gauge.now().getAsLong()));
+        return json;
+    }
+}
