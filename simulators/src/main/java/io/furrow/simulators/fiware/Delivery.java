@@ -1,6 +1,7 @@
 package io.furrow.simulators.fiware;
 
 import java.time.Instant;
+import java.time.temporal.ChronoUnit;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -49,19 +50,24 @@ record Delivery(
                 timesSent, 0, lastNotification, lastSuccess, lastSuccessCode, lastFailure, lastFailureReason);
     }
 
-    /** Adds the members that {@code GET} shows in {@code notification}; what never happened has none. */
+    /** Adds the members that {@code GET} shows in {@code notification}, times in whole seconds; what never happened has none. */
     void showIn(ObjectNode notification) {
         if (timesSent > 0) {
             notification.put("timesSent", timesSent);
         }
-        lastNotification.ifPresent(time -> notification.put("lastNotification", NgsiTime.format(time)));
+        lastNotification.ifPresent(time -> notification.put("lastNotification", seconds(time)));
         lastSuccess.ifPresent(
-                time -> notification.put("lastSuccess", NgsiTime.format(time)).put("lastSuccessCode", lastSuccessCode));
-        lastFailure.ifPresent(time ->
-                notification.put("lastFailure", NgsiTime.format(time)).put("lastFailureReason", lastFailureReason));
+                time -> notification.put("lastSuccess", seconds(time)).put("lastSuccessCode", lastSuccessCode));
+        lastFailure.ifPresent(
+                time -> notification.put("lastFailure", seconds(time)).put("lastFailureReason", lastFailureReason));
         if (failsInARow > 0) {
             notification.put("failsCounter", failsInARow);
         }
+    }
+
+    /** Orion keeps these three as whole seconds. */
+    private static String seconds(Instant time) {
+        return NgsiTime.format(time.truncatedTo(ChronoUnit.SECONDS));
     }
 
     /** Reads what {@link #showIn} wrote. */

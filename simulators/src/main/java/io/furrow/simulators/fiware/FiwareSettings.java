@@ -5,7 +5,7 @@ import java.nio.file.Path;
 import java.util.Objects;
 
 /**
- * Where a stand-in listens, which MQTT broker its agent uses, and where it keeps its state.
+ * Where a stand-in listens, which MQTT broker its agent uses, where it keeps its state, and how it connects to receivers.
  *
  * @param contextBrokerPort of the NGSI-v2 API on 127.0.0.1; 0 for a free one
  * @param iotAgentPort of the provisioning API on 127.0.0.1; 0 for a free one
@@ -14,24 +14,51 @@ import java.util.Objects;
  * @param mqttPassword null where the broker wants none
  * @param state the file that entities, subscriptions, service groups and devices outlive a restart in, made when there is
  *     something to keep; null for memory only
+ * @param connections to the receivers of notifications
  */
 public record FiwareSettings(
-        int contextBrokerPort, int iotAgentPort, URI mqttBroker, String mqttUser, String mqttPassword, Path state) {
+        int contextBrokerPort,
+        int iotAgentPort,
+        URI mqttBroker,
+        String mqttUser,
+        String mqttPassword,
+        Path state,
+        Connections connections) {
+    /** Orion's {@code -notificationMode}, as far as a receiver sees it. */
+    public enum Connections {
+        /** Kept for the next notification; the default here, for a machine that has more to do than to connect. */
+        PERSISTENT,
+        /** A new one for each notification: Orion's default. */
+        TRANSIENT
+    }
+
     public FiwareSettings {
         if (mqttUser != null) {
             Objects.requireNonNull(mqttPassword, "an MQTT user needs a password");
         }
+        Objects.requireNonNull(connections);
     }
 
     /** Without state: all is gone when it is closed. */
     public FiwareSettings(
             int contextBrokerPort, int iotAgentPort, URI mqttBroker, String mqttUser, String mqttPassword) {
-        this(contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, null);
+        this(contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, null, Connections.PERSISTENT);
     }
 
     /** The same with a state file. */
     public FiwareSettings withState(Path file) {
-        return new FiwareSettings(contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, file);
+        return new FiwareSettings(
+                contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, file, connections);
+    }
+
+    /** The same with the context broker on another port; 0 for a free one. */
+    public FiwareSettings withContextBrokerPort(int port) {
+        return new FiwareSettings(port, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, connections);
+    }
+
+    /** The same with other connections to receivers. */
+    public FiwareSettings withConnections(Connections others) {
+        return new FiwareSettings(contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, others);
     }
 
     /** Free ports and no MQTT. */
@@ -42,6 +69,7 @@ public record FiwareSettings(
     @Override
     public String toString() {
         return "FiwareSettings[contextBrokerPort=" + contextBrokerPort + ", iotAgentPort=" + iotAgentPort
-                + ", mqttBroker=" + mqttBroker + ", mqttUser=" + mqttUser + ", state=" + state + "]";
+                + ", mqttBroker=" + mqttBroker + ", mqttUser=" + mqttUser + ", state=" + state + ", connections="
+                + connections + "]";
     }
 }

@@ -40,7 +40,7 @@ public final class FiwareStandIn implements AutoCloseable {
     private FiwareStandIn(FiwareSettings settings, Clock clock) {
         Revision revision = new Revision();
         DeviceRegistry registry = new DeviceRegistry(revision);
-        notifier = new Notifier(clock);
+        notifier = new Notifier(clock, settings.connections());
         agent = new IotAgent(registry);
         ContextBroker broker = new ContextBroker(notifier, agent, clock, revision);
         agent.connect(broker);

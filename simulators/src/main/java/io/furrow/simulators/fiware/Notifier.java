@@ -8,6 +8,9 @@ import java.util.concurrent.atomic.AtomicLong;
 import java.util.concurrent.atomic.LongAdder;
 
 import org.eclipse.jetty.client.BytesRequestContent;
+import org.eclipse.jetty.client.ConnectionPool;
+import org.eclipse.jetty.client.Destination;
+import org.eclipse.jetty.client.DuplexConnectionPool;
 import org.eclipse.jetty.client.HttpClient;
 import org.eclipse.jetty.client.Request;
 import org.eclipse.jetty.client.Result;
@@ -18,8 +21,10 @@ import org.eclipse.jetty.http.HttpMethod;
 import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
+import io.furrow.simulators.fiware.FiwareSettings.Connections;
+
 /**
- * Sends each notification once over kept connections; any HTTP status is a success, a refused connection or no answer in
+ * Sends each notification once, over kept connections or a new one each; any HTTP status is a success, a refused connection or no answer in
  * time a failure. Up to {@value #LANES} are under way for one subscription, one at a time for one entity. What exceeds
  * {@value #MAX_QUEUED} notifications or {@value #MAX_QUEUED_BYTES} bytes of a subscription's queue is dropped and counted.
  */
@@ -42,7 +47,7 @@ final class Notifier implements AutoCloseable {
     private final LongAdder failed = new LongAdder();
     private final LongAdder dropped = new LongAdder();
 
-    Notifier(Clock clock) {
+    Notifier(Clock clock, Connections connections) {
         this.clock = clock;
         threads.setName("furrow-notifier");
         threads.setDaemon(true);
@@ -51,7 +56,16 @@ final class Notifier implements AutoCloseable {
         client.setIdleTimeout(IDLE_TIMEOUT_MS);
         client.setMaxConnectionsPerDestination(CONNECTIONS_PER_RECEIVER);
         client.setFollowRedirects(false);
+        if (connections == Connections.TRANSIENT) {
+            client.getTransport().setConnectionPoolFactory(Notifier::usedOnce);
+        }
         client.setUserAgentField(new HttpField(HttpHeader.USER_AGENT, "furrow-fiware-stand-in/0.1"));
+    }
+
+    private static ConnectionPool usedOnce(Destination receiver) {
+        DuplexConnectionPool pool = new DuplexConnectionPool(receiver, CONNECTIONS_PER_RECEIVER);
+        pool.setMaxUsage(1);
+        return pool;
     }
 
     void start() {

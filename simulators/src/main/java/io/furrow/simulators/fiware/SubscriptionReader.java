@@ -167,6 +167,9 @@ final class SubscriptionReader {
     private static ObjectNode shown(JsonNode json) {
         ObjectNode shown = ((ObjectNode) json.deepCopy());
         shown.remove("status");
+        if (shown.path("expires").asText("").isEmpty()) {
+            shown.remove("expires");
+        }
         ObjectNode subject = (ObjectNode) shown.get("subject");
         if (!subject.has("condition")) {
             subject.putObject("condition");

@@ -22,8 +22,11 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /** Keeps every notification that it is sent and answers with a status of choice. */
 final class Receiver implements AutoCloseable {
-    /** @param headers by name, without regard to case */
-    record Received(String path, Map<String, String> headers, String body) {
+    /**
+     * @param sender the port that it was sent from
+     * @param headers by name, without regard to case
+     */
+    record Received(int sender, String path, Map<String, String> headers, String body) {
         JsonNode json() {
             try {
                 return NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
@@ -76,7 +79,8 @@ final class Receiver implements AutoCloseable {
         String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
         Map<String, String> headers = new TreeMap<>(String.CASE_INSENSITIVE_ORDER);
         exchange.getRequestHeaders().forEach((name, values) -> headers.put(name, String.join(",", values)));
-        received.add(new Received(exchange.getRequestURI().toString(), headers, body));
+        received.add(new Received(
+                exchange.getRemoteAddress().getPort(), exchange.getRequestURI().toString(), headers, body));
         exchange.sendResponseHeaders(status, -1);
         exchange.close();
     }
