@@ -42,6 +42,17 @@ public final class EventId {
         return HexFormat.of().formatHex(digest.digest()).substring(0, HEX_DIGITS);
     }
 
+    /** The id of a deletion: no change of the same entity at the same time has it. */
+    static String ofDeletion(FiwareScope scope, String entityId, Instant eventTime) {
+        MessageDigest digest = sha256();
+        addText(digest, scope.service());
+        addText(digest, scope.servicePath());
+        addText(digest, entityId);
+        add(digest, Long.toString(eventTime.toEpochMilli()));
+        add(digest, "deleted");
+        return HexFormat.of().formatHex(digest.digest()).substring(0, HEX_DIGITS);
+    }
+
     private static void addValue(MessageDigest digest, JsonNode value) {
         switch (value.getNodeType()) {
             case OBJECT -> {

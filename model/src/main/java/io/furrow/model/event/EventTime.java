@@ -75,7 +75,8 @@ public record EventTime(Instant time, Basis basis) {
                 : new EventTime(device.get(), Basis.DEVICE);
     }
 
-    private static Optional<Instant> instant(JsonNode value) {
+    /** The time that a value names; empty where it names none. */
+    static Optional<Instant> instant(JsonNode value) {
         return (value.isTextual() ? fromText(value.textValue().trim()) : fromNumber(value))
                 .filter(time -> time.toEpochMilli() >= 0);
     }

@@ -17,7 +17,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 public record Entity(ObjectNode json) {
     /** What the context broker adds to an entity on request; no attributes of the thing itself. */
     public static final Set<String> BUILT_INS =
-            Set.of("dateCreated", "dateModified", "dateExpires", "servicePath", "alterationType");
+            Set.of("dateCreated", "dateModified", "dateExpires", "servicePath", "alterationType", "deletedAt");
 
     private static final Set<String> NOT_ATTRIBUTES = Set.of("id", "type");
 
@@ -91,6 +91,14 @@ public record Entity(ObjectNode json) {
                     .filter(member -> !NOT_ATTRIBUTES.contains(member.getKey()))
                     .iterator();
         };
+    }
+
+    /**
+     * Whether this is the report that the entity was deleted: what it held last, with {@code alterationType} (and
+     * {@code deletedAt} where the context broker tells the time).
+     */
+    public boolean isDeleted() {
+        return text("alterationType").filter("entityDelete"::equals).isPresent();
     }
 
     /** UTF-8 JSON. */

@@ -88,7 +88,7 @@ enum EntityForm {
     }
 
     /** The type that the context broker gives to an attribute that comes without one (NGSI-v2, "Partial Representations"). */
-    private static String typeOf(JsonNode value) {
+    static String typeOf(JsonNode value) {
         return switch (value.getNodeType()) {
             case STRING -> "Text";
             case NUMBER -> "Number";
@@ -99,7 +99,7 @@ enum EntityForm {
         };
     }
 
-    private static boolean isGeoJson(JsonNode value) {
+    static boolean isGeoJson(JsonNode value) {
         return value.path("type").isTextual() && value.path("coordinates").isArray();
     }
 

@@ -18,11 +18,13 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
     public record Rejected(JsonNode reported, Reason reason, String message) {}
 
     /**
-     * Reads an NGSI-v2 notification in any form that names its attributes: {@code normalized} and {@code keyValues}
+     * Reads a notification in any form that names its attributes. NGSI-v2: {@code normalized} and {@code keyValues}
      * ({@code {subscriptionId, data: [entity…]}}), {@code simplifiedNormalized} and {@code simplifiedKeyValues} (the bare
-     * entity).
+     * entity). NGSI-LD: {@code {"type": "Notification", subscriptionId, data}}, where data is a list of entities or a GeoJSON
+     * {@code FeatureCollection}, or the bare entity; normalized, concise or simplified, see {@link NgsiLdEntity}.
      *
-     * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, or null: then the form is told from the shape
+     * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, which NGSI-LD has not, or null: then the form is told from the
+     *     shape
      * @throws UnreadableException if nothing in the body can be understood
      */
     public static Notification read(byte[] body, String attrsFormat) throws UnreadableException {
@@ -31,6 +33,9 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
             throw new UnreadableException(
                     Reason.UNSUPPORTED_FORM,
                     "form 'values' does not name its attributes; set the subscription's attrsFormat to normalized");
+        }
+        if (isLinkedData(root)) {
+            return readLinkedData(root);
         }
         boolean simplified = attrsFormat != null && attrsFormat.startsWith("simplified");
         if (simplified || root.has("id") || !root.has("data")) {
@@ -41,15 +46,33 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
         }
         Optional<String> subscription =
                 Optional.ofNullable(root.path("subscriptionId").textValue());
-        return readAll(subscription, root.get("data"), attrsFormat);
+        return readAll(subscription, root.get("data"), entity -> readEntity(entity, attrsFormat));
     }
 
-    private static Notification readAll(Optional<String> subscription, JsonNode data, String attrsFormat) {
-        List<Entity> entities = new ArrayList<>(data.size());
+    /** An NGSI-v2 entity may be called Notification too, but it has no list called data. */
+    private static boolean isLinkedData(JsonNode root) {
+        return "Notification".equals(root.path("type").textValue())
+                && NgsiLdEntity.members(root.path("data")).isPresent();
+    }
+
+    private static Notification readLinkedData(JsonNode root) {
+        List<JsonNode> data = NgsiLdEntity.members(root.get("data")).orElseThrow();
+        Optional<String> subscription =
+                Optional.ofNullable(root.path("subscriptionId").textValue());
+        return readAll(subscription, data, NgsiLdEntity::read);
+    }
+
+    /** How one entity of a notification is read. */
+    private interface EntityReader {
+        Entity read(JsonNode reported) throws UnreadableException;
+    }
+
+    private static Notification readAll(Optional<String> subscription, Iterable<JsonNode> data, EntityReader reader) {
+        List<Entity> entities = new ArrayList<>();
         List<Rejected> rejected = new ArrayList<>();
         for (JsonNode reported : data) {
             try {
-                entities.add(readEntity(reported, attrsFormat));
+                entities.add(reader.read(reported));
             } catch (UnreadableException e) {
                 rejected.add(new Rejected(reported, e.reason(), e.getMessage()));
             }
@@ -62,6 +85,9 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
     }
 
     private static Entity readEntity(JsonNode reported, String attrsFormat) throws UnreadableException {
+        if (attrsFormat == null && NgsiLdEntity.looksLike(reported)) {
+            return NgsiLdEntity.read(reported);
+        }
         EntityForm form = attrsFormat == null
                 ? EntityForm.of(reported)
                 : switch (attrsFormat) {

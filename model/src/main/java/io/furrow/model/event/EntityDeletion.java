@@ -1,0 +1,55 @@
+package io.furrow.model.event;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.time.temporal.ChronoUnit;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * The end of an entity as a source passes it on: key = the entity's id, no value, record timestamp = {@code time}, headers =
+ * {@link #headers(String)}.
+ *
+ * @param time when the entity was deleted where the context broker tells it, else when the source learned of it; whole
+ *     milliseconds. Never the time of the entity's last values: a deletion is newer than they are.
+ * @param received when the source learned of it
+ */
+public record EntityDeletion(String entityId, FiwareScope scope, Instant time, Instant received, Origin origin) {
+    /** Whole milliseconds: what a record timestamp can hold, so that all copies of the time agree. */
+    public EntityDeletion {
+        time = time.truncatedTo(ChronoUnit.MILLIS);
+    }
+
+    /** The deletion that an entity for which {@link Entity#isDeleted()} reports. */
+    public static EntityDeletion of(
+            Entity deleted, FiwareScope scope, Instant received, Duration maxSkew, Origin origin) {
+        Instant time = deleted.value("deletedAt")
+                .flatMap(EventTime::instant)
+                .filter(at -> !at.isAfter(received.plus(maxSkew)))
+                .orElse(received);
+        return new EntityDeletion(deleted.id(), scope, time, received, origin);
+    }
+
+    /** Equal for every copy of the same deletion, and of no change of the entity. */
+    public String id() {
+        return EventId.ofDeletion(scope, entityId, time);
+    }
+
+    /** The headers of {@link HeaderNames} in a fixed order; {@code source} becomes {@code ce_source}. */
+    public Map<String, String> headers(String source) {
+        Map<String, String> headers = new LinkedHashMap<>();
+        headers.put(HeaderNames.CE_ID, id());
+        headers.put(HeaderNames.CE_SOURCE, source);
+        headers.put(HeaderNames.CE_TIME, time.toString());
+        headers.put(HeaderNames.CE_SPECVERSION, HeaderNames.SPECVERSION);
+        headers.put(HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED);
+        headers.put(HeaderNames.SERVICE, scope.service());
+        headers.put(HeaderNames.SERVICE_PATH, scope.servicePath());
+        headers.put(HeaderNames.ORIGIN, origin.code());
+        headers.put(HeaderNames.TS_DEVICE, Long.toString(time.toEpochMilli()));
+        headers.put(HeaderNames.TS_SOURCE, Long.toString(received.toEpochMilli()));
+        return headers;
+    }
+}

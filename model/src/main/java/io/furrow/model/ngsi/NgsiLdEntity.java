@@ -1,0 +1,155 @@
+package io.furrow.model.ngsi;
+
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * An NGSI-LD entity, normalized, concise or simplified, as the NGSI-v2 normalized entity that Furrow carries.
+ *
+ * <table>
+ * <caption>Members of the entity</caption>
+ * <tr><td>{@code id}, {@code type}</td><td>the same; several types become one text, joined by commas</td></tr>
+ * <tr><td>{@code @context}</td><td>left out: names stay as the context broker compacted them</td></tr>
+ * <tr><td>{@code createdAt}, {@code modifiedAt}, {@code expiresAt}</td>
+ *     <td>{@code dateCreated}, {@code dateModified}, {@code dateExpires}, type {@code DateTime}</td></tr>
+ * <tr><td>{@code deletedAt}</td><td>the same, type {@code DateTime}, and {@code alterationType} = {@code entityDelete}</td></tr>
+ * <tr><td>{@code scope}</td><td>an attribute, type {@code Text} or {@code StructuredValue}</td></tr>
+ * <tr><td>anything else</td><td>an attribute, see {@link NgsiLdAttribute}</td></tr>
+ * <tr><td>an attribute with several instances</td><td>the one without {@code datasetId} under the attribute's name, each
+ *     other under {@code <name>:<datasetId>}</td></tr>
+ * </table>
+ *
+ * <p>Where the entity has none of {@code Time}, {@code TimeInstant}, {@code dateObserved}, {@code timestamp}, the newest
+ * {@code observedAt} of its attributes becomes its attribute {@code TimeInstant}, which is where an IoT Agent puts it.
+ */
+final class NgsiLdEntity {
+    private static final Map<String, String> BUILT_INS = Map.of(
+            "createdAt", "dateCreated",
+            "modifiedAt", "dateModified",
+            "expiresAt", "dateExpires",
+            "deletedAt", "deletedAt");
+    private static final Set<String> DEVICE_TIMES = Set.of("Time", "TimeInstant", "dateObserved", "timestamp");
+
+    private final ObjectNode normalized = JsonNodeFactory.instance.objectNode();
+    private Optional<String> newestObservation = Optional.empty();
+
+    private NgsiLdEntity() {}
+
+    /** Whether a bare entity is NGSI-LD by its shape: it has a context, or an attribute of a kind without NGSI-v2's metadata. */
+    static boolean looksLike(JsonNode entity) {
+        return entity.isObject()
+                && (entity.has("@context")
+                        || entity.valueStream()
+                                .anyMatch(attribute -> NgsiLdAttribute.isNormalized(attribute)
+                                        && !attribute.has("metadata")
+                                        && !attribute.path("type").textValue().equals("Property")));
+    }
+
+    static Entity read(JsonNode reported) throws UnreadableException {
+        if (!reported.isObject()) {
+            throw new UnreadableException(Reason.NOT_AN_ENTITY, "an NGSI-LD entity is a JSON object");
+        }
+        JsonNode id = reported.path("id");
+        if (!id.isTextual() || id.textValue().isBlank()) {
+            throw new UnreadableException(Reason.NOT_AN_ENTITY, "the entity has no member 'id' with a text");
+        }
+        NgsiLdEntity entity = new NgsiLdEntity();
+        entity.normalized.set("id", id);
+        if (reported.has("type")) {
+            entity.normalized.put("type", type(reported.get("type")));
+        }
+        for (Map.Entry<String, JsonNode> member : reported.properties()) {
+            entity.add(member.getKey(), member.getValue());
+        }
+        entity.addTime();
+        EntityLimits.check(entity.normalized);
+        return new Entity(entity.normalized);
+    }
+
+    /** A feature of a GeoJSON notification: the entity's members are in its properties. */
+    static JsonNode ofFeature(JsonNode feature) {
+        if (!feature.path("properties").isObject()) {
+            return feature;
+        }
+        ObjectNode entity = JsonNodeFactory.instance.objectNode();
+        entity.set("id", feature.get("id"));
+        return entity.setAll((ObjectNode) feature.get("properties"));
+    }
+
+    private static String type(JsonNode type) throws UnreadableException {
+        boolean several =
+                type.isArray() && !type.isEmpty() && type.valueStream().allMatch(JsonNode::isTextual);
+        if (!type.isTextual() && !several) {
+            throw new UnreadableException(
+                    Reason.NOT_AN_ENTITY, "the type of the entity is no text and no list of texts");
+        }
+        return several
+                ? type.valueStream().map(JsonNode::textValue).collect(Collectors.joining(","))
+                : type.textValue();
+    }
+
+    private void add(String name, JsonNode reported) {
+        if (name.equals("id") || name.equals("type") || name.equals("@context")) {
+            return;
+        }
+        String builtIn = BUILT_INS.get(name);
+        if (builtIn != null && reported.isTextual()) {
+            put(builtIn, NgsiLdAttribute.plain("DateTime", reported));
+            if (name.equals("deletedAt")) {
+                put("alterationType", NgsiLdAttribute.plain("Text", JsonNodeFactory.instance.textNode("entityDelete")));
+            }
+        } else if (NgsiLdAttribute.isSeveral(reported)) {
+            for (JsonNode instance : reported) {
+                String dataset = instance.path("datasetId").asText("");
+                put(dataset.isEmpty() ? name : name + ":" + dataset, observed(instance));
+            }
+        } else {
+            put(name, observed(reported));
+        }
+    }
+
+    /** Built-ins come first or last, as the context broker likes: an attribute of the thing never gives way to one. */
+    private void put(String name, ObjectNode attribute) {
+        boolean builtIn = BUILT_INS.containsValue(name);
+        if (!builtIn || !normalized.has(name)) {
+            normalized.set(name, attribute);
+        }
+    }
+
+    private ObjectNode observed(JsonNode reported) {
+        JsonNode at = reported.path("observedAt");
+        if (at.isTextual()) {
+            newestObservation = Optional.of(newestObservation
+                    .filter(newest -> newest.compareTo(at.textValue()) >= 0)
+                    .orElse(at.textValue()));
+        }
+        return NgsiLdAttribute.read(reported);
+    }
+
+    private void addTime() {
+        if (DEVICE_TIMES.stream().noneMatch(normalized::has)) {
+            newestObservation.ifPresent(time -> normalized.set(
+                    "TimeInstant", NgsiLdAttribute.plain("DateTime", JsonNodeFactory.instance.textNode(time))));
+        }
+    }
+
+    /** The features of a collection, or the elements of a list; empty where it is neither. */
+    static Optional<List<JsonNode>> members(JsonNode data) {
+        if (data.isArray()) {
+            return Optional.of(data.valueStream().toList());
+        }
+        return data.path("features").isArray()
+                ? Optional.of(data.get("features")
+                        .valueStream()
+                        .map(NgsiLdEntity::ofFeature)
+                        .toList())
+                : Optional.empty();
+    }
+}

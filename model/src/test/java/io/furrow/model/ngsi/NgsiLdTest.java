@@ -1,0 +1,118 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.charset.StandardCharsets;
+import java.util.List;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class NgsiLdTest {
+    /** One line of {@code ngsi-ld.jsonl}: an entity as an NGSI-LD broker reports it, and what it is here. */
+    record Case(String name, JsonNode reported, JsonNode entity) {
+        @Override
+        public String toString() {
+            return name;
+        }
+    }
+
+    static Stream<Case> cases() throws Exception {
+        try (InputStream lines = NgsiLdTest.class.getResourceAsStream("ngsi-ld.jsonl")) {
+            return new String(lines.readAllBytes(), StandardCharsets.UTF_8)
+                            .lines()
+                            .map(NgsiLdTest::json)
+                            .map(line ->
+                                    new Case(line.get("case").textValue(), line.get("reported"), line.get("entity")))
+                            .toList()
+                            .stream();
+        }
+    }
+
+    @ParameterizedTest
+    @MethodSource("cases")
+    void readsAnEntityOfANotification(Case each) throws Exception {
+        String body = """
+                {"id": "urn:n:1", "type": "Notification", "subscriptionId": "urn:s:1", "notifiedAt": "2026-11-21T00:00:00Z",
+                 "data": [%s]}""".formatted(each.reported);
+
+        Notification notification = read(body);
+
+        assertThat(notification.rejected()).isEmpty();
+        assertThat(notification.subscriptionId()).contains("urn:s:1");
+        assertThat(notification.entities())
+                .singleElement()
+                .satisfies(entity -> assertThat(entity.json().toString()).isEqualTo(each.entity.toString()));
+    }
+
+    @ParameterizedTest
+    @MethodSource("cases")
+    void whatItReadsIsAnEntityToEveryLaterReader(Case each) throws Exception {
+        Entity entity = NgsiLdEntity.read(each.reported);
+
+        assertThat(Entity.parse(entity.toBytes())).isEqualTo(entity);
+    }
+
+    @Test
+    void readsTheEntitiesOfAGeoJsonNotification() throws Exception {
+        Notification notification = read("""
+                {"id": "urn:n:1", "type": "Notification", "data": {"type": "FeatureCollection", "features": [
+                  {"id": "a", "type": "Feature", "geometry": {"type": "Point", "coordinates": [1, 2]},
+                   "properties": {"type": "T", "t": {"type": "Property", "value": 3}}}]}}""");
+
+        assertThat(notification.entities())
+                .extracting(entity -> entity.json().toString())
+                .containsExactly(
+                        "{\"id\":\"a\",\"type\":\"T\",\"t\":{\"type\":\"Number\",\"value\":3,\"metadata\":{}}}");
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "{\"id\": \"a\", \"type\": \"T\", \"@context\": [], \"t\": {\"value\": 1, \"observedAt\": \"2026-11-21T00:00:00Z\"}}",
+                "{\"id\": \"a\", \"type\": \"T\", \"r\": {\"type\": \"Relationship\", \"object\": \"b\"}}"
+            })
+    void tellsABareEntityFromItsShape(String body) throws Exception {
+        assertThat(read(body).entities().get(0).json().findValue("metadata")).isNotNull();
+        assertThat(read(body).entities().get(0).json().has("@context")).isFalse();
+    }
+
+    @Test
+    void leavesAnNgsiV2EntityWithTypesOfNgsiLdAsItIs() throws Exception {
+        String body =
+                "{\"id\":\"a\",\"type\":\"Notification\",\"r\":{\"type\":\"Relationship\",\"value\":\"b\",\"metadata\":{}},"
+                        + "\"p\":{\"type\":\"Property\",\"value\":1,\"metadata\":{}}}";
+
+        assertThat(read(body).entities().get(0).json().toString()).isEqualTo(body);
+    }
+
+    @Test
+    void setsAsideTheOneThatCannotBeRead() throws Exception {
+        Notification notification = read("""
+                {"type": "Notification", "data": [{"id": "a", "type": "T"}, {"type": "T"}, 7, {"id": "b", "type": 3}]}""");
+
+        assertThat(notification.entities()).extracting(Entity::id).isEqualTo(List.of("a"));
+        assertThat(notification.rejected())
+                .extracting(Notification.Rejected::reason)
+                .containsOnly(Reason.NOT_AN_ENTITY)
+                .hasSize(3);
+    }
+
+    private static Notification read(String body) throws UnreadableException {
+        return Notification.read(body.getBytes(StandardCharsets.UTF_8), null);
+    }
+
+    private static JsonNode json(String line) {
+        try {
+            return NgsiJson.read(line.getBytes(StandardCharsets.UTF_8));
+        } catch (UnreadableException e) {
+            throw new java.io.UncheckedIOException(new IOException(line, e));
+        }
+    }
+}
