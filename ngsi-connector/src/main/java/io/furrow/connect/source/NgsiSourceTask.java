@@ -106,7 +106,7 @@ public class NgsiSourceTask extends SourceTask {
                 null,
                 record.key() == null ? null : Schema.STRING_SCHEMA,
                 record.key(),
-                Schema.BYTES_SCHEMA,
+                record.value() == null ? Schema.OPTIONAL_BYTES_SCHEMA : Schema.BYTES_SCHEMA,
                 record.value(),
                 record.time().toEpochMilli(),
                 headers);

@@ -17,7 +17,6 @@ import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.model.event.FiwareScope;
 
 /**
  * {@code POST} on any path takes a notification and is answered when its records are durable; {@code GET /health} shows
@@ -123,12 +122,10 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     }
 
     private static ReceivedNotification received(Request request, BodyReader.Body body) {
-        var headers = request.getHeaders();
-        return new ReceivedNotification(
+        return ReceivedNotification.of(
                 body.bytes(),
                 body.complete(),
-                headers.get("Ngsiv2-AttrsFormat"),
-                FiwareScope.of(headers.get("Fiware-Service"), headers.get("Fiware-Servicepath")),
+                request.getHeaders()::get,
                 Clock.systemUTC().instant(),
                 Request.getRemoteAddr(request) + " " + request.getHttpURI().getPath());
     }

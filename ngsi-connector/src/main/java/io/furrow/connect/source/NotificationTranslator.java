@@ -10,6 +10,7 @@ import java.util.regex.Pattern;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.source.Translation.Refusal;
 import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTime;
 import io.furrow.model.event.Origin;
@@ -21,7 +22,7 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Turns a notification into records: one per entity, one dead letter per entity that cannot be read, and one dead letter
+ * Turns a notification into records: one per entity, without a value where it was deleted, one dead letter per entity that cannot be read, and one dead letter
  * with the original bytes where nothing can be read. No record is larger than {@link Settings#maxRecordBytes}.
  */
 final class NotificationTranslator {
@@ -95,6 +96,9 @@ final class NotificationTranslator {
     }
 
     private OutgoingRecord translate(Entity entity, String source, ReceivedNotification received) {
+        if (entity.isDeleted()) {
+            return deletion(entity, source, received);
+        }
         EntityEvent event =
                 EntityEvent.of(entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
         OutgoingRecord record = new OutgoingRecord(
@@ -110,6 +114,13 @@ final class NotificationTranslator {
         }
         ledger.accepted.increment();
         return record;
+    }
+
+    private OutgoingRecord deletion(Entity entity, String source, ReceivedNotification received) {
+        EntityDeletion deletion = EntityDeletion.of(
+                entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
+        ledger.accepted.increment();
+        return new OutgoingRecord(settings.topic(), entity.id(), null, deletion.time(), deletion.headers(source));
     }
 
     /** A request of which nothing can be used is the sender's fault; one good entity makes it a good request. */

@@ -8,6 +8,7 @@ import java.util.Map;
  * A record for Kafka.
  *
  * @param key null where there is none
+ * @param value null for the deletion of what the key names
  * @param headers text, in the order in which they are written
  */
 record OutgoingRecord(String topic, String key, byte[] value, Instant time, Map<String, String> headers) {
@@ -16,7 +17,7 @@ record OutgoingRecord(String topic, String key, byte[] value, Instant time, Map<
 
     /** The size that counts against a producer's {@code max.request.size}, at least. */
     long bytes() {
-        long bytes = RECORD_OVERHEAD + value.length + (key == null ? 0 : utf8(key));
+        long bytes = RECORD_OVERHEAD + (value == null ? 0 : value.length) + (key == null ? 0 : utf8(key));
         for (Map.Entry<String, String> header : headers.entrySet()) {
             bytes += HEADER_OVERHEAD + utf8(header.getKey()) + utf8(header.getValue());
         }

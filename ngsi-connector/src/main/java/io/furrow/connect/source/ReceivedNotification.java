@@ -1,6 +1,7 @@
 package io.furrow.connect.source;
 
 import java.time.Instant;
+import java.util.function.UnaryOperator;
 
 import io.furrow.model.event.FiwareScope;
 
@@ -10,8 +11,21 @@ import io.furrow.model.event.FiwareScope;
  * @param body the whole body, or its beginning if {@code complete} is false
  * @param complete whether the body was within the limit
  * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, or null
- * @param scope headers {@code Fiware-Service} and {@code Fiware-Servicepath}
+ * @param scope the tenant and service path that the headers name
  * @param sender who sent it and where to, for people: {@code 10.0.0.7 /notify}
  */
 record ReceivedNotification(
-        byte[] body, boolean complete, String attrsFormat, FiwareScope scope, Instant at, String sender) {}
+        byte[] body, boolean complete, String attrsFormat, FiwareScope scope, Instant at, String sender) {
+    /** A request whose headers are looked up by name, in any case; null where there is no such header. */
+    static ReceivedNotification of(
+            byte[] body, boolean complete, UnaryOperator<String> header, Instant at, String sender) {
+        return new ReceivedNotification(body, complete, header.apply("Ngsiv2-AttrsFormat"), scope(header), at, sender);
+    }
+
+    /** NGSI-v2 names its tenant in {@code Fiware-Service}, NGSI-LD in {@code NGSILD-Tenant}. */
+    static FiwareScope scope(UnaryOperator<String> header) {
+        String service = header.apply("Fiware-Service");
+        return FiwareScope.of(
+                service == null ? header.apply("NGSILD-Tenant") : service, header.apply("Fiware-Servicepath"));
+    }
+}
