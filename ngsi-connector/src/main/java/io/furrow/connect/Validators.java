@@ -8,6 +8,7 @@ import java.util.regex.PatternSyntaxException;
 import org.apache.kafka.common.config.ConfigDef.LambdaValidator;
 import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
+import org.apache.kafka.common.config.types.Password;
 
 /** Checks of options; each message names the option, its value and what is expected. */
 public final class Validators {
@@ -33,6 +34,33 @@ public final class Validators {
     /** The base URL of an HTTP server. */
     public static Validator httpUrl() {
         return LambdaValidator.with(Validators::requireHttpUrl, () -> "http://HOST:PORT or https://HOST:PORT");
+    }
+
+    /** The base URL of an HTTP server, or nothing. */
+    public static Validator optionalHttpUrl() {
+        return LambdaValidator.with(
+                (name, value) -> {
+                    if (!"".equals(value)) {
+                        requireHttpUrl(name, value);
+                    }
+                },
+                () -> "empty, http://HOST:PORT or https://HOST:PORT");
+    }
+
+    /** A secret, any text. */
+    public static Validator secret() {
+        return LambdaValidator.with((name, value) -> {}, () -> "any text");
+    }
+
+    /** A secret that a header can carry: visible ASCII and spaces, or nothing. */
+    public static Validator headerSecret() {
+        return LambdaValidator.with(
+                (name, value) -> {
+                    if (!((Password) value).value().matches("[ -~]*")) {
+                        throw new ConfigException(name, value, "expected visible ASCII and spaces only");
+                    }
+                },
+                () -> "visible ASCII and spaces");
     }
 
     /** Text that matches as a whole. */

@@ -3,7 +3,7 @@ package io.furrow.connect.sink;
 import java.util.ArrayList;
 import java.util.List;
 
-import io.furrow.connect.sink.ContextBroker.Outcome;
+import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.sink.EntityUpdates.Update;
 
 /** Writes updates in batches; where a batch is refused each of its entities is tried alone, so that one harms no other. */

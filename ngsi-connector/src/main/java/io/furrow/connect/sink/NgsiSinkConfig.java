@@ -1,8 +1,8 @@
 package io.furrow.connect.sink;
 
-import java.net.URI;
 import java.time.Duration;
 import java.util.Map;
+import java.util.Optional;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
@@ -13,43 +13,35 @@ import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.Validators;
+import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.model.event.FiwareScope;
 
 /** The options of the sink; throws {@link ConfigException} naming the option where one cannot be used. */
 public class NgsiSinkConfig extends AbstractConfig {
-    static final String URL = "context.broker.url";
     static final String SERVICE = "fiware.service";
     static final String SERVICE_PATH = "fiware.servicepath";
     static final String BATCH_SIZE = "batch.size";
     static final String BATCH_BYTES = "batch.bytes";
-    static final String REQUEST_TIMEOUT = "request.timeout.ms";
     static final String RETRY_BACKOFF = "retry.backoff.ms";
+
+    private final BrokerOptions broker;
 
     NgsiSinkConfig(Map<String, String> properties) {
         super(definition(), properties);
+        broker = new BrokerOptions(this);
     }
 
     static ConfigDef definition() {
         ConfigDef options = new ConfigDef();
-        defineContextBroker(options);
+        BrokerOptions.define(options, Optional.empty());
+        defineScope(options);
         defineBatches(options);
         definePatience(options);
         return options;
     }
 
-    private static void defineContextBroker(ConfigDef options) {
-        String group = "Context broker";
-        options.define(
-                URL,
-                Type.STRING,
-                ConfigDef.NO_DEFAULT_VALUE,
-                Validators.httpUrl(),
-                Importance.HIGH,
-                "Base URL of the context broker, for instance http://orion:1026; /v2/op/update is added to it.",
-                group,
-                1,
-                Width.MEDIUM,
-                "URL");
+    private static void defineScope(ConfigDef options) {
+        String group = "Scope";
         options.define(
                 SERVICE,
                 Type.STRING,
@@ -58,7 +50,7 @@ public class NgsiSinkConfig extends AbstractConfig {
                 Importance.MEDIUM,
                 "Tenant (Fiware-Service) of records without a header fiware-service; empty for the default tenant.",
                 group,
-                2,
+                1,
                 Width.MEDIUM,
                 "Tenant");
         options.define(
@@ -69,7 +61,7 @@ public class NgsiSinkConfig extends AbstractConfig {
                 Importance.MEDIUM,
                 "Service path (Fiware-Servicepath) of records without a header fiware-servicepath.",
                 group,
-                3,
+                2,
                 Width.MEDIUM,
                 "Service path");
     }
@@ -104,17 +96,6 @@ public class NgsiSinkConfig extends AbstractConfig {
     private static void definePatience(ConfigDef options) {
         String group = "Patience";
         options.define(
-                REQUEST_TIMEOUT,
-                Type.LONG,
-                10_000L,
-                Range.between(1, 600_000),
-                Importance.LOW,
-                "Milliseconds that one request may take; after that the context broker counts as away.",
-                group,
-                1,
-                Width.SHORT,
-                "Timeout (ms)");
-        options.define(
                 RETRY_BACKOFF,
                 Type.LONG,
                 1_000L,
@@ -122,13 +103,13 @@ public class NgsiSinkConfig extends AbstractConfig {
                 Importance.LOW,
                 "Milliseconds until the same records are tried again when the context broker is away.",
                 group,
-                2,
+                1,
                 Width.SHORT,
                 "Back-off (ms)");
     }
 
-    URI contextBroker() {
-        return URI.create(getString(URL));
+    BrokerOptions broker() {
+        return broker;
     }
 
     /** Where records without headers belong. */
@@ -138,10 +119,6 @@ public class NgsiSinkConfig extends AbstractConfig {
 
     Batches batches() {
         return new Batches(getInt(BATCH_SIZE), getLong(BATCH_BYTES));
-    }
-
-    Duration requestTimeout() {
-        return Duration.ofMillis(getLong(REQUEST_TIMEOUT));
     }
 
     Duration retryBackoff() {

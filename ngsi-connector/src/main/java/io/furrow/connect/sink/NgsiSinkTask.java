@@ -15,6 +15,8 @@ import org.apache.kafka.connect.sink.SinkRecord;
 import org.apache.kafka.connect.sink.SinkTask;
 
 import io.furrow.connect.PluginVersion;
+import io.furrow.connect.broker.BrokerClient;
+import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.sink.EntityWriter.AwayException;
 import io.furrow.connect.sink.EntityWriter.RefusedUpdate;
 import io.furrow.connect.sink.EntityWriter.WrongSettingException;
@@ -44,7 +46,8 @@ public class NgsiSinkTask extends SinkTask {
     @Override
     public void start(Map<String, String> properties) {
         NgsiSinkConfig config = new NgsiSinkConfig(properties);
-        ContextBroker broker = new ContextBroker(config.contextBroker(), config.requestTimeout());
+        ContextBroker broker =
+                new ContextBroker(new BrokerClient(config.broker().settings()));
         writer = new EntityWriter(broker, config.batches());
         defaultScope = config.scope();
         backoff = config.retryBackoff();
@@ -99,7 +102,7 @@ public class NgsiSinkTask extends SinkTask {
             context.timeout(backoff.toMillis());
             throw new RetriableException(e.getMessage(), e);
         } catch (WrongSettingException e) {
-            String remedy = "; check " + NgsiSinkConfig.URL + " and the rights of this client";
+            String remedy = "; check " + BrokerOptions.URL + " and the rights of this client";
             throw new ConnectException(e.getMessage() + remedy, e);
         }
     }

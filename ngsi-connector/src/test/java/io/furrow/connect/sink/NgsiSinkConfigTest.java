@@ -18,7 +18,7 @@ class NgsiSinkConfigTest {
     void needsTheContextBrokerOnly() {
         NgsiSinkConfig config = new NgsiSinkConfig(Map.of("context.broker.url", "http://orion:1026"));
 
-        assertThat(config.contextBroker()).hasToString("http://orion:1026");
+        assertThat(config.broker().url()).hasToString("Optional[http://orion:1026]");
         assertThat(config.scope()).isEqualTo(FiwareScope.DEFAULT);
         assertThatThrownBy(() -> new NgsiSinkConfig(Map.of()))
                 .isInstanceOf(ConfigException.class)
@@ -35,7 +35,7 @@ class NgsiSinkConfigTest {
         "fiware.servicepath, plot1",
         "batch.size, 0",
         "batch.bytes, -1",
-        "request.timeout.ms, never",
+        "context.broker.timeout.ms, never",
         "retry.backoff.ms, 0"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {

@@ -1,0 +1,143 @@
+package io.furrow.connect.broker;
+
+import java.io.IOException;
+import java.net.ConnectException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpRequest.BodyPublisher;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.net.http.HttpResponse.BodyHandlers;
+import java.nio.charset.StandardCharsets;
+import java.time.DateTimeException;
+import java.time.Duration;
+import java.time.Instant;
+import java.time.ZonedDateTime;
+import java.time.format.DateTimeFormatter;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+/**
+ * Asks a context broker over kept connections; never throws for what the network or the broker does. Any number of threads
+ * may share one.
+ */
+public final class BrokerClient {
+    private static final int LONGEST_WORDS = 1000;
+
+    private final HttpClient client;
+    private final BrokerSettings settings;
+
+    public BrokerClient(BrokerSettings settings) {
+        HttpClient.Builder builder = HttpClient.newBuilder()
+                .version(HttpClient.Version.HTTP_1_1)
+                .followRedirects(HttpClient.Redirect.NEVER)
+                .connectTimeout(settings.timeout());
+        settings.tls().ifPresent(builder::sslContext);
+        this.client = builder.build();
+        this.settings = settings;
+    }
+
+    /** Waits for the answer; an interrupt while it waits stays set and counts as {@link Outcome.Away}. */
+    public Outcome send(BrokerRequest asked) {
+        URI uri = URI.create(settings.prefix() + asked.path());
+        HttpRequest request = request(uri, asked);
+        long deadline = System.nanoTime() + settings.timeout().toNanos();
+        try {
+            try {
+                return outcome(uri, answer(request, deadline));
+            } catch (IOException e) {
+                if (!asked.repeatable() || e instanceof ConnectException) {
+                    throw e;
+                }
+                return outcome(uri, answer(request, deadline));
+            }
+        } catch (IOException e) {
+            return away(uri + " does not answer: " + e, e);
+        } catch (TimeoutException e) {
+            return away(uri + " does not answer within " + settings.timeout().toMillis() + " ms", e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            return away("interrupted while waiting for " + uri, e);
+        }
+    }
+
+    private HttpRequest request(URI uri, BrokerRequest asked) {
+        BodyPublisher body = asked.body() == null ? BodyPublishers.noBody() : BodyPublishers.ofByteArray(asked.body());
+        HttpRequest.Builder request = HttpRequest.newBuilder(uri)
+                .method(asked.method(), body)
+                .header("Fiware-Servicepath", asked.scope().servicePath());
+        if (asked.body() != null) {
+            request.header("Content-Type", asked.contentType());
+        }
+        if (!asked.scope().service().isEmpty()) {
+            request.header("Fiware-Service", asked.scope().service());
+        }
+        settings.headers().forEach((name, value) -> request.setHeader(name, value.value()));
+        return request.build();
+    }
+
+    /** HttpClient's own timeout ends with the headers of the answer; this one ends with its body. */
+    private HttpResponse<byte[]> answer(HttpRequest request, long deadline)
+            throws IOException, InterruptedException, TimeoutException {
+        CompletableFuture<HttpResponse<byte[]>> answer = client.sendAsync(request, BodyHandlers.ofByteArray());
+        try {
+            return answer.get(Math.max(0, deadline - System.nanoTime()), TimeUnit.NANOSECONDS);
+        } catch (ExecutionException e) {
+            throw e.getCause() instanceof IOException io ? io : new IOException(e.getCause());
+        } finally {
+            answer.cancel(true);
+        }
+    }
+
+    private static Outcome outcome(URI uri, HttpResponse<byte[]> answer) {
+        int status = answer.statusCode();
+        if (status / 100 == 2) {
+            return new Outcome.Done(status, new AnswerHeaders(answer.headers()), answer.body());
+        }
+        String words = status + " " + text(answer.body());
+        return switch (status) {
+            case 404 -> new Outcome.Absent(words);
+            case 401, 403, 405 -> new Outcome.WrongSetting(uri + " answered " + words);
+            case 408, 425, 429 -> away(uri, words, answer);
+            default ->
+                switch (status / 100) {
+                    case 4 -> new Outcome.Refused(status, words);
+                    case 5 -> away(uri, words, answer);
+                    default -> new Outcome.WrongSetting(uri + " answered " + words);
+                };
+        };
+    }
+
+    private static String text(byte[] body) {
+        String text = new String(body, 0, Math.min(body.length, 4 * LONGEST_WORDS), StandardCharsets.UTF_8);
+        return text.length() > LONGEST_WORDS ? text.substring(0, LONGEST_WORDS) + "…" : text;
+    }
+
+    private static Outcome away(String reason, Throwable cause) {
+        return new Outcome.Away(reason, Optional.empty(), cause);
+    }
+
+    private static Outcome away(URI uri, String words, HttpResponse<byte[]> answer) {
+        Optional<Duration> retryAfter =
+                answer.headers().firstValue("Retry-After").flatMap(BrokerClient::retryAfter);
+        return new Outcome.Away(uri + " answered " + words, retryAfter, null);
+    }
+
+    /** RFC 9110: seconds, or a date. */
+    private static Optional<Duration> retryAfter(String value) {
+        try {
+            if (value.matches("\\d{1,9}")) {
+                return Optional.of(Duration.ofSeconds(Long.parseLong(value)));
+            }
+            Duration wait =
+                    Duration.between(Instant.now(), ZonedDateTime.parse(value, DateTimeFormatter.RFC_1123_DATE_TIME));
+            return Optional.of(wait.isNegative() ? Duration.ZERO : wait);
+        } catch (DateTimeException e) {
+            return Optional.empty();
+        }
+    }
+}

@@ -1,0 +1,29 @@
+package io.furrow.connect.broker;
+
+import java.net.URI;
+import java.time.Duration;
+import java.util.Map;
+import java.util.Optional;
+import javax.net.ssl.SSLContext;
+
+import org.apache.kafka.common.config.types.Password;
+
+/**
+ * Where a context broker is, and how it is asked.
+ *
+ * @param base for instance {@code http://orion:1026}, with or without a path
+ * @param timeout of one request, from its start to the end of its answer
+ * @param headers sent with every request, for instance a token; their values appear nowhere else
+ * @param tls what https trusts; empty for what the JVM trusts
+ */
+public record BrokerSettings(URI base, Duration timeout, Map<String, Password> headers, Optional<SSLContext> tls) {
+    public static BrokerSettings of(URI base, Duration timeout) {
+        return new BrokerSettings(base, timeout, Map.of(), Optional.empty());
+    }
+
+    /** The base without a slash at its end. */
+    String prefix() {
+        String text = base.toString();
+        return text.endsWith("/") ? text.substring(0, text.length() - 1) : text;
+    }
+}

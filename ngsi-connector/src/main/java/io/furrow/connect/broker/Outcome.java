@@ -1,0 +1,48 @@
+package io.furrow.connect.broker;
+
+import java.time.Duration;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.MissingNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** What became of a request to a context broker. */
+public sealed interface Outcome {
+    /**
+     * It was answered 2xx.
+     *
+     * @param headers of the answer
+     * @param body as it came, empty for 204
+     */
+    record Done(int status, AnswerHeaders headers, byte[] body) implements Outcome {
+        /**
+         * The body as JSON, a missing node where it is empty.
+         *
+         * @throws UnreadableException if it is no JSON
+         */
+        public JsonNode json() throws UnreadableException {
+            return body.length == 0 ? MissingNode.getInstance() : NgsiJson.read(body);
+        }
+    }
+
+    /** 404: what was asked for is not there. {@code words} are the status and the broker's reason. */
+    record Absent(String words) implements Outcome {}
+
+    /** The context broker does not take what it was sent (any other 4xx). {@code words} are the status and its reason. */
+    record Refused(int status, String words) implements Outcome {}
+
+    /**
+     * There was no answer, or one that says to come again (408, 425, 429, 5xx): the same request may succeed later.
+     *
+     * @param reason a sentence with the URL
+     * @param retryAfter how long the broker asks to be left alone, at least zero
+     * @param cause null where there was an answer
+     */
+    record Away(String reason, Optional<Duration> retryAfter, Throwable cause) implements Outcome {}
+
+    /** No request can succeed until a setting is changed (401, 403, 405, 3xx). {@code words} are the URL and the answer. */
+    record WrongSetting(String words) implements Outcome {}
+}

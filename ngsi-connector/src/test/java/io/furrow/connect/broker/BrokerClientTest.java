@@ -1,0 +1,259 @@
+package io.furrow.connect.broker;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.ServerSocket;
+import java.net.Socket;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.ZoneOffset;
+import java.time.ZonedDateTime;
+import java.time.format.DateTimeFormatter;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.Executors;
+
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+import org.apache.kafka.common.config.types.Password;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class BrokerClientTest {
+    private static final FiwareScope PLOT = FiwareScope.of("agri", "/plot1");
+
+    private interface Answering {
+        void answer(HttpExchange exchange) throws IOException;
+    }
+
+    private final HttpServer server = server();
+    private volatile Answering answering = exchange -> exchange.sendResponseHeaders(204, -1);
+
+    @AfterEach
+    void stop() {
+        server.stop(0);
+    }
+
+    @Test
+    void sendsScopeTokenAndBodyAndGivesTheAnswerAsJson() throws UnreadableException {
+        CompletableFuture<String> asked = new CompletableFuture<>();
+        answering = exchange -> {
+            asked.complete(exchange.getRequestMethod() + " " + exchange.getRequestURI() + " "
+                    + exchange.getRequestHeaders().getFirst("Fiware-Service")
+                    + exchange.getRequestHeaders().getFirst("Fiware-Servicepath") + " "
+                    + exchange.getRequestHeaders().getFirst("X-Auth-Token") + " "
+                    + exchange.getRequestHeaders().getFirst("Content-Type") + " "
+                    + new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8));
+            exchange.getResponseHeaders().add("Fiware-Total-Count", "7");
+            exchange.getResponseHeaders().add("Location", "/v2/subscriptions/51c0");
+            answer(exchange, 200, "[{\"id\":\"a\"}]");
+        };
+
+        Outcome outcome = client(Duration.ofSeconds(5))
+                .send(BrokerRequest.patch(PLOT, "/v2/x?y=1", NgsiJson.mapper().createObjectNode()));
+
+        assertThat(asked).isCompletedWithValue("PATCH /base/v2/x?y=1 agri/plot1 s3cret application/json {}");
+        assertThat(outcome).isInstanceOfSatisfying(Outcome.Done.class, done -> {
+            assertThat(done.headers().totalCount()).hasValue(7);
+            assertThat(done.headers().createdId()).contains("51c0");
+        });
+        assertThat(((Outcome.Done) outcome).json().path(0).path("id").textValue())
+                .isEqualTo("a");
+    }
+
+    @Test
+    void leavesTheDefaultTenantOut() {
+        CompletableFuture<Boolean> named = new CompletableFuture<>();
+        answering = exchange -> {
+            named.complete(exchange.getRequestHeaders().containsKey("Fiware-Service"));
+            answer(exchange, 200, "");
+        };
+
+        assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(FiwareScope.DEFAULT, "/v2/entities")))
+                .isInstanceOf(Outcome.Done.class);
+        assertThat(named).isCompletedWithValue(false);
+    }
+
+    @ParameterizedTest
+    @ValueSource(ints = {400, 409, 413, 422})
+    void callsOtherAnswersOf4xxARefusalInTheWordsOfTheBroker(int status) {
+        assertThat(answered(status, "too odd")).isEqualTo(new Outcome.Refused(status, status + " too odd"));
+    }
+
+    @Test
+    void tellsWhatIsNotThereFromWhatIsRefused() {
+        assertThat(answered(404, "no entity")).isEqualTo(new Outcome.Absent("404 no entity"));
+    }
+
+    @ParameterizedTest
+    @ValueSource(ints = {301, 401, 403, 405})
+    void callsAnAnswerThatNoRepetitionHelpsAWrongSetting(int status) {
+        assertThat(answered(status, "no"))
+                .isInstanceOfSatisfying(
+                        Outcome.WrongSetting.class,
+                        wrong -> assertThat(wrong.words()).contains(url() + "/v2/x answered " + status + " no"));
+    }
+
+    @ParameterizedTest
+    @ValueSource(ints = {408, 425, 429, 500, 503})
+    void callsABrokerAwayThatSaysToComeAgain(int status) {
+        assertThat(answered(status, "later"))
+                .isInstanceOfSatisfying(
+                        Outcome.Away.class,
+                        away -> assertThat(away.retryAfter()).isEmpty());
+    }
+
+    @Test
+    void readsRetryAfterAsSecondsAndAsDate() {
+        answering = exchange -> {
+            String value = exchange.getRequestURI().getPath().endsWith("date")
+                    ? ZonedDateTime.now(ZoneOffset.UTC).plusMinutes(5).format(DateTimeFormatter.RFC_1123_DATE_TIME)
+                    : exchange.getRequestURI().getPath().endsWith("odd") ? "soon" : "7";
+            exchange.getResponseHeaders().add("Retry-After", value);
+            answer(exchange, 429, "");
+        };
+
+        assertThat(retryAfter("/seconds")).contains(Duration.ofSeconds(7));
+        assertThat(retryAfter("/date"))
+                .hasValueSatisfying(wait -> assertThat(wait).isBetween(Duration.ofMinutes(4), Duration.ofMinutes(6)));
+        assertThat(retryAfter("/odd")).isEmpty();
+    }
+
+    @Test
+    @Timeout(10)
+    void givesUpOnAnAnswerThatNeverEnds() {
+        answering = exchange -> {
+            exchange.sendResponseHeaders(200, 1000);
+            exchange.getResponseBody().write('[');
+            exchange.getResponseBody().flush();
+        };
+
+        assertThat(client(Duration.ofMillis(300)).send(BrokerRequest.get(PLOT, "/v2/x")))
+                .isInstanceOfSatisfying(
+                        Outcome.Away.class,
+                        away -> assertThat(away.reason()).contains("does not answer within 300 ms"));
+    }
+
+    @Test
+    void namesTheAddressWhereNobodyListens() {
+        server.stop(0);
+
+        assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x")))
+                .isInstanceOfSatisfying(
+                        Outcome.Away.class,
+                        away -> assertThat(away.reason()).contains(url() + "/v2/x does not answer"));
+    }
+
+    @Test
+    void keepsAnInterruptSet() {
+        Thread.currentThread().interrupt();
+
+        assertThat(client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x")))
+                .isInstanceOf(Outcome.Away.class);
+        assertThat(Thread.interrupted()).isTrue();
+    }
+
+    @Test
+    void sendsAgainWhatMayBeRepeatedWhenAKeptConnectionProvesDeadAndNothingElse() throws Exception {
+        try (ServerSocket socket = new ServerSocket(0, 10, InetAddress.getLoopbackAddress())) {
+            URI base = URI.create("http://127.0.0.1:" + socket.getLocalPort());
+            BrokerClient client = new BrokerClient(BrokerSettings.of(base, Duration.ofSeconds(5)));
+
+            CompletableFuture<Void> served = hangUpThenAnswer(socket);
+            assertThat(client.send(BrokerRequest.post(PLOT, "/v2/op/update", new byte[0])))
+                    .isInstanceOf(Outcome.Done.class);
+            served.join();
+
+            served = hangUpThenAnswer(socket);
+            assertThat(client.send(BrokerRequest.create(
+                            PLOT, "/v2/subscriptions", NgsiJson.mapper().createObjectNode())))
+                    .isInstanceOf(Outcome.Away.class);
+            new Socket(socket.getInetAddress(), socket.getLocalPort()).close();
+            served.join();
+        }
+    }
+
+    @Test
+    void keepsTheTokenToItself() {
+        BrokerSettings settings = settings(Duration.ofSeconds(5));
+
+        assertThat(settings.toString()).doesNotContain("s3cret");
+        assertThat(answered(401, "who are you?").toString()).doesNotContain("s3cret");
+    }
+
+    private static CompletableFuture<Void> hangUpThenAnswer(ServerSocket socket) {
+        return CompletableFuture.runAsync(() -> {
+            try {
+                try (Socket first = socket.accept()) {
+                    assertThat(first.getInputStream().read()).isPositive();
+                }
+                try (Socket second = socket.accept();
+                        InputStream in = second.getInputStream()) {
+                    if (in.read() > 0) {
+                        second.getOutputStream().write("HTTP/1.1 204 No Content\r\n\r\n".getBytes());
+                    }
+                }
+            } catch (IOException e) {
+                throw new java.io.UncheckedIOException(e);
+            }
+        });
+    }
+
+    private Optional<Duration> retryAfter(String path) {
+        return ((Outcome.Away) client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, path))).retryAfter();
+    }
+
+    private Outcome answered(int status, String body) {
+        answering = exchange -> answer(exchange, status, body);
+        return client(Duration.ofSeconds(5)).send(BrokerRequest.get(PLOT, "/v2/x"));
+    }
+
+    private static void answer(HttpExchange exchange, int status, String body) throws IOException {
+        byte[] bytes = body.getBytes(StandardCharsets.UTF_8);
+        exchange.sendResponseHeaders(status, bytes.length == 0 ? -1 : bytes.length);
+        exchange.getResponseBody().write(bytes);
+        exchange.close();
+    }
+
+    private BrokerClient client(Duration timeout) {
+        return new BrokerClient(settings(timeout));
+    }
+
+    private BrokerSettings settings(Duration timeout) {
+        return new BrokerSettings(
+                URI.create(url() + "/"), timeout, Map.of("X-Auth-Token", new Password("s3cret")), Optional.empty());
+    }
+
+    private String url() {
+        return "http://127.0.0.1:" + server.getAddress().getPort() + "/base";
+    }
+
+    private HttpServer server() {
+        try {
+            HttpServer started = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+            started.createContext("/", exchange -> answering.answer(exchange));
+            started.setExecutor(Executors.newCachedThreadPool(task -> {
+                Thread thread = new Thread(task, "test-broker");
+                thread.setDaemon(true);
+                return thread;
+            }));
+            started.start();
+            return started;
+        } catch (IOException e) {
+            throw new java.io.UncheckedIOException(e);
+        }
+    }
+}
