@@ -1,0 +1,106 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.channels.FileChannel;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.nio.file.StandardOpenOption;
+
+import static java.nio.file.StandardOpenOption.CREATE;
+import static java.nio.file.StandardOpenOption.READ;
+import static java.nio.file.StandardOpenOption.TRUNCATE_EXISTING;
+import static java.nio.file.StandardOpenOption.WRITE;
+
+/** What a journal asks of a disk when it writes; tests put a failing one in its place. */
+interface Disk {
+    /** A segment file that is being written. */
+    interface SegmentFile extends AutoCloseable {
+        /** Writes all of {@code bytes} at a position. */
+        void write(ByteBuffer bytes, long position) throws IOException;
+
+        /** Returns when everything written is on the disk. */
+        void sync() throws IOException;
+
+        @Override
+        void close() throws IOException;
+    }
+
+    /**
+     * A file of {@code capacity} bytes, zeros behind the header. A file that has the name is
+     * replaced. When this returns, file and name are on the disk.
+     */
+    SegmentFile create(Path file, ByteBuffer header, long capacity) throws IOException;
+
+    /** Bytes that can still be written on the disk that holds the folder. */
+    long usable(Path folder) throws IOException;
+
+    /** The real one. */
+    static Disk real() {
+        return new FileDisk();
+    }
+
+    /** Makes a new or vanished name in the folder durable; file systems that cannot do that do not need it. */
+    static void syncFolder(Path folder) throws IOException {
+        if (!System.getProperty("os.name").startsWith("Windows")) {
+            try (FileChannel channel = FileChannel.open(folder, READ)) {
+                channel.force(true);
+            }
+        }
+    }
+
+    /** Files through {@link FileChannel}. */
+    final class FileDisk implements Disk {
+        private static final int ZEROS_AT_ONCE = 1024 * 1024;
+
+        @Override
+        public SegmentFile create(Path file, ByteBuffer header, long capacity) throws IOException {
+            Path temporary = file.resolveSibling(file.getFileName() + ".tmp");
+            try (FileChannel channel = FileChannel.open(temporary, CREATE, TRUNCATE_EXISTING, WRITE)) {
+                ByteBuffer zeros = ByteBuffer.allocateDirect(ZEROS_AT_ONCE);
+                for (long at = 0; at < capacity; at += ZEROS_AT_ONCE) {
+                    writeFully(channel, zeros.clear().limit((int) Math.min(ZEROS_AT_ONCE, capacity - at)), at);
+                }
+                writeFully(channel, header, 0);
+                channel.force(true);
+            } catch (IOException e) {
+                Files.deleteIfExists(temporary);
+                throw e;
+            }
+            Files.move(temporary, file, StandardCopyOption.ATOMIC_MOVE);
+            syncFolder(file.getParent());
+            return new ChannelFile(FileChannel.open(file, StandardOpenOption.WRITE));
+        }
+
+        @Override
+        public long usable(Path folder) throws IOException {
+            return Files.getFileStore(folder).getUsableSpace();
+        }
+
+        static void writeFully(FileChannel channel, ByteBuffer bytes, long position) throws IOException {
+            long at = position;
+            while (bytes.hasRemaining()) {
+                at += channel.write(bytes, at);
+            }
+        }
+    }
+
+    /** A file behind a channel. */
+    record ChannelFile(FileChannel channel) implements SegmentFile {
+        @Override
+        public void write(ByteBuffer bytes, long position) throws IOException {
+            FileDisk.writeFully(channel, bytes, position);
+        }
+
+        @Override
+        public void sync() throws IOException {
+            channel.force(false);
+        }
+
+        @Override
+        public void close() throws IOException {
+            channel.close();
+        }
+    }
+}

@@ -1,0 +1,214 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+import java.util.function.BooleanSupplier;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * Collects appends while the disk is busy and writes them with one sync. An error fails the appends of its group and no other;
+ * the next group begins a new file. After {@value #FAILURES_AT_MOST} groups in a row have failed it gives up for good.
+ */
+final class GroupCommit {
+    private static final Logger LOG = LoggerFactory.getLogger(GroupCommit.class);
+
+    private static final int FAILURES_AT_MOST = 3;
+    private static final long GROUP_BYTES = 16L * 1024 * 1024;
+    private static final Duration CLOSE_WITHIN = Duration.ofSeconds(10);
+
+    private record Append(List<byte[]> payloads, long bytes, CompletableFuture<Void> durable) {}
+
+    private final String journal;
+    private final SegmentWriter writer;
+    private final Room room;
+    private final ArrayDeque<Append> queue = new ArrayDeque<>();
+    private Thread thread;
+    private long waitingBytes;
+    private long skippedTo;
+    private boolean closed;
+    private Throwable failure;
+    private int failuresInARow;
+
+    GroupCommit(String journal, SegmentWriter writer, Room room) {
+        this.journal = journal;
+        this.writer = writer;
+        this.room = room;
+    }
+
+    synchronized Optional<CompletableFuture<Void>> append(List<byte[]> payloads) {
+        if (payloads.stream().anyMatch(payload -> payload.length == 0)) {
+            throw new IllegalArgumentException("a record has a byte at least");
+        }
+        if (closed) {
+            return Optional.of(CompletableFuture.failedFuture(new JournalException.Closed()));
+        }
+        if (failure != null) {
+            return Optional.of(CompletableFuture.failedFuture(new JournalException.DiskFailed(failure)));
+        }
+        if (payloads.isEmpty()) {
+            return Optional.of(CompletableFuture.completedFuture(null));
+        }
+        long bytes = Room.sizeOf(payloads);
+        if (!room.isFor(bytes, waitingBytes)) {
+            return Optional.empty();
+        }
+        CompletableFuture<Void> durable = new CompletableFuture<>();
+        queue.add(new Append(payloads, bytes, durable));
+        waitingBytes += bytes;
+        startThread();
+        notifyAll();
+        return Optional.of(durable);
+    }
+
+    /** A journal that is only read needs no thread. */
+    private void startThread() {
+        if (thread == null) {
+            thread = new Thread(this::run, "journal-" + journal);
+            thread.setDaemon(true);
+            thread.start();
+        }
+    }
+
+    private void run() {
+        List<Append> group = nextGroup();
+        while (!group.isEmpty()) {
+            write(group);
+            group = nextGroup();
+        }
+        writer.close();
+    }
+
+    /** Waits for appends; empty when it was closed and all are written. */
+    private synchronized List<Append> nextGroup() {
+        while (queue.isEmpty() && !closed) {
+            try {
+                wait();
+            } catch (InterruptedException e) {
+                LOG.warn("journal {}: the writing thread was interrupted, which is ignored", journal);
+            }
+        }
+        List<Append> group = new ArrayList<>();
+        long bytes = 0;
+        while (!queue.isEmpty() && bytes < GROUP_BYTES) {
+            Append next = queue.poll();
+            bytes += next.bytes();
+            group.add(next);
+        }
+        return group;
+    }
+
+    private void write(List<Append> group) {
+        Throwable failed = null;
+        try {
+            for (Append append : group) {
+                for (byte[] payload : append.payloads()) {
+                    writer.write(payload);
+                }
+            }
+            writer.sync();
+        } catch (IOException | RuntimeException | Error e) {
+            failed = e;
+        }
+        JournalException outcome = failed == null ? null : abandon(failed, group);
+        done(group, failed, outcome);
+        for (Append append : group) {
+            if (outcome == null) {
+                append.durable().complete(null);
+            } else {
+                append.durable().completeExceptionally(outcome);
+            }
+        }
+    }
+
+    private JournalException abandon(Throwable failed, List<Append> group) {
+        writer.abandon();
+        long bytes = group.stream().mapToLong(Append::bytes).sum();
+        if (failed instanceof IOException && !room.isFree(bytes)) {
+            LOG.warn("journal {}: the disk is full", journal, failed);
+            return new JournalException.NoRoom(failed);
+        }
+        LOG.error(
+                "journal {}: the disk failed; {} appends were not confirmed, the next go into a new file",
+                journal,
+                group.size(),
+                failed);
+        return new JournalException.DiskFailed(failed);
+    }
+
+    private synchronized void done(List<Append> group, Throwable failed, JournalException outcome) {
+        waitingBytes -= group.stream().mapToLong(Append::bytes).sum();
+        if (outcome == null) {
+            failuresInARow = 0;
+        } else if (outcome instanceof JournalException.DiskFailed && ++failuresInARow >= FAILURES_AT_MOST) {
+            failure = failed;
+        }
+        notifyAll();
+    }
+
+    /** Waits until a condition that a group can bring about holds, or a {@link System#nanoTime} is reached; whether it holds. */
+    synchronized boolean awaitGroup(BooleanSupplier condition, long deadline) throws InterruptedException {
+        while (!condition.getAsBoolean()) {
+            long left = deadline - System.nanoTime();
+            if (left <= 0 || closed) {
+                return false;
+            }
+            wait(left / 1_000_000 + 1);
+        }
+        return true;
+    }
+
+    synchronized void skipTo(long sequence) {
+        if (thread != null) {
+            throw new IllegalStateException("records were appended already");
+        }
+        if (sequence > writer.sequence()) {
+            writer.skipTo(sequence);
+            skippedTo = sequence;
+        }
+    }
+
+    synchronized long skippedTo() {
+        return skippedTo;
+    }
+
+    synchronized long waitingBytes() {
+        return waitingBytes;
+    }
+
+    synchronized Optional<Throwable> failure() {
+        return Optional.ofNullable(failure);
+    }
+
+    /** Writes what waits and ends; whether it did. */
+    boolean close() {
+        Thread running;
+        synchronized (this) {
+            closed = true;
+            running = thread;
+            notifyAll();
+        }
+        if (running == null) {
+            return true;
+        }
+        boolean interrupted = false;
+        long end = System.nanoTime() + CLOSE_WITHIN.toNanos();
+        while (running.isAlive() && System.nanoTime() < end) {
+            try {
+                running.join(Math.max(1, (end - System.nanoTime()) / 1_000_000));
+            } catch (InterruptedException e) {
+                interrupted = true;
+            }
+        }
+        if (interrupted) {
+            Thread.currentThread().interrupt();
+        }
+        return !running.isAlive();
+    }
+}

@@ -1,0 +1,151 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.NoSuchFileException;
+import java.nio.file.Path;
+import java.security.SecureRandom;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HexFormat;
+import java.util.List;
+import java.util.Optional;
+import java.util.stream.Stream;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * The journals of one owner below a folder that several owners share: {@code <root>/<owner>/<slot>-<random>}. A slot is a
+ * number that distinguishes journals that are in use at the same time.
+ */
+public final class JournalFolders {
+    private static final Logger LOG = LoggerFactory.getLogger(JournalFolders.class);
+    private static final SecureRandom RANDOM = new SecureRandom();
+
+    /**
+     * A journal that nobody has open although it holds something.
+     *
+     * @param owner as its folder is named
+     * @param bytes of its files
+     */
+    public record Orphan(String owner, Path folder, long bytes) {}
+
+    private final Path root;
+    private final Path own;
+    private final JournalSettings settings;
+
+    /** @param root is made if it does not exist */
+    public JournalFolders(Path root, String owner, JournalSettings settings) {
+        this.root = root;
+        this.own = root.resolve(folderName(owner));
+        this.settings = settings;
+    }
+
+    /**
+     * The first journal of a slot that nobody has open, or a new one.
+     *
+     * @throws UncheckedIOException if the folder cannot be used
+     */
+    public Journal take(int slot) {
+        try {
+            Files.createDirectories(own);
+            for (Path folder : foldersOf(own)) {
+                if (folder.getFileName().toString().startsWith(slot + "-")) {
+                    Optional<Journal> journal = Journal.open(folder, settings);
+                    if (journal.isPresent()) {
+                        return journal.get();
+                    }
+                }
+            }
+            Path made = Files.createDirectory(
+                    own.resolve(slot + "-" + HexFormat.of().toHexDigits(RANDOM.nextLong())));
+            Disk.syncFolder(own);
+            return Journal.open(made, settings).orElseThrow();
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot use the folder " + own, e);
+        }
+    }
+
+    /** Opens every journal of this owner that nobody has open; one that cannot be opened is logged and left. */
+    public List<Journal> adopt() {
+        List<Journal> adopted = new ArrayList<>();
+        for (Path folder : foldersOf(own)) {
+            try {
+                Journal.open(folder, settings).ifPresent(adopted::add);
+            } catch (UncheckedIOException e) {
+                LOG.warn("a journal that nobody uses cannot be taken over", e);
+            }
+        }
+        return adopted;
+    }
+
+    /** The journals of any owner that nobody has open and that hold a segment. */
+    public List<Orphan> orphans() {
+        List<Orphan> orphans = new ArrayList<>();
+        for (Path owner : foldersOf(root)) {
+            for (Path folder : foldersOf(owner)) {
+                try {
+                    long bytes = segmentBytes(folder);
+                    if (bytes > 0 && !isOpen(folder)) {
+                        orphans.add(new Orphan(owner.getFileName().toString(), folder, bytes));
+                    }
+                } catch (IOException e) {
+                    LOG.debug("{} vanished or cannot be read", folder, e);
+                }
+            }
+        }
+        return orphans;
+    }
+
+    private static boolean isOpen(Path folder) throws IOException {
+        Optional<JournalLock> lock = JournalLock.tryLock(folder);
+        lock.ifPresent(JournalLock::close);
+        return lock.isEmpty();
+    }
+
+    private static long segmentBytes(Path folder) throws IOException {
+        long bytes = 0;
+        try (Stream<Path> files = Files.list(folder)) {
+            for (Path file : files.toList()) {
+                if (SegmentFormat.baseOf(file.getFileName().toString()).isPresent()) {
+                    bytes += Files.size(file);
+                }
+            }
+        }
+        return bytes;
+    }
+
+    private static List<Path> foldersOf(Path folder) {
+        try (Stream<Path> found = Files.list(folder)) {
+            return found.filter(Files::isDirectory).sorted().toList();
+        } catch (NoSuchFileException e) {
+            return List.of();
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot list " + folder, e);
+        }
+    }
+
+    static void delete(Path folder) throws IOException {
+        try (Stream<Path> found = Files.walk(folder)) {
+            for (Path path : found.sorted(Comparator.reverseOrder()).toList()) {
+                Files.delete(path);
+            }
+        }
+    }
+
+    /** A name of a folder, different for different owners: bytes other than letters, digits, - and _ as %XX. */
+    static String folderName(String owner) {
+        StringBuilder name = new StringBuilder();
+        for (byte part : owner.getBytes(StandardCharsets.UTF_8)) {
+            boolean plain = part > 0 && (Character.isLetterOrDigit(part) || part == '-' || part == '_');
+            name.append(
+                    plain
+                            ? String.valueOf((char) part)
+                            : "%" + HexFormat.of().withUpperCase().toHexDigits(part));
+        }
+        return name.toString();
+    }
+}

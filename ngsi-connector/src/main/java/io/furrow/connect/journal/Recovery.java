@@ -1,0 +1,120 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.channels.FileChannel;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+import java.util.TreeMap;
+import java.util.stream.Stream;
+
+import io.furrow.connect.journal.Damage.Kind;
+import io.furrow.connect.journal.SegmentFormat.End;
+import io.furrow.connect.journal.SegmentFormat.Header;
+
+/**
+ * Finds the segments of a journal and where each ends. Each segment says where the one before ends, so only the last file,
+ * and one whose successor is damaged, is read to its end; a corruption elsewhere is noted when it is read.
+ */
+final class Recovery {
+    /** A file, its length and its header if that could be read. */
+    private record Candidate(long base, Path file, long length, Optional<Header> header) {}
+
+    private final Path folder;
+    private final long salt;
+    private final Damages damages;
+
+    Recovery(Path folder, long salt, Damages damages) {
+        this.folder = folder;
+        this.salt = salt;
+        this.damages = damages;
+    }
+
+    /** The segments in their order. Files that were being made are deleted. */
+    List<Segment> segments() throws IOException {
+        List<Candidate> candidates = candidates();
+        List<Segment> segments = new ArrayList<>();
+        for (int i = 0; i < candidates.size(); i++) {
+            Candidate candidate = candidates.get(i);
+            Candidate next = i + 1 < candidates.size() ? candidates.get(i + 1) : null;
+            End end = end(candidate, next);
+            segments.add(Segment.found(candidate.base(), candidate.file(), candidate.length(), end));
+            noteLength(candidate);
+            if (next != null) {
+                noteMissingBetween(candidate, end, next);
+            }
+        }
+        return segments;
+    }
+
+    private End end(Candidate candidate, Candidate next) throws IOException {
+        Optional<Header> said = next == null ? Optional.empty() : next.header();
+        if (said.isPresent() && said.get().previous() == candidate.base()) {
+            return said.get().previousEnd();
+        }
+        if (candidate.length() < SegmentFormat.HEADER) {
+            return new End(SegmentFormat.HEADER, candidate.base());
+        }
+        try (RecordCursor cursor = new RecordCursor(candidate.file(), candidate.base(), salt, damages::note)) {
+            return cursor.readToUnknownEnd();
+        }
+    }
+
+    private void noteLength(Candidate candidate) {
+        long length = candidate.length();
+        if (candidate.header().isEmpty()) {
+            damages.note(new Damage(
+                    candidate.base(), 0, Math.min(length, SegmentFormat.HEADER), candidate.base(), 0, Kind.CORRUPT));
+        } else if (length < candidate.header().get().capacity()) {
+            long made = candidate.header().get().capacity();
+            damages.note(new Damage(candidate.base(), length, made, candidate.base(), Damage.UNKNOWN, Kind.TRUNCATED));
+        }
+    }
+
+    /** Between files, numbers may be left out on purpose; the header says so. */
+    private void noteMissingBetween(Candidate candidate, End end, Candidate next) {
+        long expected =
+                next.header().map(header -> header.previousEnd().sequence()).orElse(next.base());
+        boolean follows = next.header()
+                .map(header -> header.previous() == candidate.base())
+                .orElse(false);
+        if (!follows && expected > end.sequence()) {
+            long missing = expected - end.sequence();
+            damages.note(new Damage(next.base(), 0, 0, end.sequence(), missing, Kind.MISSING));
+        }
+    }
+
+    private List<Candidate> candidates() throws IOException {
+        List<Path> files;
+        try (Stream<Path> found = Files.list(folder)) {
+            files = found.toList();
+        }
+        TreeMap<Long, Candidate> candidates = new TreeMap<>();
+        for (Path file : files) {
+            String name = file.getFileName().toString();
+            Optional<Long> base = SegmentFormat.baseOf(name);
+            if (base.isPresent()) {
+                candidates.put(base.get(), candidate(base.get(), file));
+            } else if (name.endsWith(".segment.tmp")) {
+                Files.delete(file);
+            }
+        }
+        return List.copyOf(candidates.values());
+    }
+
+    private Candidate candidate(long base, Path file) throws IOException {
+        try (FileChannel channel = FileChannel.open(file, StandardOpenOption.READ)) {
+            ByteBuffer bytes = ByteBuffer.allocate(SegmentFormat.HEADER);
+            while (bytes.hasRemaining() && channel.read(bytes, bytes.position()) >= 0) {
+                continue;
+            }
+            Optional<Header> header =
+                    SegmentFormat.readHeader(bytes.flip(), salt).filter(read -> read.base() == base);
+            return new Candidate(base, file, channel.size(), header);
+        }
+    }
+}

@@ -1,0 +1,61 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+
+/** Decides whether records may still come in. It errs on the side of no: files may end before they are full. */
+final class Room {
+    private final JournalSettings settings;
+    private final Path folder;
+    private final Disk disk;
+    private final Segments segments;
+
+    Room(JournalSettings settings, Path folder, Disk disk, Segments segments) {
+        this.settings = settings;
+        this.folder = folder;
+        this.disk = disk;
+        this.segments = segments;
+    }
+
+    /**
+     * Whether records fit beside others that wait to be written.
+     *
+     * @param waiting bytes of those
+     */
+    boolean isFor(long bytes, long waiting) {
+        if (waiting > 0 && waiting + bytes > settings.maxWaiting()) {
+            return false;
+        }
+        long toWrite = waiting + bytes;
+        if (toWrite <= leftInLast()) {
+            return true;
+        }
+        long usableOfSegment = settings.segmentBytes() / 4 * 3;
+        long newFiles = (toWrite / usableOfSegment + 1) * settings.segmentBytes();
+        // What does not fit well into files of the usual size gets its own.
+        long largeFiles = bytes > settings.segmentBytes() / 4 ? bytes + SegmentFormat.HEADER : 0;
+        long needed = newFiles + largeFiles;
+        return segments.bytes() + needed <= settings.maxBytes() && isFree(needed);
+    }
+
+    /** Bytes of records as they are on the disk. */
+    static long sizeOf(List<byte[]> payloads) {
+        return payloads.stream().mapToLong(SegmentFormat::sizeOf).sum();
+    }
+
+    /** Whether the disk has so many bytes besides those that stay free. */
+    boolean isFree(long bytes) {
+        try {
+            return disk.usable(folder) - bytes >= settings.minFree();
+        } catch (IOException e) {
+            // The writer will meet the same disk, and report it.
+            return true;
+        }
+    }
+
+    private long leftInLast() {
+        Segment last = segments.last();
+        return last == null || last.sealed() ? 0 : last.capacity() - last.end().position();
+    }
+}

@@ -1,0 +1,144 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.file.Path;
+
+import io.furrow.connect.journal.SegmentFormat.End;
+import io.furrow.connect.journal.SegmentFormat.Header;
+
+/**
+ * Writes records into segment files and goes on to the next file when one is full. After an error it never touches the same
+ * file again: after a failed sync nobody knows what of it is on the disk, and a second sync may succeed without having
+ * written anything. Such a file ends at what was durable before. For one thread.
+ */
+final class SegmentWriter {
+    private static final int BUFFER = 1024 * 1024;
+    private static final int FIRST_SEGMENT = 4 * 1024 * 1024;
+
+    private final Path folder;
+    private final long salt;
+    private final int segmentBytes;
+    private final Disk disk;
+    private final Segments segments;
+    private final ByteBuffer recordHeader = ByteBuffer.allocate(SegmentFormat.RECORD_HEADER);
+    private final ByteBuffer buffer = ByteBuffer.allocateDirect(BUFFER);
+    private Disk.SegmentFile file;
+    private Segment segment;
+    private long written;
+    private long sequence;
+    private boolean first = true;
+
+    SegmentWriter(Path folder, int segmentBytes, Disk disk, Segments segments) {
+        this.folder = folder;
+        this.salt = SegmentFormat.saltOf(folder.getFileName().toString());
+        this.segmentBytes = segmentBytes;
+        this.disk = disk;
+        this.segments = segments;
+        this.sequence = segments.last() == null ? 0 : segments.last().end().sequence();
+    }
+
+    /** The number of the next record. */
+    long sequence() {
+        return sequence;
+    }
+
+    /** Gives the next record a higher number; only before the first. */
+    void skipTo(long number) {
+        if (segment != null || number < sequence) {
+            throw new IllegalStateException("cannot go from " + sequence + " to " + number);
+        }
+        sequence = number;
+    }
+
+    /** Whether the next record of a size needs another file. */
+    boolean mustRollFor(byte[] payload) {
+        return segment == null || written + buffer.position() + SegmentFormat.sizeOf(payload) > segment.capacity();
+    }
+
+    /** Writes a record, not necessarily to the disk before {@link #sync}. */
+    void write(byte[] payload) throws IOException {
+        if (mustRollFor(payload)) {
+            roll(payload);
+        }
+        SegmentFormat.writeRecordHeader(recordHeader, salt, sequence, payload);
+        put(recordHeader);
+        put(ByteBuffer.wrap(payload));
+        sequence++;
+    }
+
+    private void put(ByteBuffer bytes) throws IOException {
+        while (bytes.hasRemaining()) {
+            if (!buffer.hasRemaining()) {
+                drain();
+            }
+            int part = Math.min(bytes.remaining(), buffer.remaining());
+            buffer.put(bytes.slice(bytes.position(), part));
+            bytes.position(bytes.position() + part);
+        }
+    }
+
+    private void drain() throws IOException {
+        buffer.flip();
+        int length = buffer.remaining();
+        file.write(buffer, written);
+        written += length;
+        buffer.clear();
+    }
+
+    /** Makes durable, and visible to readers, what was written. */
+    void sync() throws IOException {
+        if (segment == null || segment.end().sequence() == sequence) {
+            return;
+        }
+        drain();
+        file.sync();
+        segment.durableTo(new End(written, sequence));
+    }
+
+    private void roll(byte[] payload) throws IOException {
+        sync();
+        leaveSegment();
+        int usual = first ? Math.min(segmentBytes, FIRST_SEGMENT) : segmentBytes;
+        long capacity = Math.max(usual, SegmentFormat.HEADER + (long) SegmentFormat.sizeOf(payload));
+        // A file without records is replaced by the new one, which then has the same number.
+        Segment before = segments.lastBefore(sequence);
+        Header header = before == null
+                ? new Header(sequence, capacity, Header.NONE, new End(0, sequence))
+                : new Header(sequence, capacity, before.base(), before.end());
+        Path path = folder.resolve(SegmentFormat.fileName(sequence));
+        file = disk.create(path, SegmentFormat.write(header, salt), capacity);
+        segment = Segment.created(sequence, path, capacity);
+        segments.add(segment);
+        written = SegmentFormat.HEADER;
+        first = false;
+    }
+
+    /** Leaves the file after an error: its records end where they were durable. */
+    void abandon() {
+        buffer.clear();
+        if (segment != null) {
+            // No later file may have the name of this one.
+            sequence = Math.max(sequence, segment.base() + 1);
+        }
+        leaveSegment();
+    }
+
+    private void leaveSegment() {
+        if (segment == null) {
+            return;
+        }
+        segment.seal();
+        segment = null;
+        try {
+            file.close();
+        } catch (IOException e) {
+            // What counts was synced, or was given up already.
+            file = null;
+        }
+    }
+
+    void close() {
+        leaveSegment();
+    }
+}
