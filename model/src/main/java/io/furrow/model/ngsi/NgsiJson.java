@@ -49,6 +49,10 @@ public final class NgsiJson {
      * @throws UnreadableException with {@link Reason#NOT_JSON} or {@link Reason#TOO_DEEP}
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
+        int wrong = Utf8.firstWrong(bytes);
+        if (wrong >= 0) {
+            throw new UnreadableException(Reason.NOT_JSON, "byte " + wrong + " of the body is not UTF-8");
+        }
         return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
             if (node == null || node.isMissingNode()) {
