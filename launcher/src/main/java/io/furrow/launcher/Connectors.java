@@ -1,6 +1,7 @@
 package io.furrow.launcher;
 
 import java.net.URI;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
@@ -24,14 +25,23 @@ final class Connectors {
         this.connect = connect;
     }
 
-    /** Creates or changes the source that listens for notifications; returns when it does. */
-    void source(int port) {
+    /**
+     * Creates or changes the source that listens for notifications; returns when it does.
+     *
+     * @param journal folder for what Kafka does not have yet
+     */
+    void source(int port, Path journal) {
         put(
                 "ngsi-source",
                 Map.of(
-                        "connector.class", "io.furrow.connect.source.NgsiSourceConnector",
-                        "tasks.max", "1",
-                        "listen.port", Integer.toString(port)));
+                        "connector.class",
+                        "io.furrow.connect.source.NgsiSourceConnector",
+                        "tasks.max",
+                        "1",
+                        "listen.port",
+                        Integer.toString(port),
+                        "journal.dir",
+                        journal.toAbsolutePath().toString()));
     }
 
     /** Creates or changes the sink that writes results into the context broker. */

@@ -66,6 +66,9 @@ public final class ConnectRig implements AutoCloseable {
     public void create(String example, Map<String, String> options) {
         JsonNode shipped = json(read(Path.of("config", example + ".json")));
         ObjectNode config = shipped.path("config").deepCopy();
+        if (config.has("journal.dir")) {
+            config.put("journal.dir", directory.resolve("journal").toString());
+        }
         options.forEach(config::put);
         String name = shipped.path("name").textValue();
         HttpResponse<String> created =

@@ -15,7 +15,8 @@ public final class JournalReader implements AutoCloseable {
     private final long salt;
     private final Damages damages;
     private final GroupCommit commit;
-    private long position;
+    private volatile long position;
+    private volatile long lost;
     private Segment segment;
     private RecordCursor cursor;
 
@@ -30,6 +31,16 @@ public final class JournalReader implements AutoCloseable {
     /** The lowest sequence number that the next record can have. */
     public long position() {
         return position;
+    }
+
+    /** How many records were passed over because they cannot be read; what was missing before the first read counts not. */
+    public long lost() {
+        return lost;
+    }
+
+    /** How many records there are from the position to the end, readable or not. */
+    public long left() {
+        return segments.recordsFrom(position);
     }
 
     /**
@@ -72,10 +83,12 @@ public final class JournalReader implements AutoCloseable {
                 End end = segment.end();
                 JournalRecord record = cursor.next(end);
                 if (record == null) {
+                    passOverTo(cursor.at().sequence());
                     if (!sealed || !advance()) {
                         return null;
                     }
                 } else if (record.sequence() >= position) {
+                    passOverTo(record.sequence());
                     position = record.sequence() + 1;
                     return record;
                 }
@@ -83,6 +96,13 @@ public final class JournalReader implements AutoCloseable {
             return null;
         } catch (IOException e) {
             throw new UncheckedIOException("cannot read " + segment.file(), e);
+        }
+    }
+
+    private void passOverTo(long sequence) {
+        if (sequence > position) {
+            lost += sequence - position;
+            position = sequence;
         }
     }
 
@@ -106,7 +126,7 @@ public final class JournalReader implements AutoCloseable {
             long missing = end.sequence() - next.base();
             damages.note(new Damage(
                     next.base(), SegmentFormat.HEADER, end.position(), next.base(), missing, Damage.Kind.MISSING));
-            position = Math.max(position, end.sequence());
+            passOverTo(end.sequence());
             boolean more = segments.after(next) != null && advance();
             segment = more ? segment : null;
             return more;

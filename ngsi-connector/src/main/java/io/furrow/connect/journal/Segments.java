@@ -53,6 +53,15 @@ final class Segments {
         return next == null ? null : next.getValue();
     }
 
+    /** How many records there are from a sequence number on; numbers that were left out between files count not. */
+    long recordsFrom(long sequence) {
+        long records = 0;
+        for (Segment segment : byBase.values()) {
+            records += Math.max(0, segment.end().sequence() - Math.max(sequence, segment.base()));
+        }
+        return records;
+    }
+
     /** Deletes files that only hold numbers below one; the last stays, it remembers the next number. */
     void release(long below) throws IOException {
         for (Segment segment : byBase.values()) {

@@ -24,8 +24,8 @@ record AcknowledgingOptions(AbstractConfig config) {
                 10_000L,
                 Range.between(1, HOUR),
                 Importance.LOW,
-                "Milliseconds until a notification that Kafka has not acknowledged is answered 504. Longer than the"
-                        + " context broker's own patience (Orion: 5 s), so that it counts the failure in its subscription.",
+                "Milliseconds until a notification that the disk has not taken is answered 503. Longer than the context"
+                        + " broker's own patience (Orion: 5 s), so that it counts the failure in its subscription.",
                 group,
                 1,
                 Width.SHORT,

@@ -29,7 +29,7 @@ record Answer(int status, byte[] body, Map<String, String> headers) {
     }
 
     static Answer full() {
-        return error(503, "unavailable", "too many notifications wait for Kafka; nothing was taken", SOON);
+        return error(503, "unavailable", "the journal is full or the disk slow; nothing was taken", SOON);
     }
 
     static Answer notAllowed() {
@@ -41,7 +41,10 @@ record Answer(int status, byte[] body, Map<String, String> headers) {
     static Optional<Answer> notDurable(Throwable failure) {
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
         if (cause instanceof TimeoutException) {
-            return Optional.of(error(504, "unconfirmed", "Kafka has not acknowledged yet; it may still", Map.of()));
+            return Optional.of(error(503, "unconfirmed", "the disk has not taken it yet; it may still", SOON));
+        }
+        if (cause instanceof Intake.NoRoomException) {
+            return Optional.of(full());
         }
         return cause instanceof Intake.ClosedException
                 ? Optional.of(error(503, "unavailable", cause.getMessage(), SOON))

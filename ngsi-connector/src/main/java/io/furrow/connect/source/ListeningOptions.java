@@ -8,7 +8,7 @@ import org.apache.kafka.common.config.ConfigDef.Type;
 import org.apache.kafka.common.config.ConfigDef.Width;
 
 /** Where notifications are taken. */
-record ListeningOptions(AbstractConfig config) {
+record ListeningOptions(AbstractConfig config, int task) {
     static final String HOST = "listen.host";
     static final String PORT = "listen.port";
 
@@ -32,7 +32,8 @@ record ListeningOptions(AbstractConfig config) {
                 8090,
                 Range.between(0, 65535),
                 Importance.HIGH,
-                "TCP port to listen on; 0 takes a free one, which only a test can use.",
+                "TCP port that the first task listens on; task i (from 0) listens on this port + i. 0 takes free ones,"
+                        + " which only a test can use.",
                 group,
                 2,
                 Width.SHORT,
@@ -43,7 +44,13 @@ record ListeningOptions(AbstractConfig config) {
         return config.getString(HOST);
     }
 
+    /** The port of this task; 0 for a free one. */
     int port() {
+        return firstPort() == 0 ? 0 : firstPort() + task;
+    }
+
+    /** The port of the first task. */
+    int firstPort() {
         return config.getInt(PORT);
     }
 }

@@ -11,21 +11,38 @@ import org.apache.kafka.common.config.ConfigException;
  * group defines its options and checks them together as it is made; what concerns two groups is checked here.
  */
 public class NgsiSourceConfig extends AbstractConfig {
+    /** Set by the connector for each task, not by people. */
+    static final String TASK_INDEX = "task.index";
+
+    static final String TASK_COUNT = "task.count";
+
+    private static final int LAST_PORT = 65535;
+
     private final ListeningOptions listening;
     private final TopicOptions topics;
     private final EntityOptions entities;
     private final SizeOptions sizes;
     private final PendingOptions pending;
+    private final JournalOptions journal;
     private final AcknowledgingOptions acknowledging;
 
     NgsiSourceConfig(Map<String, String> properties) {
         super(definition(), properties);
-        listening = new ListeningOptions(this);
+        listening = new ListeningOptions(this, taskIndex());
         topics = new TopicOptions(this);
         entities = new EntityOptions(this);
         sizes = new SizeOptions(this);
         pending = new PendingOptions(this);
+        journal = new JournalOptions(this);
         acknowledging = new AcknowledgingOptions(this);
+        int tasks = Integer.parseInt(
+                originalsStrings().getOrDefault("tasks.max", "1").strip());
+        if (listening.firstPort() + tasks - 1 > LAST_PORT) {
+            throw new ConfigException(
+                    ListeningOptions.PORT,
+                    listening.firstPort(),
+                    "task i listens on " + ListeningOptions.PORT + " + i, and there are " + tasks + " tasks; lower it");
+        }
         if (pending.maxBytes() < sizes.maxBodyBytes()) {
             throw new ConfigException(
                     PendingOptions.MAX_PENDING_BYTES,
@@ -41,12 +58,23 @@ public class NgsiSourceConfig extends AbstractConfig {
         EntityOptions.define(options);
         SizeOptions.define(options);
         PendingOptions.define(options);
+        JournalOptions.define(options);
         AcknowledgingOptions.define(options);
         return options;
     }
 
     String name() {
         return originalsStrings().getOrDefault("name", "ngsi-source");
+    }
+
+    /** Which of the connector's tasks this is, from 0. */
+    int taskIndex() {
+        return Integer.parseInt(originalsStrings().getOrDefault(TASK_INDEX, "0"));
+    }
+
+    /** How many tasks the connector has. */
+    int taskCount() {
+        return Integer.parseInt(originalsStrings().getOrDefault(TASK_COUNT, "1"));
     }
 
     ListeningOptions listening() {
@@ -67,6 +95,10 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     PendingOptions pending() {
         return pending;
+    }
+
+    JournalOptions journal() {
+        return journal;
     }
 
     AcknowledgingOptions acknowledging() {

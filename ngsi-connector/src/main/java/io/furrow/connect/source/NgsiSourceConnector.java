@@ -1,7 +1,9 @@
 package io.furrow.connect.source;
 
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.IntStream;
 
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.connect.connector.Task;
@@ -10,7 +12,10 @@ import org.apache.kafka.connect.source.SourceConnector;
 
 import io.furrow.connect.PluginVersion;
 
-/** Takes the HTTP notifications of a context broker into Kafka, one record per entity. One task: it owns one port. */
+/**
+ * Takes the HTTP notifications of a context broker into Kafka, one record per entity. Each task listens on a port of its own
+ * and keeps a journal of its own.
+ */
 public class NgsiSourceConnector extends SourceConnector {
     private Map<String, String> properties;
 
@@ -40,13 +45,27 @@ public class NgsiSourceConnector extends SourceConnector {
 
     @Override
     public List<Map<String, String>> taskConfigs(int maxTasks) {
-        return List.of(properties);
+        return IntStream.range(0, maxTasks).mapToObj(i -> task(i, maxTasks)).toList();
     }
 
-    /** What waits for its acknowledgement is in memory only, so a crash can repeat or lose what had no answer yet. */
+    private Map<String, String> task(int index, int count) {
+        Map<String, String> task = new HashMap<>(properties);
+        task.put(NgsiSourceConfig.TASK_INDEX, Integer.toString(index));
+        task.put(NgsiSourceConfig.TASK_COUNT, Integer.toString(count));
+        return task;
+    }
+
+    /** A record of the journal and its place there go into Kafka together. */
     @Override
     public ExactlyOnceSupport exactlyOnceSupport(Map<String, String> properties) {
-        return ExactlyOnceSupport.UNSUPPORTED;
+        return ExactlyOnceSupport.SUPPORTED;
+    }
+
+    /** Any offset of the right shape will do: before the oldest record that is kept means the oldest, beyond the end the end. */
+    @Override
+    public boolean alterOffsets(Map<String, String> properties, Map<Map<String, ?>, Map<String, ?>> offsets) {
+        offsets.forEach(SourceOffsets::require);
+        return true;
     }
 
     @Override

@@ -7,34 +7,34 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.atomic.AtomicReference;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.producer.RecordMetadata;
-import org.apache.kafka.connect.data.Schema;
 import org.apache.kafka.connect.errors.ConnectException;
-import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
 import org.apache.kafka.connect.source.SourceTask;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.PluginVersion;
+import io.furrow.connect.journal.JournalFolders;
+import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.LedgerJson;
-import io.furrow.connect.source.PendingNotifications.Pending;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Listens for notifications, hands their records to the worker and answers when Kafka has them. */
+/** Listens for notifications, answers when they are in its journal, and hands the journal's records to the worker. */
 public class NgsiSourceTask extends SourceTask {
     private static final Logger LOG = LoggerFactory.getLogger(NgsiSourceTask.class);
 
-    private static final String NOTIFICATION = "notification";
     private static final Duration POLL_WAIT = Duration.ofMillis(200);
     private static final Duration BIND_PATIENCE = Duration.ofSeconds(10);
     private static final Duration IDLE_BEYOND_ACK = Duration.ofSeconds(30);
 
     private final AtomicReference<NotificationServer> server = new AtomicReference<>();
-    private volatile PendingNotifications pending;
+    private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
+    private final AtomicReference<TaskJournals> journals = new AtomicReference<>();
     private Ledger ledger;
-    private Map<String, String> partition;
     private int batchSize;
 
     /** Made by the worker. */
@@ -49,26 +49,48 @@ public class NgsiSourceTask extends SourceTask {
     public void start(Map<String, String> properties) {
         NgsiSourceConfig config = new NgsiSourceConfig(properties);
         ledger = new Ledger();
-        pending = new PendingNotifications(
-                config.pending().maxCount(), config.pending().maxBytes());
-        ledger.gauge("pending", "Records that wait for Kafka", pending::records);
-        ledger.gauge("pendingBytes", "Bytes of the records that wait for Kafka", pending::bytes);
-        partition = Map.of("connector", config.name());
         batchSize = config.acknowledging().batchSize();
-        server.set(listen(config));
+        try {
+            journals.set(open(config));
+            server.set(listen(config, new JournaledIntake(journals.get().own(), ledger)));
+            keeper.set(JournalKeeper.start(journals.get(), config.taskCount() > 1));
+        } catch (RuntimeException e) {
+            // The worker does not stop a task that did not start.
+            stop();
+            throw e;
+        }
         LOG.info(
-                "{} takes notifications on {}:{}",
+                "{} takes notifications on {}:{} into {}",
                 config.name(),
                 config.listening().host(),
-                port());
+                port(),
+                journals.get().own().folder());
     }
 
-    private NotificationServer listen(NgsiSourceConfig config) {
+    private TaskJournals open(NgsiSourceConfig config) {
+        JournalSettings settings = JournalSettings.of(
+                config.journal().maxBytes(),
+                config.pending().maxBytes(),
+                config.journal().minFreeBytes());
+        JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), settings);
+        try {
+            return new TaskJournals(
+                    folders,
+                    config.taskIndex(),
+                    journal -> SourceOffsets.committed(context.offsetStorageReader(), journal),
+                    ledger);
+        } catch (UncheckedIOException e) {
+            String cause = e.getMessage() + " (" + e.getCause() + ")";
+            throw new ConnectException(cause + "; change " + JournalOptions.DIR + " or make the folder writable", e);
+        }
+    }
+
+    private NotificationServer listen(NgsiSourceConfig config, Intake intake) {
         NotificationTranslator translator = new NotificationTranslator(config.translation(), ledger);
         ByteBudget bodies = new ByteBudget(config.pending().maxBytes());
         NotificationHandler.Limits limits = new NotificationHandler.Limits(
                 config.sizes().maxBodyBytes(), bodies, config.acknowledging().ackTimeout());
-        NotificationHandler handler = new NotificationHandler(translator, pending, ledger, limits, this::health);
+        NotificationHandler handler = new NotificationHandler(translator, intake, ledger, limits, this::health);
         InetSocketAddress address = new InetSocketAddress(
                 config.listening().host(), config.listening().port());
         try {
@@ -86,49 +108,62 @@ public class NgsiSourceTask extends SourceTask {
     }
 
     private byte[] health() {
-        return NgsiJson.write(LedgerJson.of(ledger));
+        ObjectNode health = LedgerJson.of(ledger);
+        TaskJournals open = journals.get();
+        ArrayNode orphans = health.putArray("orphans");
+        if (open != null) {
+            health.put("journal", open.own().id());
+            open.orphans()
+                    .forEach(orphan -> orphans.addObject()
+                            .put("connector", orphan.owner())
+                            .put("folder", orphan.folder().toString())
+                            .put("bytes", orphan.bytes()));
+        }
+        return NgsiJson.write(health);
     }
 
     @Override
     public List<SourceRecord> poll() throws InterruptedException {
-        List<Pending> next = pending.next(batchSize, POLL_WAIT);
-        return next.isEmpty() ? null : next.stream().map(this::toRecord).toList();
+        TaskJournals open = journals.get();
+        open.own().failure().ifPresent(failure -> {
+            throw new ConnectException(
+                    "the disk of " + open.own().folder() + " failed again and again; look at it or change "
+                            + JournalOptions.DIR + ", then restart the task",
+                    failure);
+        });
+        TaskJournals.Turn turn = open.next(batchSize, POLL_WAIT);
+        return turn.records().isEmpty() ? null : SourceRecords.of(turn);
     }
 
-    private SourceRecord toRecord(Pending next) {
-        OutgoingRecord record = next.record();
-        ConnectHeaders headers = new ConnectHeaders();
-        record.headers().forEach(headers::addString);
-        return new SourceRecord(
-                partition,
-                Map.of(NOTIFICATION, next.notification()),
-                record.topic(),
-                null,
-                record.key() == null ? null : Schema.STRING_SCHEMA,
-                record.key(),
-                record.value() == null ? Schema.OPTIONAL_BYTES_SCHEMA : Schema.BYTES_SCHEMA,
-                record.value(),
-                record.time().toEpochMilli(),
-                headers);
-    }
-
-    /** Without metadata the record was filtered out or skipped by the worker's own settings: that is the end of it, too. */
+    /** Without metadata the record was filtered out or skipped by the worker's own settings. */
     @Override
     public void commitRecord(SourceRecord record, RecordMetadata metadata) {
-        ledger.durable.increment();
-        (metadata == null ? ledger.skipped : ledger.produced).increment();
-        pending.acknowledge((Long) record.sourceOffset().get(NOTIFICATION));
+        TaskJournals open = journals.get();
+        if (open == null) {
+            return;
+        }
+        if (metadata == null) {
+            open.skipped(
+                    SourceOffsets.journalOf(record.sourcePartition()), SourceOffsets.sequenceOf(record.sourceOffset()));
+        } else {
+            open.produced();
+        }
     }
 
+    /** Once the worker calls this it commits nothing more, so the journals may go to another task. */
     @Override
     public void stop() {
-        PendingNotifications open = pending;
-        if (open != null) {
-            open.close();
-        }
         NotificationServer listening = server.getAndSet(null);
         if (listening != null) {
             listening.close();
+        }
+        JournalKeeper keeping = keeper.getAndSet(null);
+        if (keeping != null) {
+            keeping.close();
+        }
+        TaskJournals open = journals.getAndSet(null);
+        if (open != null) {
+            open.close();
         }
     }
 }

@@ -7,6 +7,7 @@ import java.util.Map;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
 import java.util.function.Supplier;
 
 import org.eclipse.jetty.http.HttpHeader;
@@ -68,7 +69,7 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
                     }
                     return deliver(translator.translate(received(request, body)));
                 })
-                // On a thread of the server: what completes the delivery is the producer's one network thread.
+                // On a thread of the server: what completes the delivery is the journal's one writing thread.
                 .whenCompleteAsync(
                         (answer, failure) -> {
                             reader.release();
@@ -115,7 +116,7 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     private Answer notDurable(Throwable failure) {
         Answer answer = Answer.notDurable(failure).orElseThrow(() -> new CompletionException(failure));
         ledger.overload.increment();
-        if (answer.status() == 504) {
+        if (failure instanceof TimeoutException) {
             ledger.late.increment();
         }
         return answer;

@@ -7,9 +7,8 @@ import org.apache.kafka.common.config.ConfigDef.Range;
 import org.apache.kafka.common.config.ConfigDef.Type;
 import org.apache.kafka.common.config.ConfigDef.Width;
 
-/** How much may wait for Kafka. */
+/** How much may wait in memory. */
 record PendingOptions(AbstractConfig config) {
-    static final String MAX_PENDING_COUNT = "max.pending.count";
     static final String MAX_PENDING_BYTES = "max.pending.bytes";
 
     private static final int MIB = 1024 * 1024;
@@ -17,32 +16,17 @@ record PendingOptions(AbstractConfig config) {
     static void define(ConfigDef options) {
         String group = "Pending";
         options.define(
-                MAX_PENDING_COUNT,
-                Type.INT,
-                10_000,
-                Range.atLeast(1),
-                Importance.LOW,
-                "Notifications that may wait for Kafka's acknowledgement at a time; the next is answered 503.",
-                group,
-                1,
-                Width.SHORT,
-                "Pending");
-        options.define(
                 MAX_PENDING_BYTES,
                 Type.LONG,
                 64L * MIB,
                 Range.atLeast(1),
                 Importance.LOW,
-                "Bytes of records that may wait for Kafka's acknowledgement at a time, and as many of bodies whose senders"
-                        + " wait for an answer; the next is answered 503. At least " + SizeOptions.MAX_BODY_BYTES + ".",
+                "Bytes of records that may wait for the disk at a time, and as many of bodies whose senders wait for an"
+                        + " answer; beyond it there is no room. At least " + SizeOptions.MAX_BODY_BYTES + ".",
                 group,
-                2,
+                1,
                 Width.SHORT,
                 "Pending (bytes)");
-    }
-
-    int maxCount() {
-        return config.getInt(MAX_PENDING_COUNT);
     }
 
     long maxBytes() {

@@ -65,8 +65,8 @@ class GoldenRecordsTest {
                         header -> header[0].toLowerCase(Locale.ROOT), header -> header[1], (a, b) -> a, TreeMap::new));
         UnaryOperator<String> header = name -> headers.get(name.toLowerCase(Locale.ROOT));
         byte[] body = headAndBody[1].strip().getBytes(StandardCharsets.UTF_8);
-        NotificationTranslator translator =
-                new NotificationTranslator(new NgsiSourceConfig(Map.of()).translation(), new Ledger());
+        NotificationTranslator translator = new NotificationTranslator(
+                new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal")).translation(), new Ledger());
         return translator
                 .translate(ReceivedNotification.of(body, true, header, RECEIVED, "127.0.0.1 /v2/notify"))
                 .records();

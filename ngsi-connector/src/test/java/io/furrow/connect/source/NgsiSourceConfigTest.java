@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import java.util.HashMap;
 import java.util.Map;
 
 import org.apache.kafka.common.config.ConfigException;
@@ -12,8 +13,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class NgsiSourceConfigTest {
     @Test
-    void needsNoOptionAtAll() {
-        NgsiSourceConfig config = new NgsiSourceConfig(Map.of());
+    void needsNoOptionButTheFolderOfItsJournal() {
+        NgsiSourceConfig config = config(Map.of());
 
         assertThat(config.listening().host()).isEqualTo("127.0.0.1");
         assertThat(config.listening().port()).isEqualTo(8090);
@@ -26,14 +27,12 @@ class NgsiSourceConfigTest {
 
     @Test
     void derivesTheLargestRecordFromTheProducerOfTheConnector() {
-        assertThat(new NgsiSourceConfig(Map.of()).sizes().maxRecordBytes()).isEqualTo(1024 * 1024 - 16 * 1024);
-        assertThat(new NgsiSourceConfig(Map.of("producer.override.max.request.size", "16777216"))
+        assertThat(config(Map.of()).sizes().maxRecordBytes()).isEqualTo(1024 * 1024 - 16 * 1024);
+        assertThat(config(Map.of("producer.override.max.request.size", "16777216"))
                         .sizes()
                         .maxRecordBytes())
                 .isEqualTo(16777216 - 16 * 1024);
-        assertThat(new NgsiSourceConfig(Map.of("max.record.bytes", "500000"))
-                        .sizes()
-                        .maxRecordBytes())
+        assertThat(config(Map.of("max.record.bytes", "500000")).sizes().maxRecordBytes())
                 .isEqualTo(500_000);
     }
 
@@ -48,15 +47,43 @@ class NgsiSourceConfigTest {
         "max.clock.skew.ms, 3600000",
         "max.body.bytes, 0",
         "max.record.bytes, 1000",
-        "max.pending.count, 0",
+        "journal.dir, relative/folder",
+        "journal.max.bytes, 1000",
+        "journal.min.free.bytes, -1",
         "max.pending.bytes, 1000",
         "ack.timeout.ms, soon",
         "batch.size, 0"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {
-        assertThatThrownBy(() -> new NgsiSourceConfig(Map.of(option, value)))
+        assertThatThrownBy(() -> config(Map.of(option, value)))
                 .isInstanceOf(ConfigException.class)
                 .hasMessageContaining(option);
+    }
+
+    @Test
+    void wantsAFolderForTheJournal() {
+        assertThatThrownBy(() -> new NgsiSourceConfig(Map.of()))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("journal.dir");
+    }
+
+    @Test
+    void givesEachTaskItsPort() {
+        Map<String, String> second = Map.of("listen.port", "9000", "task.index", "1", "task.count", "3");
+        assertThat(config(second).listening().port()).isEqualTo(9001);
+        assertThat(config(Map.of("listen.port", "0", "task.index", "1"))
+                        .listening()
+                        .port())
+                .isZero();
+        assertThatThrownBy(() -> config(Map.of("listen.port", "65534", "tasks.max", "3")))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("listen.port");
+    }
+
+    private static NgsiSourceConfig config(Map<String, String> options) {
+        Map<String, String> all = new HashMap<>(Map.of("journal.dir", "/tmp/journal"));
+        all.putAll(options);
+        return new NgsiSourceConfig(all);
     }
 
     @Test

@@ -151,14 +151,14 @@ class NgsiSourceIT {
     void listensOnTheSamePortAfterARestart() throws Exception {
         listen("restarted");
         assertThat(post(bytes("{\"id\": \"before\"}")).statusCode()).isEqualTo(200);
-        assertThat(health()).contains("\"notifications\":1");
+        assertThat(health()).contains("\"requests\":1");
 
         rig.restart("ngsi-source");
 
         org.awaitility.Awaitility.await()
                 .atMost(java.time.Duration.ofSeconds(30))
                 .ignoreExceptions()
-                .untilAsserted(() -> assertThat(health()).contains("\"notifications\":0"));
+                .untilAsserted(() -> assertThat(health()).contains("\"requests\":0"));
         assertThat(post(bytes("{\"id\": \"after\"}")).statusCode()).isEqualTo(200);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "restarted")) {
             assertThat(reader.atLeast(2)).extracting(ConsumerRecord::key).containsExactlyInAnyOrder("before", "after");
@@ -172,7 +172,7 @@ class NgsiSourceIT {
         org.awaitility.Awaitility.await()
                 .atMost(java.time.Duration.ofSeconds(30))
                 .ignoreExceptions()
-                .until(() -> health().contains("\"notifications\":0"));
+                .until(() -> health().contains("\"requests\":0"));
     }
 
     private String health() throws Exception {

@@ -74,13 +74,13 @@ class NotificationServerTest {
     }
 
     @Test
-    void answersGatewayTimeoutWhenTheyDoNotBecomeDurable() {
+    void answersUnavailableWhenTheyDoNotBecomeDurableInTime() {
         intake.answer = Optional.of(new CompletableFuture<>());
 
         HttpResponse<String> answer =
                 post("/", BodyPublishers.ofString("{\"id\": \"a\"}")).join();
 
-        assertThat(answer.statusCode()).isEqualTo(504);
+        assertThat(answer.statusCode()).isEqualTo(503);
         assertThat(answer.body()).contains("\"error\":\"unconfirmed\"");
         assertThat(ledger.late.sum()).isEqualTo(1);
     }
@@ -224,8 +224,8 @@ class NotificationServerTest {
     }
 
     private NotificationServer listen(int port, Duration ackTimeout, Duration patience) {
-        NotificationTranslator translator =
-                new NotificationTranslator(new NgsiSourceConfig(java.util.Map.of()).translation(), ledger);
+        NotificationTranslator translator = new NotificationTranslator(
+                new NgsiSourceConfig(java.util.Map.of("journal.dir", "/tmp/journal")).translation(), ledger);
         NotificationHandler handler = new NotificationHandler(
                 translator,
                 intake,

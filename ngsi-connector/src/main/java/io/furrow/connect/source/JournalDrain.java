@@ -1,0 +1,104 @@
+package io.furrow.connect.source;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.OptionalLong;
+import java.util.TreeMap;
+
+import io.furrow.connect.journal.Journal;
+import io.furrow.connect.journal.JournalReader;
+import io.furrow.connect.journal.JournalRecord;
+
+/** The way of one journal's records into Kafka: hands them on from where Kafka left off and releases what Kafka has. */
+final class JournalDrain implements AutoCloseable {
+    private final Journal journal;
+    private final JournalReader reader;
+    private final long start;
+    private boolean closed;
+    /** From and to (exclusive) of records that will never be in Kafka, because the worker was told to leave them out. */
+    private final TreeMap<Long, Long> skipped = new TreeMap<>();
+
+    /** @param committed number of the first record that is not known to be in Kafka; empty for the oldest that is kept */
+    JournalDrain(Journal journal, OptionalLong committed) {
+        this.journal = journal;
+        this.start = Math.max(committed.orElse(0), journal.begin());
+        this.reader = journal.reader(start);
+    }
+
+    Journal journal() {
+        return journal;
+    }
+
+    /** Where it began. */
+    long start() {
+        return start;
+    }
+
+    /** Records that were not handed on yet. */
+    long left() {
+        return reader.left();
+    }
+
+    /** Records that were passed over because they cannot be read. */
+    long lost() {
+        return reader.lost();
+    }
+
+    /** The next records; none after it was closed. */
+    List<JournalRecord> read(int maxRecords, long maxBytes, Duration wait) throws InterruptedException {
+        synchronized (reader) {
+            return closed ? List.of() : reader.read(maxRecords, maxBytes, wait);
+        }
+    }
+
+    /** A record that will never be in Kafka. */
+    synchronized void skip(long sequence) {
+        Map.Entry<Long, Long> before = skipped.floorEntry(sequence);
+        if (before != null && before.getValue() > sequence) {
+            return;
+        }
+        long from = before != null && before.getValue() == sequence ? before.getKey() : sequence;
+        Long behind = skipped.remove(sequence + 1);
+        skipped.put(from, behind == null ? sequence + 1 : behind);
+    }
+
+    /** Releases what the offset store says is in Kafka, and what was skipped right behind it; whether nothing is left. */
+    boolean release(OptionalLong committed) {
+        long done = behindSkipped(Math.max(committed.orElse(0), 0));
+        journal.release(done);
+        return done >= journal.end();
+    }
+
+    private synchronized long behindSkipped(long committed) {
+        Map.Entry<Long, Long> around = skipped.floorEntry(committed);
+        long done = around == null ? committed : Math.max(committed, around.getValue());
+        skipped.headMap(committed, false).values().removeIf(to -> to < done);
+        return done;
+    }
+
+    @Override
+    public void close() {
+        closeReader();
+        journal.close();
+    }
+
+    /** Nothing in it is needed any more. */
+    void delete() {
+        closeReader();
+        journal.delete();
+    }
+
+    private void closeReader() {
+        try {
+            synchronized (reader) {
+                closed = true;
+                reader.close();
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot close a file that was only read", e);
+        }
+    }
+}

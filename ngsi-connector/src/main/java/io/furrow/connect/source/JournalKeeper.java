@@ -1,0 +1,61 @@
+package io.furrow.connect.source;
+
+import java.time.Duration;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.kafka.connect.errors.ConnectException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/** Asks from time to time what Kafka has, so that journals shrink, and whether journals were left by other tasks. */
+final class JournalKeeper implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(JournalKeeper.class);
+
+    private static final Duration RELEASE_EVERY = Duration.ofSeconds(2);
+    private static final Duration ADOPT_EVERY = Duration.ofSeconds(10);
+    private static final Duration FIRST_ADOPTION_BESIDE_OTHERS = Duration.ofSeconds(5);
+    private static final Duration STOP_WITHIN = Duration.ofSeconds(5);
+
+    private final ScheduledExecutorService thread = Executors.newSingleThreadScheduledExecutor(work -> {
+        Thread made = new Thread(work, "ngsi-source-journals");
+        made.setDaemon(true);
+        return made;
+    });
+
+    private JournalKeeper() {}
+
+    /** @param beside whether there are other tasks, which first take the journals that are theirs */
+    static JournalKeeper start(TaskJournals journals, boolean beside) {
+        JournalKeeper keeper = new JournalKeeper();
+        keeper.every(RELEASE_EVERY, RELEASE_EVERY, journals::release);
+        keeper.every(beside ? FIRST_ADOPTION_BESIDE_OTHERS : Duration.ZERO, ADOPT_EVERY, journals::adopt);
+        return keeper;
+    }
+
+    private void every(Duration first, Duration period, Runnable work) {
+        Runnable safe = () -> {
+            try {
+                work.run();
+            } catch (ConnectException e) {
+                LOG.debug("the offset store does not answer; it is asked again", e);
+            } catch (RuntimeException e) {
+                LOG.warn("looking after the journals failed; it is tried again", e);
+            }
+        };
+        thread.scheduleWithFixedDelay(safe, first.toMillis(), period.toMillis(), TimeUnit.MILLISECONDS);
+    }
+
+    @Override
+    public void close() {
+        thread.shutdownNow();
+        try {
+            if (!thread.awaitTermination(STOP_WITHIN.toMillis(), TimeUnit.MILLISECONDS)) {
+                LOG.warn("still waiting for the offset store at the end of the task");
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

@@ -1,0 +1,95 @@
+package io.furrow.connect.source;
+
+import java.io.ByteArrayInputStream;
+import java.io.ByteArrayOutputStream;
+import java.io.DataInputStream;
+import java.io.DataOutputStream;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+/**
+ * A record as bytes of the journal. Version 1: the version (1 byte), the time in epoch milliseconds (8), topic, key, the number
+ * of headers (4) and each one's name and value, the value of the record. Texts are UTF-8; texts and values have their length
+ * before them (4), -1 for null.
+ */
+final class RecordForm {
+    private static final int VERSION = 1;
+    private static final int ROOM_FOR_LENGTHS = 128;
+
+    private RecordForm() {}
+
+    static byte[] write(OutgoingRecord record) {
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream((int) record.bytes() + ROOM_FOR_LENGTHS);
+        try (DataOutputStream out = new DataOutputStream(bytes)) {
+            out.writeByte(VERSION);
+            out.writeLong(record.time().toEpochMilli());
+            write(record.topic(), out);
+            write(record.key(), out);
+            out.writeInt(record.headers().size());
+            for (Map.Entry<String, String> header : record.headers().entrySet()) {
+                write(header.getKey(), out);
+                write(header.getValue(), out);
+            }
+            write(record.value(), out);
+        } catch (IOException e) {
+            throw new UncheckedIOException("memory cannot fail", e);
+        }
+        return bytes.toByteArray();
+    }
+
+    /** @throws IllegalArgumentException if another version wrote it, or none */
+    static OutgoingRecord read(byte[] bytes) {
+        try (DataInputStream in = new DataInputStream(new ByteArrayInputStream(bytes))) {
+            int version = in.readByte();
+            if (version != VERSION) {
+                throw new IllegalArgumentException("a record of version " + version + "; this plugin knows " + VERSION);
+            }
+            Instant time = Instant.ofEpochMilli(in.readLong());
+            String topic = readText(in);
+            String key = readText(in);
+            Map<String, String> headers = new LinkedHashMap<>();
+            for (int left = in.readInt(); left > 0; left--) {
+                headers.put(readText(in), readText(in));
+            }
+            byte[] value = readBytes(in);
+            if (in.available() > 0) {
+                throw new IllegalArgumentException(in.available() + " bytes too many");
+            }
+            return new OutgoingRecord(topic, key, value, time, headers);
+        } catch (IOException e) {
+            throw new IllegalArgumentException("a record of version " + VERSION + " ends too early", e);
+        }
+    }
+
+    private static void write(String text, DataOutputStream out) throws IOException {
+        write(text == null ? null : text.getBytes(StandardCharsets.UTF_8), out);
+    }
+
+    private static void write(byte[] bytes, DataOutputStream out) throws IOException {
+        out.writeInt(bytes == null ? -1 : bytes.length);
+        if (bytes != null) {
+            out.write(bytes);
+        }
+    }
+
+    private static String readText(DataInputStream in) throws IOException {
+        byte[] bytes = readBytes(in);
+        return bytes == null ? null : new String(bytes, StandardCharsets.UTF_8);
+    }
+
+    private static byte[] readBytes(DataInputStream in) throws IOException {
+        int length = in.readInt();
+        if (length == -1) {
+            return null;
+        }
+        if (length < 0 || length > in.available()) {
+            throw new IllegalArgumentException(
+                    "a length of " + length + " where " + in.available() + " bytes are left");
+        }
+        return in.readNBytes(length);
+    }
+}

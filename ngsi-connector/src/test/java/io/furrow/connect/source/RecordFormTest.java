@@ -1,0 +1,62 @@
+package io.furrow.connect.source;
+
+import java.time.Instant;
+import java.util.Arrays;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class RecordFormTest {
+    private static final OutgoingRecord FULL = new OutgoingRecord(
+            "data.raw", "urn:ä", new byte[] {1, 2, 3}, Instant.ofEpochMilli(1_700_000_000_123L), headers());
+
+    private static Map<String, String> headers() {
+        Map<String, String> headers = new LinkedHashMap<>();
+        headers.put("z", "last letter first");
+        headers.put("a", "");
+        return headers;
+    }
+
+    @Test
+    void readsWhatItWrote() {
+        assertThat(RecordForm.read(RecordForm.write(FULL)))
+                .usingRecursiveComparison()
+                .isEqualTo(FULL);
+        assertThat(RecordForm.read(RecordForm.write(FULL)).headers().keySet()).containsExactly("z", "a");
+
+        OutgoingRecord bare = new OutgoingRecord("t", null, null, Instant.EPOCH, Map.of());
+        assertThat(RecordForm.read(RecordForm.write(bare)))
+                .usingRecursiveComparison()
+                .isEqualTo(bare);
+    }
+
+    @Test
+    void hasTheBytesOfVersionOne() {
+        OutgoingRecord record = new OutgoingRecord("t", "k", new byte[] {7}, Instant.ofEpochMilli(2), Map.of("h", "v"));
+        assertThat(RecordForm.write(record))
+                .containsExactly(
+                        1, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1, 't', 0, 0, 0, 1, 'k', 0, 0, 0, 1, 0, 0, 0, 1, 'h', 0, 0,
+                        0, 1, 'v', 0, 0, 0, 1, 7);
+    }
+
+    @Test
+    void refusesOtherVersionsAndOtherLengths() {
+        byte[] bytes = RecordForm.write(FULL);
+        byte[] newer = bytes.clone();
+        newer[0] = 2;
+        assertThatThrownBy(() -> RecordForm.read(newer))
+                .isInstanceOf(IllegalArgumentException.class)
+                .hasMessageContaining("version 2");
+        for (int length = 0; length < bytes.length; length++) {
+            byte[] cut = Arrays.copyOf(bytes, length);
+            assertThatThrownBy(() -> RecordForm.read(cut)).isInstanceOf(IllegalArgumentException.class);
+        }
+        assertThatThrownBy(() -> RecordForm.read(Arrays.copyOf(bytes, bytes.length + 1)))
+                .isInstanceOf(IllegalArgumentException.class)
+                .hasMessageContaining("too many");
+    }
+}
