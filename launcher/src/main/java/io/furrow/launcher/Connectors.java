@@ -59,7 +59,8 @@ final class Connectors {
                         contextBroker.toString()));
     }
 
-    private void put(String name, Map<String, String> settings) {
+    /** Creates or changes a connector and returns when its first task runs. */
+    void put(String name, Map<String, String> settings) {
         ObjectNode body = NgsiJson.mapper().createObjectNode();
         settings.forEach(body::put);
         body.put("key.converter", "org.apache.kafka.connect.storage.StringConverter");

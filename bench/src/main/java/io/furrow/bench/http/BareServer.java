@@ -1,0 +1,69 @@
+package io.furrow.bench.http;
+
+import java.net.InetSocketAddress;
+import java.nio.ByteBuffer;
+
+import org.eclipse.jetty.io.Content;
+import org.eclipse.jetty.server.Handler;
+import org.eclipse.jetty.server.HttpConfiguration;
+import org.eclipse.jetty.server.HttpConnectionFactory;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.server.Server;
+import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.util.Callback;
+import org.eclipse.jetty.util.component.LifeCycle;
+import org.eclipse.jetty.util.thread.QueuedThreadPool;
+
+/** A Jetty on 127.0.0.1 that reads each body, forgets it and answers 200: what no receiver built on it can exceed. */
+public final class BareServer implements AutoCloseable {
+    private static final int THREADS = 16;
+
+    private final Server server;
+    private final ServerConnector connector;
+
+    private BareServer() {
+        QueuedThreadPool threads = new QueuedThreadPool(THREADS, 4);
+        threads.setName("bare-server");
+        threads.setDaemon(true);
+        server = new Server(threads);
+        HttpConfiguration http = new HttpConfiguration();
+        http.setSendServerVersion(false);
+        connector = new ServerConnector(server, 1, 1, new HttpConnectionFactory(http));
+        connector.setHost("127.0.0.1");
+        connector.setAcceptQueueSize(1024);
+        server.addConnector(connector);
+        server.setHandler(new Answering());
+    }
+
+    /** On a free port. */
+    public static BareServer start() {
+        BareServer bare = new BareServer();
+        LifeCycle.start(bare.server);
+        return bare;
+    }
+
+    public InetSocketAddress address() {
+        return new InetSocketAddress("127.0.0.1", connector.getLocalPort());
+    }
+
+    @Override
+    public void close() {
+        LifeCycle.stop(server);
+    }
+
+    private static final class Answering extends Handler.Abstract.NonBlocking {
+        @Override
+        public boolean handle(Request request, Response response, Callback callback) {
+            Content.Source.consumeAll(
+                    request,
+                    Callback.from(
+                            () -> {
+                                response.setStatus(200);
+                                response.write(true, ByteBuffer.allocate(0), callback);
+                            },
+                            callback::failed));
+            return true;
+        }
+    }
+}

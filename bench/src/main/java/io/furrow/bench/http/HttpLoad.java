@@ -1,0 +1,149 @@
+package io.furrow.bench.http;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.InetSocketAddress;
+import java.nio.channels.SelectionKey;
+import java.nio.channels.Selector;
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.BitSet;
+import java.util.Deque;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+
+import org.HdrHistogram.Histogram;
+
+/**
+ * Sends notifications from one thread. With a rate, a request is due at its time whatever became of those before it, and its
+ * delay counts from then: a server that stops for a second is seen to have kept a second's worth of senders waiting.
+ */
+public final class HttpLoad {
+    private static final long LONGEST_MICROS = TimeUnit.MINUTES.toMicros(5);
+    private static final int DIGITS = 3;
+    private static final long LAST_ANSWERS_NANOS = TimeUnit.SECONDS.toNanos(15);
+    private static final long SECOND = TimeUnit.SECONDS.toNanos(1);
+
+    private final InetSocketAddress target;
+    private final HttpLoadPlan plan;
+    private final long firstNumber;
+    private final Histogram latency = new Histogram(LONGEST_MICROS, DIGITS);
+    private final BitSet acknowledged = new BitSet();
+    private final Deque<Exchange> idle = new ArrayDeque<>();
+    private final List<Exchange> failed = new ArrayList<>();
+    private long startNanos;
+    private long lastAnswerNanos;
+    private long refused;
+    private long broken;
+    private volatile long sent;
+    private volatile long answered;
+
+    /** @param firstNumber of the notifications; each has the next */
+    public HttpLoad(InetSocketAddress target, HttpLoadPlan plan, long firstNumber) {
+        this.target = target;
+        this.plan = plan;
+        this.firstNumber = firstNumber;
+    }
+
+    /** Requests sent until now, from any thread. */
+    public long sent() {
+        return sent;
+    }
+
+    /** Answers 2xx until now, from any thread. */
+    public long answered() {
+        return answered;
+    }
+
+    /** Sends for the time of the plan and waits for the answers; once. */
+    public HttpLoadResult run() {
+        try (Selector selector = Selector.open()) {
+            List<Exchange> all = new ArrayList<>();
+            for (int i = 0; i < plan.connections(); i++) {
+                NotificationRequest request = NotificationRequest.to(target, plan.payloadBytes(), plan.entities());
+                all.add(new Exchange(target, selector, request, !plan.newConnections()));
+            }
+            idle.addAll(all);
+            startNanos = System.nanoTime();
+            lastAnswerNanos = startNanos;
+            long end = startNanos + plan.duration().toNanos();
+            for (long now = startNanos; now < end; now = System.nanoTime()) {
+                sendDue(now);
+                await(selector, now, end);
+            }
+            for (long now = end; openExchanges(all) > 0 && now < end + LAST_ANSWERS_NANOS; now = System.nanoTime()) {
+                await(selector, now, end + LAST_ANSWERS_NANOS);
+            }
+            broken += openExchanges(all);
+            all.forEach(Exchange::close);
+            long nanos = Math.max(1, lastAnswerNanos - startNanos);
+            return new HttpLoadResult(firstNumber, acknowledged, refused, broken, latency, nanos);
+        } catch (IOException e) {
+            throw new UncheckedIOException("the load on " + target + " broke off", e);
+        }
+    }
+
+    private int openExchanges(List<Exchange> all) {
+        return all.size() - idle.size() - failed.size();
+    }
+
+    private void sendDue(long now) {
+        long due = dueNanos(now);
+        while (!idle.isEmpty() && due <= now) {
+            Exchange exchange = idle.poll();
+            long number = firstNumber + sent;
+            sent = sent + 1;
+            try {
+                exchange.send(number, due);
+            } catch (IOException e) {
+                fail(exchange);
+            }
+            due = dueNanos(now);
+        }
+        idle.addAll(failed); // not at once, or a server that is away would keep this loop for ever
+        failed.clear();
+    }
+
+    /** When the next request is due. */
+    private long dueNanos(long now) {
+        return plan.rate() == 0 ? now : startNanos + sent * SECOND / plan.rate();
+    }
+
+    private void await(Selector selector, long now, long end) throws IOException {
+        long until = idle.isEmpty() ? end : Math.min(end, dueNanos(now));
+        long millis = Math.max(1, TimeUnit.NANOSECONDS.toMillis(until - now));
+        selector.select(this::proceed, millis);
+    }
+
+    private void proceed(SelectionKey key) {
+        Exchange exchange = (Exchange) key.attachment();
+        try {
+            int status = exchange.proceed();
+            if (status == 0) {
+                return;
+            }
+            lastAnswerNanos = System.nanoTime();
+            if (status / 100 == 2) {
+                acknowledged.set((int) (exchange.number() - firstNumber));
+                long micros = TimeUnit.NANOSECONDS.toMicros(lastAnswerNanos - exchange.dueNanos());
+                latency.recordValue(Math.min(LONGEST_MICROS, Math.max(0, micros)));
+                answered = answered + 1;
+            } else {
+                refused++;
+            }
+            idle.add(exchange);
+        } catch (IOException e) {
+            fail(exchange);
+        }
+    }
+
+    /** Also where an idle connection is closed by the server: that is no broken request. */
+    private void fail(Exchange exchange) {
+        exchange.close();
+        if (idle.contains(exchange)) {
+            return;
+        }
+        broken++;
+        failed.add(exchange);
+    }
+}

@@ -1,0 +1,162 @@
+package io.furrow.bench.http;
+
+import java.net.InetSocketAddress;
+import java.nio.ByteBuffer;
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.time.ZoneOffset;
+import java.time.format.DateTimeFormatter;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+
+/**
+ * A notification of one entity as Orion 4.7 sends it (normalized, the headers and the order of members recorded from it),
+ * ready as the bytes of a request. Its number, its entity's id and its times are written over the old ones in place, so that a
+ * request costs some copied bytes. The body has exactly the length asked for.
+ */
+public final class NotificationRequest {
+    /** What the number stands behind in the entity, in every form that keeps attributes normalized. */
+    public static final String BEFORE_NUMBER = "\"sequence\":{\"type\":\"Number\",\"value\":";
+
+    /** Digits of a number, which begins with 1 so that it is JSON. */
+    public static final int DIGITS = 15;
+
+    /** Smallest body. */
+    public static final int LEAST_BYTES = 500;
+
+    private static final byte[] BEFORE = BEFORE_NUMBER.getBytes(StandardCharsets.US_ASCII);
+    private static final int ID_DIGITS = 6;
+    private static final String ID_PREFIX = "urn:ngsi-ld:SoilProbe:";
+    private static final int MOST_MEASURES = 8;
+    private static final String NO_ID = "0".repeat(ID_DIGITS);
+    private static final String NO_NUMBER = "1" + "0".repeat(DIGITS - 1);
+    private static final String NO_TIME = "2026-01-01T00:00:00.000Z";
+    private static final DateTimeFormatter TIME = DateTimeFormatter.ofPattern(
+                    "yyyy-MM-dd'T'HH:mm:ss.SSS'Z'", Locale.ROOT)
+            .withZone(ZoneOffset.UTC);
+
+    private final byte[] bytes;
+    private final ByteBuffer request;
+    private final int entities;
+    private final int idAt;
+    private final int numberAt;
+    private final int[] timesAt;
+    private long millis = -1;
+
+    private NotificationRequest(String head, String body, int entities) {
+        String text = head + body;
+        this.bytes = text.getBytes(StandardCharsets.US_ASCII);
+        this.request = ByteBuffer.allocateDirect(bytes.length);
+        this.entities = entities;
+        this.idAt = text.indexOf(ID_PREFIX) + ID_PREFIX.length();
+        this.numberAt = text.indexOf(BEFORE_NUMBER) + BEFORE_NUMBER.length();
+        List<Integer> times = new ArrayList<>();
+        for (int at = text.indexOf(NO_TIME); at >= 0; at = text.indexOf(NO_TIME, at + 1)) {
+            times.add(at);
+        }
+        this.timesAt = times.stream().mapToInt(Integer::intValue).toArray();
+    }
+
+    /**
+     * A request.
+     *
+     * @param bodyBytes at least {@value #LEAST_BYTES}
+     * @param entities how many ids there are, at most a million
+     */
+    public static NotificationRequest to(InetSocketAddress target, int bodyBytes, int entities) {
+        String body = body(bodyBytes);
+        String head = String.join(
+                "\r\n",
+                "POST /v2/notify HTTP/1.1",
+                "Host: " + target.getHostString() + ":" + target.getPort(),
+                "User-Agent: orion/4.7.0-next libcurl/7.88.1",
+                "Fiware-Service: farm",
+                "Fiware-Servicepath: /",
+                "Accept: application/json",
+                "Content-Length: " + body.length(),
+                "Content-Type: application/json; charset=utf-8",
+                "Fiware-Correlator: 6badd98c-e548-11f1-acfe-02fc00000001; cbnotif=1",
+                "Ngsiv2-AttrsFormat: normalized",
+                "",
+                "");
+        return new NotificationRequest(head, body, entities);
+    }
+
+    /** The request with this number, to be written before the next call. */
+    public ByteBuffer with(long number, long epochMillis) {
+        digits(idAt, ID_DIGITS, number % entities);
+        digits(numberAt + 1, DIGITS - 1, number);
+        if (epochMillis != millis) {
+            millis = epochMillis;
+            byte[] time = TIME.format(Instant.ofEpochMilli(millis)).getBytes(StandardCharsets.US_ASCII);
+            for (int at : timesAt) {
+                System.arraycopy(time, 0, bytes, at, time.length);
+            }
+        }
+        return request.clear().put(bytes).flip();
+    }
+
+    /** The number in a record's value, or -1 if it holds none. */
+    public static long numberIn(byte[] value) {
+        int at = indexOf(value, BEFORE) + BEFORE.length;
+        if (at < BEFORE.length || at + DIGITS > value.length) {
+            return -1;
+        }
+        long number = 0;
+        for (int i = at + 1; i < at + DIGITS; i++) {
+            number = number * 10 + value[i] - '0';
+        }
+        return number;
+    }
+
+    private static int indexOf(byte[] value, byte[] wanted) {
+        for (int at = 0; at <= value.length - wanted.length; at++) {
+            if (java.util.Arrays.mismatch(value, at, at + wanted.length, wanted, 0, wanted.length) < 0) {
+                return at;
+            }
+        }
+        return -1;
+    }
+
+    private void digits(int at, int count, long number) {
+        long rest = number;
+        for (int i = at + count - 1; i >= at; i--) {
+            bytes[i] = (byte) ('0' + rest % 10);
+            rest /= 10;
+        }
+    }
+
+    private static String body(int length) {
+        if (length < LEAST_BYTES) {
+            throw new IllegalArgumentException(
+                    "a body of " + length + " bytes is asked for, the least is " + LEAST_BYTES);
+        }
+        StringBuilder body = new StringBuilder("{\"subscriptionId\":\"6b00efa61933b059d608cbc4\",\"data\":[{\"id\":")
+                .append("\"" + ID_PREFIX)
+                .append(NO_ID)
+                .append("\",\"type\":\"SoilProbe\",\"TimeInstant\":")
+                .append("{\"type\":\"DateTime\",\"value\":\"")
+                .append(NO_TIME)
+                .append("\",\"metadata\":{}},\"location\":")
+                .append(
+                        "{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",\"coordinates\":[-3.7,40.41]},\"metadata\":{}},")
+                .append(BEFORE_NUMBER)
+                .append(NO_NUMBER)
+                .append(",\"metadata\":{}},");
+        String end = "\"note\":{\"type\":\"Text\",\"value\":\"\",\"metadata\":{}}}]}";
+        for (int i = 0; i < MOST_MEASURES; i++) {
+            String measure = measure(i);
+            if (body.length() + measure.length() + end.length() <= length) {
+                body.append(measure);
+            }
+        }
+        int missing = length - body.length() - end.length();
+        return body + end.replace("\"value\":\"\"", "\"value\":\"" + "x".repeat(missing) + "\"");
+    }
+
+    private static String measure(int i) {
+        return "\"moisture%d\":{\"type\":\"Number\",\"value\":2%d.75,\"metadata\":{\"TimeInstant\":{\"type\":\"DateTime\",\"value\":\"%s\"}}},"
+                .formatted(i, i, NO_TIME);
+    }
+}

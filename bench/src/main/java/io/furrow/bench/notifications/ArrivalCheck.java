@@ -1,0 +1,68 @@
+package io.furrow.bench.notifications;
+
+import java.util.ArrayList;
+import java.util.BitSet;
+import java.util.List;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+
+import io.furrow.bench.http.NotificationRequest;
+
+/** Which of the numbered notifications are in the topic, how many of them again, and a sample of the records. */
+final class ArrivalCheck {
+    private static final int SAMPLES = 2000;
+
+    private final long firstNumber;
+    private final BitSet arrived = new BitSet();
+    private final List<ConsumerRecord<byte[], byte[]>> samples = new ArrayList<>();
+    private long distinct;
+    private long repeats;
+    private long lastNanos;
+
+    /** @param firstNumber of this load; smaller numbers are of an earlier one and are passed over */
+    ArrivalCheck(long firstNumber) {
+        this.firstNumber = firstNumber;
+    }
+
+    /** @param nanos when the reader had it */
+    synchronized void add(ConsumerRecord<byte[], byte[]> record, long nanos) {
+        long number = NotificationRequest.numberIn(record.value()) - firstNumber;
+        if (number < 0 || number > Integer.MAX_VALUE) {
+            return;
+        }
+        if (arrived.get((int) number)) {
+            repeats++;
+            return;
+        }
+        arrived.set((int) number);
+        distinct++;
+        lastNanos = nanos;
+        if (samples.size() < SAMPLES) {
+            samples.add(record);
+        }
+    }
+
+    synchronized long distinct() {
+        return distinct;
+    }
+
+    synchronized long repeats() {
+        return repeats;
+    }
+
+    /** When the newest first arrival was read, by {@link System#nanoTime}. */
+    synchronized long lastNanos() {
+        return lastNanos;
+    }
+
+    /** How many of these numbers, counted from the first, have not arrived. */
+    synchronized long missing(BitSet acknowledged) {
+        BitSet missing = (BitSet) acknowledged.clone();
+        missing.andNot(arrived);
+        return missing.cardinality();
+    }
+
+    synchronized List<ConsumerRecord<byte[], byte[]>> samples() {
+        return List.copyOf(samples);
+    }
+}
