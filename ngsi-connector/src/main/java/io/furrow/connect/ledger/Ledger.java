@@ -1,9 +1,15 @@
 package io.furrow.connect.ledger;
 
 import java.util.ArrayList;
+import java.util.Collections;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.function.LongSupplier;
+import java.util.function.Supplier;
+
+import com.fasterxml.jackson.databind.JsonNode;
 
 /**
  * What one task has counted since its start. Whatever comes in is in exactly one place; at any quiet moment, which is one in
@@ -27,6 +33,7 @@ import java.util.function.LongSupplier;
 public final class Ledger {
     private final List<Counter> counters = new ArrayList<>();
     private final List<Gauge> gauges = new CopyOnWriteArrayList<>();
+    private final Map<String, Supplier<JsonNode>> details = Collections.synchronizedMap(new LinkedHashMap<>());
 
     public final Counter requests = counter("requests", "POST requests whose sender may send and whose body was read");
     public final Counter received =
@@ -76,6 +83,22 @@ public final class Ledger {
     /** Shows one number of now more, for instance what is pending. */
     public void gauge(String name, String help, LongSupplier now) {
         gauges.add(new Gauge(name, help, now));
+    }
+
+    /**
+     * Shows something on {@code /health} that is no number.
+     *
+     * @param now called by whoever looks: quick, from any thread, and without throwing
+     */
+    public void detail(String name, Supplier<JsonNode> now) {
+        details.put(name, now);
+    }
+
+    /** What is shown on {@code /health} besides the numbers, in the order in which it was added. */
+    public Map<String, Supplier<JsonNode>> details() {
+        synchronized (details) {
+            return new LinkedHashMap<>(details);
+        }
     }
 
     /** In a fixed order. */

@@ -2,8 +2,6 @@ package io.furrow.connect.source;
 
 import java.util.Map;
 import java.util.Optional;
-import java.util.concurrent.CompletionException;
-import java.util.concurrent.TimeoutException;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
@@ -17,7 +15,7 @@ import io.furrow.model.ngsi.Reason;
  * @param headers besides the content type
  */
 record Answer(int status, byte[] body, Map<String, String> headers) {
-    private static final Map<String, String> SOON = Map.of("Retry-After", "1");
+    private static final Answer OK = new Answer(200, new byte[0], Map.of());
 
     static Answer taken(Optional<Refusal> refusal) {
         return refusal.map(why -> error(
@@ -25,30 +23,25 @@ record Answer(int status, byte[] body, Map<String, String> headers) {
                         why.reason().code(),
                         why.message(),
                         Map.of()))
-                .orElseGet(() -> new Answer(200, new byte[0], Map.of()));
+                .orElse(OK);
     }
 
-    static Answer full() {
-        return error(503, "unavailable", "the journal is full or the disk slow; nothing was taken", SOON);
+    /** For a sender that tries again; what did not become durable in time. */
+    static Answer overload() {
+        return error(503, "unavailable", "the notification is not durable; send it again", Map.of("Retry-After", "1"));
+    }
+
+    static Answer unauthorized() {
+        return error(401, "unauthorized", "the notification was not taken", Map.of());
+    }
+
+    static Answer foreignTenant() {
+        return error(403, "forbidden", "notifications of this tenant are not taken", Map.of());
     }
 
     static Answer notAllowed() {
         Map<String, String> allow = Map.of("Allow", "POST");
-        return error(405, "method-not-allowed", "notifications come by POST; GET only knows /health", allow);
-    }
-
-    /** The answer to a request whose records did not become durable as far as known; empty for any other failure. */
-    static Optional<Answer> notDurable(Throwable failure) {
-        Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
-        if (cause instanceof TimeoutException) {
-            return Optional.of(error(503, "unconfirmed", "the disk has not taken it yet; it may still", SOON));
-        }
-        if (cause instanceof Intake.NoRoomException) {
-            return Optional.of(full());
-        }
-        return cause instanceof Intake.ClosedException
-                ? Optional.of(error(503, "unavailable", cause.getMessage(), SOON))
-                : Optional.empty();
+        return error(405, "method-not-allowed", "notifications come by POST; GET knows /health and /metrics", allow);
     }
 
     private static Answer error(int status, String code, String description, Map<String, String> headers) {

@@ -1,15 +1,17 @@
 package io.furrow.connect.source;
 
-import java.io.ByteArrayOutputStream;
 import java.nio.ByteBuffer;
+import java.util.Arrays;
 import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.TimeUnit;
 
 import org.eclipse.jetty.io.Content;
 
 /**
  * Reads the body of a request without holding a thread, and keeps at most {@code limit} bytes of it. A longer body is read
  * on, up to four times the limit, and dropped: a client that is still writing would not see an answer otherwise. What is
- * kept is taken from a budget; who asked for the body gives it back.
+ * kept is taken from a budget before it is read; while there is too little, the body stays in the network. Who asked for the
+ * body gives the budget back.
  */
 final class BodyReader implements Runnable {
     /**
@@ -20,15 +22,6 @@ final class BodyReader implements Runnable {
      */
     record Body(byte[] bytes, boolean complete, boolean readToEnd) {}
 
-    /** So many bodies are being read that there is no memory for this one. */
-    static final class NoRoomException extends RuntimeException {
-        private static final long serialVersionUID = 1L;
-
-        NoRoomException() {
-            super("too many bodies are being received");
-        }
-    }
-
     /** A client can claim any length: memory beyond this follows what really comes. */
     private static final int LARGEST_FIRST_CAPACITY = 256 * 1024;
 
@@ -37,39 +30,40 @@ final class BodyReader implements Runnable {
     private final Content.Source source;
     private final int limit;
     private final ByteBudget budget;
-    private final ByteArrayOutputStream kept;
+    private final long deadline;
     private final CompletableFuture<Body> body = new CompletableFuture<>();
+    private byte[] kept = new byte[0];
+    private int size;
     private long seen;
+    private Content.Chunk unread;
 
-    private BodyReader(Content.Source source, int limit, ByteBudget budget) {
+    /** @param deadline as of {@link System#nanoTime}, after which there is no use in waiting for the budget */
+    BodyReader(Content.Source source, int limit, ByteBudget budget, long deadline) {
         this.source = source;
         this.limit = limit;
         this.budget = budget;
-        long expected = source.getLength();
-        this.kept = new ByteArrayOutputStream(
-                expected > 0 ? (int) Math.min(expected, LARGEST_FIRST_CAPACITY) : FIRST_CAPACITY);
+        this.deadline = deadline;
     }
 
-    /** The reader of a body that {@link #start} begins to read. */
-    static BodyReader of(Content.Source source, int limit, ByteBudget budget) {
-        return new BodyReader(source, limit, budget);
-    }
-
-    /** The body; failed with an I/O error if the client goes away, with {@link NoRoomException} if there is no memory. */
+    /** The body; failed with an I/O error if the client goes away, with {@link OverloadException} if there is no memory. */
     CompletableFuture<Body> start() {
-        run();
+        long expected = source.getLength();
+        int first = expected > 0 ? (int) Math.min(expected, LARGEST_FIRST_CAPACITY) : FIRST_CAPACITY;
+        grow(Math.min(first, limit), this);
         return body;
     }
 
     /** Gives what was kept back to the budget; once, after {@link #start} is complete. */
     void release() {
-        budget.giveBack(kept.size());
+        budget.giveBack(kept.length);
     }
 
+    /** Reads what there is. */
     @Override
     public void run() {
-        while (true) {
-            Content.Chunk chunk = source.read();
+        while (!body.isDone()) {
+            Content.Chunk chunk = unread == null ? source.read() : unread;
+            unread = null;
             if (chunk == null) {
                 source.demand(this);
                 return;
@@ -78,29 +72,59 @@ final class BodyReader implements Runnable {
                 body.completeExceptionally(chunk.getFailure());
                 return;
             }
-            boolean hadRoom = keep(chunk.getByteBuffer());
-            boolean last = chunk.isLast();
-            chunk.release();
-            if (!hadRoom) {
-                body.completeExceptionally(new NoRoomException());
+            int wanted = (int) Math.min((long) size + chunk.remaining(), limit);
+            if (wanted > kept.length) {
+                unread = chunk;
+                grow((int) Math.min(Math.max(wanted, 2L * kept.length), limit), this);
                 return;
             }
+            boolean last = chunk.isLast();
+            keep(chunk.getByteBuffer());
+            chunk.release();
             if (last || seen > 4L * limit) {
-                body.complete(new Body(kept.toByteArray(), seen <= limit, last));
+                body.complete(new Body(trimmed(), seen <= limit, last));
                 return;
             }
         }
+        dropUnread();
     }
 
-    /** Whether the budget had room for what is to be kept. */
-    private boolean keep(ByteBuffer bytes) {
+    private void keep(ByteBuffer bytes) {
         seen += bytes.remaining();
-        byte[] part = new byte[Math.min(bytes.remaining(), limit - kept.size())];
-        if (!budget.tryTake(part.length)) {
-            return false;
+        int part = Math.min(bytes.remaining(), limit - size);
+        bytes.get(kept, size, part);
+        size += part;
+    }
+
+    private byte[] trimmed() {
+        return size == kept.length ? kept : Arrays.copyOf(kept, size);
+    }
+
+    /** Goes on when the budget has given the bytes, or fails at the deadline. */
+    private void grow(int capacity, Runnable next) {
+        int more = capacity - kept.length;
+        Runnable grown = () -> {
+            kept = Arrays.copyOf(kept, capacity);
+            next.run();
+        };
+        if (budget.take(more, grown)) {
+            grown.run();
+            return;
         }
-        bytes.get(part);
-        kept.write(part, 0, part.length);
-        return true;
+        body.copy()
+                .orTimeout(deadline - System.nanoTime(), TimeUnit.NANOSECONDS)
+                .whenComplete((read, failure) -> {
+                    if (budget.giveUp(grown)) {
+                        dropUnread();
+                        body.completeExceptionally(OverloadException.noRoom());
+                    }
+                });
+    }
+
+    private void dropUnread() {
+        if (unread != null) {
+            unread.release();
+            unread = null;
+        }
     }
 }

@@ -1,25 +1,63 @@
 package io.furrow.connect.source;
 
-import java.util.concurrent.atomic.AtomicLong;
+import java.util.ArrayList;
+import java.util.Iterator;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.Executor;
 
-/** A number of bytes that several exchanges share. */
+/** A number of bytes that several exchanges share; who finds too few left is called, in turn, when there are enough. */
 final class ByteBudget {
-    private final AtomicLong left;
+    private final Map<Runnable, Long> waiting = new LinkedHashMap<>();
+    private final Executor callers;
+    private long left;
 
-    ByteBudget(long bytes) {
-        this.left = new AtomicLong(bytes);
+    /** @param callers who calls those that wait */
+    ByteBudget(long bytes, Executor callers) {
+        this.left = bytes;
+        this.callers = callers;
     }
 
-    /** Whether the bytes were there to take. */
-    boolean tryTake(long bytes) {
-        if (left.addAndGet(-bytes) >= 0) {
+    /**
+     * Takes the bytes if they are there and nobody waits already.
+     *
+     * @param whenTaken called once the bytes were taken after all, unless they are taken at once
+     * @return whether the bytes were taken at once
+     */
+    synchronized boolean take(long bytes, Runnable whenTaken) {
+        if (waiting.isEmpty() && left >= bytes) {
+            left -= bytes;
             return true;
         }
-        left.addAndGet(bytes);
+        waiting.put(whenTaken, bytes);
         return false;
     }
 
+    /** Whether it was still waiting; it will not be called any more. */
+    synchronized boolean giveUp(Runnable whenTaken) {
+        return waiting.remove(whenTaken) != null;
+    }
+
     void giveBack(long bytes) {
-        left.addAndGet(bytes);
+        if (bytes > 0) {
+            served(bytes).forEach(callers::execute);
+        }
+    }
+
+    private synchronized List<Runnable> served(long bytes) {
+        left += bytes;
+        List<Runnable> served = new ArrayList<>();
+        Iterator<Map.Entry<Runnable, Long>> next = waiting.entrySet().iterator();
+        while (next.hasNext()) {
+            Map.Entry<Runnable, Long> first = next.next();
+            if (left < first.getValue()) {
+                break;
+            }
+            left -= first.getValue();
+            served.add(first.getKey());
+            next.remove();
+        }
+        return served;
     }
 }

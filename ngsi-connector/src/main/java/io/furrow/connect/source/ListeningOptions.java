@@ -1,5 +1,7 @@
 package io.furrow.connect.source;
 
+import java.time.Duration;
+
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Importance;
@@ -11,6 +13,11 @@ import org.apache.kafka.common.config.ConfigDef.Width;
 record ListeningOptions(AbstractConfig config, int task) {
     static final String HOST = "listen.host";
     static final String PORT = "listen.port";
+    static final String MAX_CONNECTIONS = "listen.max.connections";
+    static final String IDLE_TIMEOUT = "listen.idle.timeout.ms";
+    static final String REQUEST_TIMEOUT = "listen.request.timeout.ms";
+
+    private static final long HOUR = Duration.ofHours(1).toMillis();
 
     static void define(ConfigDef options) {
         String group = "Listening";
@@ -38,6 +45,56 @@ record ListeningOptions(AbstractConfig config, int task) {
                 2,
                 Width.SHORT,
                 "Port");
+        defineLimits(options, group);
+    }
+
+    private static void defineLimits(ConfigDef options, String group) {
+        options.define(
+                MAX_CONNECTIONS,
+                Type.INT,
+                2048,
+                Range.between(1, 100_000),
+                Importance.LOW,
+                "Connections at a time; further ones wait in the network until one is closed. Each takes some 20 kB.",
+                group,
+                10,
+                Width.SHORT,
+                "Connections");
+        options.define(
+                IDLE_TIMEOUT,
+                Type.LONG,
+                30_000L,
+                Range.between(100, HOUR),
+                Importance.LOW,
+                "Milliseconds after which a connection is closed on which nothing is sent.",
+                group,
+                11,
+                Width.SHORT,
+                "Idle (ms)");
+        options.define(
+                REQUEST_TIMEOUT,
+                Type.LONG,
+                20_000L,
+                Range.between(100, HOUR),
+                Importance.LOW,
+                "Milliseconds from the first byte of a request to its answer; a slower sender is cut. More than "
+                        + OverloadOptions.HOLD + ".",
+                group,
+                12,
+                Width.SHORT,
+                "Request (ms)");
+    }
+
+    int maxConnections() {
+        return config.getInt(MAX_CONNECTIONS);
+    }
+
+    Duration idleTimeout() {
+        return Duration.ofMillis(config.getLong(IDLE_TIMEOUT));
+    }
+
+    Duration requestTimeout() {
+        return Duration.ofMillis(config.getLong(REQUEST_TIMEOUT));
     }
 
     String host() {

@@ -25,6 +25,9 @@ public class NgsiSourceConfig extends AbstractConfig {
     private final PendingOptions pending;
     private final JournalOptions journal;
     private final AcknowledgingOptions acknowledging;
+    private final OverloadOptions overload;
+    private final SecurityOptions security;
+    private final TlsOptions tls;
 
     NgsiSourceConfig(Map<String, String> properties) {
         super(definition(), properties);
@@ -35,6 +38,14 @@ public class NgsiSourceConfig extends AbstractConfig {
         pending = new PendingOptions(this);
         journal = new JournalOptions(this);
         acknowledging = new AcknowledgingOptions(this);
+        overload = new OverloadOptions(this);
+        security = new SecurityOptions(this);
+        tls = new TlsOptions(this);
+        checkPorts();
+        checkSizes();
+    }
+
+    private void checkPorts() {
         int tasks = Integer.parseInt(
                 originalsStrings().getOrDefault("tasks.max", "1").strip());
         if (listening.firstPort() + tasks - 1 > LAST_PORT) {
@@ -42,6 +53,19 @@ public class NgsiSourceConfig extends AbstractConfig {
                     ListeningOptions.PORT,
                     listening.firstPort(),
                     "task i listens on " + ListeningOptions.PORT + " + i, and there are " + tasks + " tasks; lower it");
+        }
+    }
+
+    private void checkSizes() {
+        if (overload.memoryBytes() < sizes.maxBodyBytes()) {
+            throw new ConfigException(
+                    OverloadOptions.MEMORY, overload.memoryBytes(), "must be at least " + SizeOptions.MAX_BODY_BYTES);
+        }
+        if (listening.requestTimeout().compareTo(overload.hold()) <= 0) {
+            throw new ConfigException(
+                    ListeningOptions.REQUEST_TIMEOUT,
+                    listening.requestTimeout().toMillis(),
+                    "must be more than " + OverloadOptions.HOLD);
         }
         if (pending.maxBytes() < sizes.maxBodyBytes()) {
             throw new ConfigException(
@@ -60,6 +84,9 @@ public class NgsiSourceConfig extends AbstractConfig {
         PendingOptions.define(options);
         JournalOptions.define(options);
         AcknowledgingOptions.define(options);
+        OverloadOptions.define(options);
+        SecurityOptions.define(options);
+        TlsOptions.define(options);
         return options;
     }
 
@@ -103,6 +130,18 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     AcknowledgingOptions acknowledging() {
         return acknowledging;
+    }
+
+    OverloadOptions overload() {
+        return overload;
+    }
+
+    SecurityOptions security() {
+        return security;
+    }
+
+    TlsOptions tls() {
+        return tls;
     }
 
     /** What the translation of notifications needs. */

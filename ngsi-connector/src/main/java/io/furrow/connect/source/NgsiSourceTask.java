@@ -1,14 +1,14 @@
 package io.furrow.connect.source;
 
 import java.io.UncheckedIOException;
-import java.net.InetSocketAddress;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.atomic.AtomicReference;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
-import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.apache.kafka.clients.producer.RecordMetadata;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.source.SourceRecord;
@@ -20,18 +20,14 @@ import io.furrow.connect.PluginVersion;
 import io.furrow.connect.journal.JournalFolders;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.ledger.LedgerJson;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** Listens for notifications, answers when they are in its journal, and hands the journal's records to the worker. */
 public class NgsiSourceTask extends SourceTask {
     private static final Logger LOG = LoggerFactory.getLogger(NgsiSourceTask.class);
 
     private static final Duration POLL_WAIT = Duration.ofMillis(200);
-    private static final Duration BIND_PATIENCE = Duration.ofSeconds(10);
-    private static final Duration IDLE_BEYOND_ACK = Duration.ofSeconds(30);
 
-    private final AtomicReference<NotificationServer> server = new AtomicReference<>();
+    private final AtomicReference<Reception> reception = new AtomicReference<>();
     private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
     private final AtomicReference<TaskJournals> journals = new AtomicReference<>();
     private Ledger ledger;
@@ -52,7 +48,11 @@ public class NgsiSourceTask extends SourceTask {
         batchSize = config.acknowledging().batchSize();
         try {
             journals.set(open(config));
-            server.set(listen(config, new JournaledIntake(journals.get().own(), ledger)));
+            String journal = journals.get().own().id();
+            ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
+            ledger.detail("orphans", this::orphans);
+            reception.set(
+                    Reception.open(config, new JournaledIntake(journals.get().own(), ledger), ledger));
             keeper.set(JournalKeeper.start(journals.get(), config.taskCount() > 1));
         } catch (RuntimeException e) {
             // The worker does not stop a task that did not start.
@@ -85,41 +85,22 @@ public class NgsiSourceTask extends SourceTask {
         }
     }
 
-    private NotificationServer listen(NgsiSourceConfig config, Intake intake) {
-        NotificationTranslator translator = new NotificationTranslator(config.translation(), ledger);
-        ByteBudget bodies = new ByteBudget(config.pending().maxBytes());
-        NotificationHandler.Limits limits = new NotificationHandler.Limits(
-                config.sizes().maxBodyBytes(), bodies, config.acknowledging().ackTimeout());
-        NotificationHandler handler = new NotificationHandler(translator, intake, ledger, limits, this::health);
-        InetSocketAddress address = new InetSocketAddress(
-                config.listening().host(), config.listening().port());
-        try {
-            Duration idle = config.acknowledging().ackTimeout().plus(IDLE_BEYOND_ACK);
-            return NotificationServer.start(address, handler, idle, BIND_PATIENCE);
-        } catch (UncheckedIOException e) {
-            String remedy = "; free the address or change " + ListeningOptions.HOST + " or " + ListeningOptions.PORT;
-            throw new ConnectException(e.getCause().getMessage() + remedy, e);
-        }
-    }
-
     /** The port that is listened on. */
     int port() {
-        return server.get().port();
+        return reception.get().port();
     }
 
-    private byte[] health() {
-        ObjectNode health = LedgerJson.of(ledger);
+    private JsonNode orphans() {
+        ArrayNode orphans = JsonNodeFactory.instance.arrayNode();
         TaskJournals open = journals.get();
-        ArrayNode orphans = health.putArray("orphans");
         if (open != null) {
-            health.put("journal", open.own().id());
             open.orphans()
                     .forEach(orphan -> orphans.addObject()
                             .put("connector", orphan.owner())
                             .put("folder", orphan.folder().toString())
                             .put("bytes", orphan.bytes()));
         }
-        return NgsiJson.write(health);
+        return orphans;
     }
 
     @Override
@@ -153,7 +134,7 @@ public class NgsiSourceTask extends SourceTask {
     /** Once the worker calls this it commits nothing more, so the journals may go to another task. */
     @Override
     public void stop() {
-        NotificationServer listening = server.getAndSet(null);
+        Reception listening = reception.getAndSet(null);
         if (listening != null) {
             listening.close();
         }

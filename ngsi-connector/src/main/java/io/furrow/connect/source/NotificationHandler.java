@@ -1,59 +1,84 @@
 package io.furrow.connect.source;
 
+import java.io.IOException;
+import java.net.StandardSocketOptions;
 import java.nio.ByteBuffer;
+import java.nio.channels.NetworkChannel;
 import java.time.Clock;
-import java.time.Duration;
 import java.util.Map;
+import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
-import java.util.concurrent.TimeUnit;
-import java.util.concurrent.TimeoutException;
 import java.util.function.Supplier;
 
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpMethod;
+import org.eclipse.jetty.io.EndPoint;
+import org.eclipse.jetty.io.EofException;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.ledger.Ledger;
 
 /**
- * {@code POST} on any path takes a notification and is answered when its records are durable; {@code GET /health} shows
- * the counters. No thread waits for a body or for an acknowledgement.
+ * {@code POST} on any path takes a notification and is answered when its records are durable; {@code GET} shows the pages. No
+ * thread waits for a body, for room or for durability.
  */
 final class NotificationHandler extends Handler.Abstract.NonBlocking {
+    private static final Logger LOG = LoggerFactory.getLogger(NotificationHandler.class);
+
+    private final Gatekeeper gatekeeper;
     private final NotificationTranslator translator;
-    private final Intake intake;
+    private final Deliveries deliveries;
     private final Ledger ledger;
     private final Limits limits;
-    private final Supplier<byte[]> health;
+    private final Map<String, Supplier<Page>> pages;
+    private SlowSenders slowSenders;
 
     /**
      * @param maxBody bytes of a body
      * @param bodies bytes of all bodies whose senders have no answer yet
-     * @param ackTimeout how long a sender waits for the acknowledgement
+     * @param holdNanos how long a sender waits at most, until its body is read and its records are durable
+     * @param resets whether it then loses its connection, or is answered 503
      */
-    record Limits(int maxBody, ByteBudget bodies, Duration ackTimeout) {}
+    record Limits(int maxBody, ByteBudget bodies, long holdNanos, boolean resets) {}
 
-    NotificationHandler(
-            NotificationTranslator translator, Intake intake, Ledger ledger, Limits limits, Supplier<byte[]> health) {
-        this.translator = translator;
-        this.intake = intake;
+    /** What a notification passes, in this order. */
+    record Path(Gatekeeper gatekeeper, NotificationTranslator translator, Deliveries deliveries) {}
+
+    NotificationHandler(Path path, Ledger ledger, Limits limits, Map<String, Supplier<Page>> pages) {
+        this.gatekeeper = path.gatekeeper();
+        this.translator = path.translator();
+        this.deliveries = path.deliveries();
         this.ledger = ledger;
         this.limits = limits;
-        this.health = health;
+        this.pages = Map.copyOf(pages);
+    }
+
+    /** To be called before the server starts. */
+    void watchWith(SlowSenders watcher) {
+        slowSenders = watcher;
     }
 
     @Override
     public boolean handle(Request request, Response response, Callback callback) {
+        slowSenders.watch(request);
         if (HttpMethod.POST.is(request.getMethod())) {
-            take(request, response, callback);
-        } else if (HttpMethod.GET.is(request.getMethod())
-                && Request.getPathInContext(request).equals("/health")) {
-            response.getHeaders().put(HttpHeader.CACHE_CONTROL, "no-store");
-            write(response, new Answer(200, health.get(), Map.of()), callback);
+            Optional<Answer> refused = gatekeeper.refuse(request.getHeaders()::get);
+            if (refused.isPresent()) {
+                write(response, refused.get(), callback);
+            } else {
+                take(request, response, callback);
+            }
+            return true;
+        }
+        Supplier<Page> page = pages.get(Request.getPathInContext(request));
+        if (HttpMethod.GET.is(request.getMethod()) && page != null) {
+            show(page.get(), response, callback);
         } else {
             write(response, Answer.notAllowed(), callback);
         }
@@ -61,65 +86,75 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     }
 
     private void take(Request request, Response response, Callback callback) {
-        BodyReader reader = BodyReader.of(request, limits.maxBody(), limits.bodies());
+        long deadline = System.nanoTime() + limits.holdNanos();
+        BodyReader reader = new BodyReader(request, limits.maxBody(), limits.bodies(), deadline);
         reader.start()
                 .thenCompose(body -> {
                     if (!body.readToEnd()) {
                         response.getHeaders().put(HttpHeader.CONNECTION, "close");
                     }
-                    return deliver(translator.translate(received(request, body)));
+                    return deliver(translator.translate(received(request, body)), deadline);
                 })
-                // On a thread of the server: what completes the delivery is the journal's one writing thread.
+                // On a thread of the server: what completes the delivery is the one thread that writes to the disk.
                 .whenCompleteAsync(
                         (answer, failure) -> {
                             reader.release();
-                            answer(response, answer, failure, callback);
+                            answer(request, response, answer, failure, callback);
                         },
                         getServer().getThreadPool());
     }
 
-    private void answer(Response response, Answer answer, Throwable failure, Callback callback) {
+    private CompletableFuture<Answer> deliver(Translation translation, long deadline) {
+        return deliveries
+                .deliver(translation.records(), deadline)
+                .thenApply(durable -> Answer.taken(translation.refusal()));
+    }
+
+    private void answer(Request request, Response response, Answer answer, Throwable failure, Callback callback) {
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
         if (cause == null) {
             write(response, answer, callback);
-        } else if (cause instanceof BodyReader.NoRoomException) {
+        } else if (cause instanceof OverloadException || cause instanceof Intake.ClosedException) {
             ledger.overload.increment();
-            response.getHeaders().put(HttpHeader.CONNECTION, "close");
-            write(response, Answer.full(), callback);
-        } else {
-            callback.failed(cause);
-        }
-    }
-
-    private CompletableFuture<Answer> deliver(Translation translation) {
-        return intake.take(translation.records())
-                .map(durable -> counted(durable, translation)
-                        .orTimeout(limits.ackTimeout().toMillis(), TimeUnit.MILLISECONDS)
-                        .handle((nothing, failure) ->
-                                failure == null ? Answer.taken(translation.refusal()) : notDurable(failure)))
-                .orElseGet(() -> {
-                    ledger.turnedAway.add(translation.records().size());
-                    ledger.overload.increment();
-                    return CompletableFuture.completedFuture(Answer.full());
-                });
-    }
-
-    /** Counted when the intake says so, which may be later than the answer. */
-    private CompletableFuture<Void> counted(CompletableFuture<Void> durable, Translation translation) {
-        return durable.whenComplete((nothing, failure) -> {
-            if (failure != null) {
-                ledger.turnedAway.add(translation.records().size());
+            if (cause instanceof OverloadException overload && overload.isLate()) {
+                ledger.late.increment();
             }
-        });
+            notDurable(request, response, callback);
+        } else if (cause instanceof IOException || cause instanceof java.util.concurrent.TimeoutException) {
+            ledger.cut.increment();
+            callback.failed(cause);
+        } else {
+            LOG.error("a notification could not be taken, which is a defect of the source", cause);
+            ledger.overload.increment();
+            notDurable(request, response, callback);
+        }
     }
 
-    private Answer notDurable(Throwable failure) {
-        Answer answer = Answer.notDurable(failure).orElseThrow(() -> new CompletionException(failure));
-        ledger.overload.increment();
-        if (failure instanceof TimeoutException) {
-            ledger.late.increment();
+    private void notDurable(Request request, Response response, Callback callback) {
+        if (limits.resets()) {
+            reset(request, callback);
+        } else {
+            response.getHeaders().put(HttpHeader.CONNECTION, "close");
+            write(response, Answer.overload(), callback);
         }
-        return answer;
+    }
+
+    /** Cuts the connection with a reset: the sender sees a failure, and no half-open connection is left. */
+    private static void reset(Request request, Callback callback) {
+        EndPoint endPoint = request.getConnectionMetaData().getConnection().getEndPoint();
+        Object transport = endPoint.getTransport();
+        while (transport instanceof EndPoint inner) {
+            transport = inner.getTransport();
+        }
+        try {
+            if (transport instanceof NetworkChannel channel) {
+                channel.setOption(StandardSocketOptions.SO_LINGER, 0);
+            }
+        } catch (IOException e) {
+            LOG.debug("the sender has gone already", e);
+        }
+        endPoint.close();
+        callback.failed(new EofException("overload"));
     }
 
     private static ReceivedNotification received(Request request, BodyReader.Body body) {
@@ -129,6 +164,12 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
                 request.getHeaders()::get,
                 Clock.systemUTC().instant(),
                 Request.getRemoteAddr(request) + " " + request.getHttpURI().getPath());
+    }
+
+    private static void show(Page page, Response response, Callback callback) {
+        response.getHeaders().put(HttpHeader.CACHE_CONTROL, "no-store");
+        response.getHeaders().put(HttpHeader.CONTENT_TYPE, page.contentType());
+        response.write(true, ByteBuffer.wrap(page.body()), callback);
     }
 
     private static void write(Response response, Answer answer, Callback callback) {

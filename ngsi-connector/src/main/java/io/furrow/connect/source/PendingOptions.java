@@ -21,8 +21,8 @@ record PendingOptions(AbstractConfig config) {
                 64L * MIB,
                 Range.atLeast(1),
                 Importance.LOW,
-                "Bytes of records that may wait for the disk at a time, and as many of bodies whose senders wait for an"
-                        + " answer; beyond it there is no room. At least " + SizeOptions.MAX_BODY_BYTES + ".",
+                "Bytes of records that may wait for the disk at a time; beyond it there is no room. At least "
+                        + SizeOptions.MAX_BODY_BYTES + ".",
                 group,
                 1,
                 Width.SHORT,

@@ -51,7 +51,16 @@ class NgsiSourceConfigTest {
         "journal.max.bytes, 1000",
         "journal.min.free.bytes, -1",
         "max.pending.bytes, 1000",
-        "ack.timeout.ms, soon",
+        "overload.answer, 429",
+        "overload.hold.ms, 0",
+        "overload.memory.bytes, 1000",
+        "listen.request.timeout.ms, 4000",
+        "listen.max.connections, 0",
+        "secret.header, 'a b'",
+        "secret.previous, old",
+        "tls.client.auth, required",
+        "tls.truststore.location, /a",
+        "tls.keystore.type, DER",
         "batch.size, 0"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {

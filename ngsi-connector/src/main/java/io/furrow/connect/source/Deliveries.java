@@ -1,0 +1,139 @@
+package io.furrow.connect.source;
+
+import java.util.ArrayDeque;
+import java.util.Deque;
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionException;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import io.furrow.connect.ledger.Ledger;
+
+/**
+ * Hands records to the intake. While that has no room they wait in the order in which they came, each until its own
+ * deadline. Who waits holds a part of the bodies' budget: that is what bounds how many can.
+ */
+final class Deliveries implements AutoCloseable {
+    private static final long RETRY_MS = 10;
+
+    private record Delivery(List<OutgoingRecord> records, long deadline, CompletableFuture<Void> durable) {
+        boolean isTooLate() {
+            return System.nanoTime() - deadline >= 0;
+        }
+    }
+
+    private final Intake intake;
+    private final Ledger ledger;
+    private final Deque<Delivery> waiting = new ArrayDeque<>();
+    private final ScheduledExecutorService retries;
+    private volatile boolean someWait;
+    private boolean closed;
+
+    Deliveries(Intake intake, Ledger ledger) {
+        this.intake = intake;
+        this.ledger = ledger;
+        this.retries = Executors.newSingleThreadScheduledExecutor(task -> {
+            Thread thread = new Thread(task, "ngsi-source-hold");
+            thread.setDaemon(true);
+            return thread;
+        });
+    }
+
+    /**
+     * Completed when the records are durable; failed with {@link OverloadException} if they are not by the deadline, which is
+     * one of {@link System#nanoTime}, or with {@link Intake.ClosedException}.
+     */
+    CompletableFuture<Void> deliver(List<OutgoingRecord> records, long deadline) {
+        Delivery delivery = new Delivery(records, deadline, new CompletableFuture<>());
+        if (someWait || !hand(delivery)) {
+            ledger.held.increment();
+            await(delivery, false);
+        }
+        if (delivery.durable.isDone()) {
+            return delivery.durable;
+        }
+        // Who waits is told by retry(); this is for what was taken and is not durable, and a little later.
+        return delivery.durable
+                .copy()
+                .orTimeout(
+                        deadline - System.nanoTime() + TimeUnit.MILLISECONDS.toNanos(3 * RETRY_MS),
+                        TimeUnit.NANOSECONDS)
+                .exceptionally(failure -> {
+                    Throwable seen = failure instanceof TimeoutException ? OverloadException.late() : failure;
+                    throw seen instanceof CompletionException wrapped ? wrapped : new CompletionException(seen);
+                });
+    }
+
+    /** Whether the intake had room. */
+    private boolean hand(Delivery delivery) {
+        Optional<CompletableFuture<Void>> taken = intake.take(delivery.records);
+        taken.ifPresent(durable -> durable.whenComplete((nothing, failure) -> settle(delivery, failure)));
+        return taken.isPresent();
+    }
+
+    /** What was not durable is counted when the intake says so, which may be later than the answer. */
+    private void settle(Delivery delivery, Throwable failure) {
+        Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
+        if (cause == null) {
+            delivery.durable.complete(null);
+        } else if (cause instanceof Intake.NoRoomException && !delivery.isTooLate()) {
+            await(delivery, true);
+        } else {
+            turnAway(delivery, cause instanceof Intake.NoRoomException ? OverloadException.noRoom() : cause);
+        }
+    }
+
+    private void turnAway(Delivery delivery, Throwable cause) {
+        ledger.turnedAway.add(delivery.records.size());
+        delivery.durable.completeExceptionally(cause);
+    }
+
+    private synchronized void await(Delivery delivery, boolean first) {
+        if (closed) {
+            turnAway(delivery, new Intake.ClosedException());
+            return;
+        }
+        if (first) {
+            waiting.addFirst(delivery);
+        } else {
+            waiting.addLast(delivery);
+        }
+        if (!someWait) {
+            someWait = true;
+            retries.schedule(this::retry, RETRY_MS, TimeUnit.MILLISECONDS);
+        }
+    }
+
+    private synchronized void retry() {
+        while (!waiting.isEmpty()) {
+            Delivery first = waiting.peek();
+            if (first.isTooLate()) {
+                waiting.remove();
+                turnAway(first, OverloadException.noRoom());
+            } else {
+                waiting.remove();
+                if (!hand(first)) {
+                    waiting.addFirst(first);
+                    break;
+                }
+            }
+        }
+        someWait = !waiting.isEmpty();
+        if (someWait) {
+            retries.schedule(this::retry, RETRY_MS, TimeUnit.MILLISECONDS);
+        }
+    }
+
+    /** Fails all that wait, and takes nothing more. */
+    @Override
+    public synchronized void close() {
+        closed = true;
+        retries.shutdownNow();
+        waiting.forEach(each -> turnAway(each, new Intake.ClosedException()));
+        waiting.clear();
+    }
+}

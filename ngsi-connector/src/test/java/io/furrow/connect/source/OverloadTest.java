@@ -1,0 +1,211 @@
+package io.furrow.connect.source;
+
+import java.io.IOException;
+import java.io.OutputStream;
+import java.net.Socket;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+class OverloadTest {
+    private static final String ENTITY = "{\"id\": \"a\"}";
+
+    @Test
+    void resetsTheConnectionWhenThereIsNoRoomInTime() {
+        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200")) {
+            rig.intake.answer = Optional.empty();
+
+            assertThatThrownBy(() -> rig.post(ENTITY).join()).hasCauseInstanceOf(IOException.class);
+
+            assertThat(rig.ledger.overload.sum()).isEqualTo(1);
+            assertThat(rig.ledger.held.sum()).isEqualTo(1);
+            assertThat(rig.ledger.turnedAway.sum()).isEqualTo(1);
+            assertThat(rig.ledger.late.sum()).isZero();
+        }
+    }
+
+    @Test
+    void resetsTheConnectionWhenTheRecordsAreNotDurableInTime() {
+        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200")) {
+            CompletableFuture<Void> durable = new CompletableFuture<>();
+            rig.intake.answer = Optional.of(durable);
+
+            assertThatThrownBy(() -> rig.post(ENTITY).join()).hasCauseInstanceOf(IOException.class);
+
+            assertThat(rig.ledger.late.sum()).isEqualTo(1);
+            assertThat(rig.ledger.turnedAway.sum()).isZero();
+            durable.completeExceptionally(new Intake.ClosedException());
+            assertThat(rig.ledger.turnedAway.sum()).isEqualTo(1);
+        }
+    }
+
+    @Test
+    void answersUnavailableWhereThatIsWanted() {
+        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "200", "overload.answer", "503")) {
+            rig.intake.answer = Optional.empty();
+
+            HttpResponse<String> answer = rig.post(ENTITY).join();
+
+            assertThat(answer.statusCode()).isEqualTo(503);
+            assertThat(answer.headers().firstValue("Retry-After")).contains("1");
+            assertThat(answer.body()).contains("\"error\":\"unavailable\"");
+            assertThat(rig.ledger.overload.sum()).isEqualTo(1);
+        }
+    }
+
+    @Test
+    void answersUnavailableWhenTheSourceStops() {
+        try (ReceptionRig rig = new ReceptionRig("overload.answer", "503")) {
+            rig.intake.answer = Optional.of(CompletableFuture.failedFuture(new Intake.ClosedException()));
+
+            assertThat(rig.post(ENTITY).join().statusCode()).isEqualTo(503);
+        }
+    }
+
+    @Test
+    void takesWhatWaitedInItsOrderWhenThereIsRoomAgain() {
+        try (ReceptionRig rig = new ReceptionRig()) {
+            rig.intake.answer = Optional.empty();
+            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
+            for (int i = 0; i < 5; i++) {
+                long before = rig.ledger.held.sum();
+                answers.add(rig.post("{\"id\": \"" + i + "\"}"));
+                await().until(() -> rig.ledger.held.sum() == before + 1);
+            }
+
+            rig.intake.answer = Optional.of(CompletableFuture.completedFuture(null));
+
+            assertThat(answers)
+                    .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(200));
+            assertThat(rig.intake.taken)
+                    .extracting(records -> records.get(0).key())
+                    .containsExactly("0", "1", "2", "3", "4");
+            assertThat(rig.ledger.overload.sum()).isZero();
+        }
+    }
+
+    @Test
+    void leavesBodiesInTheNetworkThatItHasNoMemoryFor() {
+        try (ReceptionRig rig = new ReceptionRig(
+                "max.body.bytes", "100000", "overload.memory.bytes", "200000", "overload.hold.ms", "9000")) {
+            CompletableFuture<Void> durable = new CompletableFuture<>();
+            rig.intake.answer = Optional.of(durable);
+            byte[] half = new byte[100_000];
+            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
+            for (int i = 0; i < 6; i++) {
+                answers.add(rig.post("/", BodyPublishers.ofByteArray(half)));
+            }
+            await().until(() -> rig.intake.taken.size() == 2);
+            assertThat(rig.ledger.requests.sum()).isEqualTo(2);
+
+            rig.intake.answer = Optional.of(CompletableFuture.completedFuture(null));
+            durable.complete(null);
+
+            assertThat(answers)
+                    .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(400));
+            assertThat(rig.intake.taken).hasSize(6);
+        }
+    }
+
+    @Test
+    void turnsAwayABodyThatFindsNoMemoryInTime() {
+        try (ReceptionRig rig = new ReceptionRig(
+                "max.body.bytes",
+                "100000",
+                "overload.memory.bytes",
+                "100000",
+                "overload.hold.ms",
+                "300",
+                "overload.answer",
+                "503")) {
+            rig.intake.answer = Optional.of(new CompletableFuture<>());
+            byte[] all = new byte[100_000];
+
+            List<CompletableFuture<HttpResponse<String>>> answers = new ArrayList<>();
+            for (int i = 0; i < 3; i++) {
+                answers.add(rig.post("/", BodyPublishers.ofByteArray(all)));
+            }
+
+            assertThat(answers)
+                    .allSatisfy(answer -> assertThat(answer.join().statusCode()).isEqualTo(503));
+            rig.intake.answer = Optional.of(CompletableFuture.completedFuture(null));
+            assertThat(rig.post(ENTITY).join().statusCode()).isEqualTo(200);
+        }
+    }
+
+    @Test
+    void cutsASenderThatTricklesItsHeaders() throws IOException {
+        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
+                Socket slow = new Socket("127.0.0.1", rig.port())) {
+            trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: a\r\nX: ");
+
+            assertThat(rig.ledger.cut.sum()).isEqualTo(1);
+        }
+    }
+
+    @Test
+    void cutsASenderThatTricklesItsBody() throws IOException {
+        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
+                Socket slow = new Socket("127.0.0.1", rig.port())) {
+            trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n{");
+
+            await().until(() -> rig.ledger.cut.sum() == 1);
+            assertThat(rig.intake.taken).isEmpty();
+        }
+    }
+
+    @Test
+    void cutsASilentSender() throws IOException {
+        try (ReceptionRig rig = new ReceptionRig("listen.idle.timeout.ms", "200");
+                Socket silent = new Socket("127.0.0.1", rig.port())) {
+            silent.getOutputStream().write("POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n{".getBytes());
+            silent.setSoTimeout(10_000);
+
+            String answer = new String(silent.getInputStream().readAllBytes(), StandardCharsets.US_ASCII);
+
+            assertThat(answer).doesNotContain("200 OK");
+            assertThat(rig.ledger.cut.sum()).isEqualTo(1);
+        }
+    }
+
+    @Test
+    void letsAConnectionBeIdleBetweenRequestsForLongerThanARequestMayTake() throws Exception {
+        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "200", "overload.hold.ms", "100");
+                Socket kept = new Socket("127.0.0.1", rig.port())) {
+            byte[] request = "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}".getBytes();
+            kept.getOutputStream().write(request);
+            await().until(() -> rig.intake.taken.size() == 1);
+
+            await().pollDelay(java.time.Duration.ofMillis(700)).until(() -> true);
+            kept.getOutputStream().write(request);
+
+            await().until(() -> rig.intake.taken.size() == 2);
+            assertThat(rig.ledger.cut.sum()).isZero();
+        }
+    }
+
+    /** Sends a byte every 50 ms until the connection is cut. */
+    private static void trickle(Socket socket, String beginning) throws IOException {
+        OutputStream out = socket.getOutputStream();
+        out.write(beginning.getBytes(StandardCharsets.US_ASCII));
+        await().pollInterval(java.time.Duration.ofMillis(50)).until(() -> {
+            try {
+                out.write('x');
+                out.flush();
+                return false;
+            } catch (IOException e) {
+                return true;
+            }
+        });
+    }
+}

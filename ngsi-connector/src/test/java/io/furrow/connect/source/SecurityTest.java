@@ -1,0 +1,145 @@
+package io.furrow.connect.source;
+
+import java.net.http.HttpRequest.BodyPublisher;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.CompletableFuture;
+
+import org.apache.kafka.common.config.ConfigException;
+import org.apache.logging.log4j.Level;
+import org.apache.logging.log4j.LogManager;
+import org.apache.logging.log4j.core.LogEvent;
+import org.apache.logging.log4j.core.LoggerContext;
+import org.apache.logging.log4j.core.appender.AbstractAppender;
+import org.apache.logging.log4j.core.config.Property;
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class SecurityTest {
+    private static final BodyPublisher ENTITY = BodyPublishers.ofString("{\"id\": \"a\"}");
+    private static final String NEW = "n3w-S3cret-of-today";
+    private static final String OLD = "0ld-S3cret-of-yesterday";
+
+    @Test
+    void takesEitherSecretAndNothingElse() {
+        try (ReceptionRig rig = new ReceptionRig("secret", NEW, "secret.previous", OLD)) {
+            assertThat(status(rig, "X-Furrow-Secret", NEW)).isEqualTo(200);
+            assertThat(status(rig, "x-furrow-secret", OLD)).isEqualTo(200);
+            assertThat(status(rig, "X-Furrow-Secret", NEW + "x")).isEqualTo(401);
+            assertThat(status(rig, "X-Furrow-Secret", "")).isEqualTo(401);
+            assertThat(status(rig, "Authorization", NEW)).isEqualTo(401);
+            assertThat(rig.post("/", ENTITY).join().statusCode()).isEqualTo(401);
+
+            assertThat(rig.ledger.unauthorized.sum()).isEqualTo(4);
+            assertThat(rig.intake.taken).hasSize(2);
+            assertThat(rig.ledger.received.sum()).isEqualTo(2);
+        }
+    }
+
+    @Test
+    void takesTheSecretFromAnyHeader() {
+        try (ReceptionRig rig = new ReceptionRig("secret.header", "Authorization", "secret", "Bearer " + NEW)) {
+            assertThat(status(rig, "Authorization", "Bearer " + NEW)).isEqualTo(200);
+            assertThat(status(rig, "Authorization", NEW)).isEqualTo(401);
+        }
+    }
+
+    @Test
+    void takesAllowedTenantsOnlyAndKeepsNothingOfTheOthers() {
+        try (ReceptionRig rig = new ReceptionRig("allowed.tenants", "Farm, -")) {
+            assertThat(status(rig, "Fiware-Service", "fArm")).isEqualTo(200);
+            assertThat(status(rig, "NGSILD-Tenant", "farm")).isEqualTo(200);
+            assertThat(rig.post("/", ENTITY).join().statusCode()).isEqualTo(200);
+            assertThat(status(rig, "Fiware-Service", "other")).isEqualTo(403);
+            assertThat(rig.post("/", BodyPublishers.ofString("no JSON"), "Fiware-Service", "other")
+                            .join()
+                            .statusCode())
+                    .isEqualTo(403);
+
+            assertThat(rig.ledger.foreignTenant.sum()).isEqualTo(2);
+            assertThat(rig.intake.taken).hasSize(3);
+        }
+    }
+
+    @Test
+    void asksForTheTenantByNameWhereNoneIsNotAllowed() {
+        try (ReceptionRig rig = new ReceptionRig("allowed.tenants", "farm")) {
+            assertThat(rig.post("/", ENTITY).join().statusCode()).isEqualTo(403);
+        }
+    }
+
+    @Test
+    void writesNoSecretAnywhere() {
+        LoggerContext logging = (LoggerContext) LogManager.getContext(false);
+        Recorder recorder = new Recorder();
+        Level level = logging.getConfiguration().getRootLogger().getLevel();
+        recorder.start();
+        logging.getConfiguration().getRootLogger().addAppender(recorder, Level.TRACE, null);
+        logging.getConfiguration().getRootLogger().setLevel(Level.TRACE);
+        logging.updateLoggers();
+        StringBuilder seen = new StringBuilder();
+        try (ReceptionRig rig =
+                new ReceptionRig("secret", NEW, "secret.previous", OLD, "tls.keystore.password", "k3y-store")) {
+            for (String given : List.of(NEW, OLD, "wr0ng-guess")) {
+                HttpResponse<String> answer =
+                        post(rig, "X-Furrow-Secret", given).join();
+                seen.append(answer.headers().map()).append(answer.body());
+            }
+            seen.append(rig.get("/health").join().body());
+            seen.append(rig.get("/metrics").join().body());
+            rig.intake.taken.forEach(records ->
+                    records.forEach(record -> seen.append(record.headers()).append(new String(record.value()))));
+        } finally {
+            logging.getConfiguration().getRootLogger().removeAppender("recorder");
+            logging.getConfiguration().getRootLogger().setLevel(level);
+            logging.updateLoggers();
+        }
+        seen.append(new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal", "secret", NEW, "secret.previous", OLD))
+                .values());
+        assertThat(recorder.log).contains("NgsiSourceConfig");
+
+        assertThat(seen + recorder.log).doesNotContain(NEW, OLD, "wr0ng-guess", "k3y-store");
+    }
+
+    @Test
+    void doesNotQuoteASecretThatCannotBeUsed() {
+        assertThatThrownBy(() -> new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal", "secret", "\u00fc" + NEW)))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("secret")
+                .hasMessageNotContaining(NEW);
+        assertThatThrownBy(() -> new NgsiSourceConfig(Map.of("secret.previous", OLD)))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageNotContaining(OLD);
+    }
+
+    private static int status(ReceptionRig rig, String header, String value) {
+        return post(rig, header, value).join().statusCode();
+    }
+
+    private static CompletableFuture<HttpResponse<String>> post(ReceptionRig rig, String header, String value) {
+        return rig.post("/v2/notify", ENTITY, header, value);
+    }
+
+    /** Everything that is logged, each line with its logger first. */
+    private static final class Recorder extends AbstractAppender {
+        private volatile String log = "";
+
+        private Recorder() {
+            super("recorder", null, null, true, Property.EMPTY_ARRAY);
+        }
+
+        @Override
+        public synchronized void append(LogEvent event) {
+            boolean library = event.getLoggerName().matches("(jdk|org\\.eclipse\\.jetty)\\..*");
+            if (library && event.getLevel().isLessSpecificThan(Level.DEBUG)) {
+                return; // Jetty's own debugging shows every header; the README says so.
+            }
+            log += event.getLoggerName() + " " + event.getThreadName() + " "
+                    + event.getMessage().getFormattedMessage() + " " + event.getThrown() + "\n";
+        }
+    }
+}
