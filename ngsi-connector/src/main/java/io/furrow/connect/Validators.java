@@ -47,6 +47,11 @@ public final class Validators {
                 () -> "empty, http://HOST:PORT or https://HOST:PORT");
     }
 
+    /** True or false, which the type has seen to. */
+    public static Validator truth() {
+        return LambdaValidator.with((name, value) -> {}, () -> "true or false");
+    }
+
     /** A secret, any text. */
     public static Validator secret() {
         return LambdaValidator.with((name, value) -> {}, () -> "any text");

@@ -34,6 +34,17 @@ public record Entity(ObjectNode json) {
         return EntityForm.NORMALIZED.read(json);
     }
 
+    /**
+     * An entity from a JSON object in whatever form: NGSI-v2 normalized or key-values, or NGSI-LD, told from its shape.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_AN_ENTITY}
+     */
+    public static Entity ofAnyForm(JsonNode json) throws UnreadableException {
+        return NgsiLdEntity.looksLike(json)
+                ? NgsiLdEntity.read(json)
+                : EntityForm.of(json).read(json);
+    }
+
     /** An entity from the UTF-8 JSON of its normalized form, which is what every {@code data.*} topic carries. */
     public static Entity parse(byte[] normalized) throws UnreadableException {
         return of(NgsiJson.read(normalized));

@@ -85,16 +85,14 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
     }
 
     private static Entity readEntity(JsonNode reported, String attrsFormat) throws UnreadableException {
-        if (attrsFormat == null && NgsiLdEntity.looksLike(reported)) {
-            return NgsiLdEntity.read(reported);
+        if (attrsFormat == null) {
+            return Entity.ofAnyForm(reported);
         }
-        EntityForm form = attrsFormat == null
-                ? EntityForm.of(reported)
-                : switch (attrsFormat) {
-                    case "keyValues", "simplifiedKeyValues" -> EntityForm.KEY_VALUES;
-                    case "normalized", "simplifiedNormalized" -> EntityForm.NORMALIZED;
-                    default -> EntityForm.of(reported);
-                };
+        EntityForm form = switch (attrsFormat) {
+            case "keyValues", "simplifiedKeyValues" -> EntityForm.KEY_VALUES;
+            case "normalized", "simplifiedNormalized" -> EntityForm.NORMALIZED;
+            default -> EntityForm.of(reported);
+        };
         return form.read(reported);
     }
 }

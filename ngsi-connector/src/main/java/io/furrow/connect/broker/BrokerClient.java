@@ -70,9 +70,7 @@ public final class BrokerClient {
         HttpRequest.Builder request = HttpRequest.newBuilder(uri)
                 .method(asked.method(), body)
                 .header("Fiware-Servicepath", asked.scope().servicePath());
-        if (asked.body() != null) {
-            request.header("Content-Type", asked.contentType());
-        }
+        asked.headers().forEach(request::setHeader);
         if (!asked.scope().service().isEmpty()) {
             request.header("Fiware-Service", asked.scope().service());
         }

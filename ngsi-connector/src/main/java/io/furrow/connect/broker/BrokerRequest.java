@@ -1,5 +1,7 @@
 package io.furrow.connect.broker;
 
+import java.util.HashMap;
+import java.util.Map;
 import java.util.Objects;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -13,12 +15,12 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param scope sent as {@code Fiware-Service} (none for the default tenant) and {@code Fiware-Servicepath}
  * @param path with its query, percent-encoded, for instance {@code /v2/entities?limit=100}
  * @param body null where there is none
- * @param contentType of the body
+ * @param headers besides those of the scope, {@code Content-Type} among them where there is a body
  * @param repeatable whether a second time does no harm: it is then sent again when a kept connection proves dead
  */
 public record BrokerRequest(
-        String method, FiwareScope scope, String path, byte[] body, String contentType, boolean repeatable) {
-    private static final String JSON = "application/json";
+        String method, FiwareScope scope, String path, byte[] body, Map<String, String> headers, boolean repeatable) {
+    private static final Map<String, String> JSON = Map.of("Content-Type", "application/json");
 
     public BrokerRequest {
         Objects.requireNonNull(scope);
@@ -28,11 +30,11 @@ public record BrokerRequest(
     }
 
     public static BrokerRequest get(FiwareScope scope, String path) {
-        return new BrokerRequest("GET", scope, path, null, JSON, true);
+        return new BrokerRequest("GET", scope, path, null, Map.of(), true);
     }
 
     public static BrokerRequest delete(FiwareScope scope, String path) {
-        return new BrokerRequest("DELETE", scope, path, null, JSON, true);
+        return new BrokerRequest("DELETE", scope, path, null, Map.of(), true);
     }
 
     public static BrokerRequest patch(FiwareScope scope, String path, JsonNode body) {
@@ -49,7 +51,10 @@ public record BrokerRequest(
         return new BrokerRequest("POST", scope, path, body, JSON, true);
     }
 
-    public BrokerRequest withContentType(String other) {
-        return new BrokerRequest(method, scope, path, body, other, repeatable);
+    /** With one header more, or another value of one it has. */
+    public BrokerRequest withHeader(String name, String value) {
+        Map<String, String> more = new HashMap<>(headers);
+        more.put(name, value);
+        return new BrokerRequest(method, scope, path, body, Map.copyOf(more), repeatable);
     }
 }

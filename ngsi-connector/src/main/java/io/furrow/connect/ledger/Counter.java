@@ -8,7 +8,8 @@ public final class Counter {
     private final String help;
     private final LongAdder sum = new LongAdder();
 
-    Counter(String name, String help) {
+    /** At zero. */
+    public Counter(String name, String help) {
         this.name = name;
         this.help = help;
     }

@@ -5,29 +5,30 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 
-import io.furrow.connect.sink.EntityUpdates.Update;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * Cuts updates into requests of one scope, at most {@code maxCount} entities and {@code maxBytes} bytes each; an entity
  * that is larger goes alone.
  */
 record Batches(int maxCount, long maxBytes) {
-    List<List<Update>> cut(List<Update> updates) {
-        Map<FiwareScope, List<Update>> byScope = new LinkedHashMap<>();
-        updates.forEach(update -> byScope.computeIfAbsent(update.scope(), scope -> new ArrayList<>())
+    /** An update and its JSON, which is written once. */
+    record Rendered(Update update, byte[] json) {}
+
+    List<List<Rendered>> cut(List<Rendered> updates) {
+        Map<FiwareScope, List<Rendered>> byScope = new LinkedHashMap<>();
+        updates.forEach(update -> byScope.computeIfAbsent(update.update().key().scope(), scope -> new ArrayList<>())
                 .add(update));
-        List<List<Update>> batches = new ArrayList<>();
+        List<List<Rendered>> batches = new ArrayList<>();
         byScope.values().forEach(same -> cutInto(batches, same));
         return batches;
     }
 
-    private void cutInto(List<List<Update>> batches, List<Update> same) {
-        List<Update> batch = new ArrayList<>();
+    private void cutInto(List<List<Rendered>> batches, List<Rendered> same) {
+        List<Rendered> batch = new ArrayList<>();
         long bytes = 0;
-        for (Update update : same) {
-            int size = NgsiJson.write(update.entity()).length + 1;
+        for (Rendered update : same) {
+            int size = update.json().length + 1;
             if (!batch.isEmpty() && (batch.size() == maxCount || bytes + size > maxBytes)) {
                 batches.add(batch);
                 batch = new ArrayList<>();

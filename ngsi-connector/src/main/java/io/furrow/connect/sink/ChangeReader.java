@@ -6,35 +6,94 @@ import java.util.Map;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.data.Struct;
+import org.apache.kafka.connect.header.Header;
+import org.apache.kafka.connect.sink.SinkRecord;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads an entity from what a converter made of a record's value: bytes, text, or a map of JSON values. */
-final class ChangeReader {
+/**
+ * Reads what a record says of which entity. The value is what a converter made of it: bytes or text of JSON, a map of JSON
+ * values, or a struct; none is a deletion of the entity whose id is the record's key.
+ *
+ * @param defaultScope of records without headers
+ * @param defaultType of entities without type, empty for {@code Thing}
+ */
+record ChangeReader(FiwareScope defaultScope, String defaultType) {
     /** The tenants and paths that a context broker takes. */
     static final Pattern SERVICE = Pattern.compile("[a-z0-9_]{0,50}");
 
     static final Pattern SERVICE_PATH = Pattern.compile("/[A-Za-z0-9_/]{0,600}");
 
-    private ChangeReader() {}
-
-    /** @throws UnreadableException if the value is no entity in normalized form */
-    static Entity entity(Object value) throws UnreadableException {
-        return Entity.of(json(value));
+    /** @throws UnreadableException if the record is about no entity that a context broker can have */
+    Change read(SinkRecord record, int source) throws UnreadableException {
+        FiwareScope scope = scope(record);
+        long time = time(record);
+        if (record.value() == null) {
+            return new Change(new EntityKey(scope, key(record)), null, time, source);
+        }
+        JsonNode json = record.value() instanceof Struct struct ? StructReader.entity(struct) : json(record.value());
+        if (json instanceof ObjectNode object) {
+            complete(object, record);
+        }
+        Entity entity = Entity.ofAnyForm(json);
+        return new Change(new EntityKey(scope, entity.id()), entity, time, source);
     }
 
-    /** @throws UnreadableException if no context broker can have such a tenant or path */
-    static FiwareScope scope(String service, String servicePath) throws UnreadableException {
-        FiwareScope scope = FiwareScope.of(service, servicePath);
+    private void complete(ObjectNode entity, SinkRecord record) throws UnreadableException {
+        if (!entity.has("id") && record.key() != null) {
+            entity.put("id", key(record));
+        }
+        if (!entity.has("type") && !defaultType.isEmpty()) {
+            entity.put("type", defaultType);
+        }
+    }
+
+    private FiwareScope scope(SinkRecord record) throws UnreadableException {
+        FiwareScope scope = FiwareScope.of(
+                header(record, HeaderNames.SERVICE, defaultScope.service()),
+                header(record, HeaderNames.SERVICE_PATH, defaultScope.servicePath()));
         if (!SERVICE.matcher(scope.service()).matches()
                 || !SERVICE_PATH.matcher(scope.servicePath()).matches()) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "fiware-service or fiware-servicepath is malformed");
         }
         return scope;
+    }
+
+    /** The record's time is the event's, unless the topic stamps records itself. */
+    private static long time(SinkRecord record) {
+        if (record.timestampType() == TimestampType.LOG_APPEND_TIME) {
+            String stated = header(record, HeaderNames.CE_TIME, "");
+            return ReportedTimes.millis(NgsiJson.mapper().getNodeFactory().textNode(stated))
+                    .orElse(record.timestamp());
+        }
+        return record.timestamp() == null || record.timestamp() < 0 ? Change.NO_TIME : record.timestamp();
+    }
+
+    private static String key(SinkRecord record) throws UnreadableException {
+        Object key = record.key();
+        String id = key instanceof byte[] bytes ? new String(bytes, StandardCharsets.UTF_8) : String.valueOf(key);
+        if (key == null || id.isBlank() || key instanceof Struct || key instanceof Map) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record's key is no id of an entity");
+        }
+        return id;
+    }
+
+    static String header(SinkRecord record, String name, String otherwise) {
+        Header header = record.headers().lastWithName(name);
+        if (header == null || header.value() == null) {
+            return otherwise;
+        }
+        return header.value() instanceof byte[] bytes
+                ? new String(bytes, StandardCharsets.UTF_8)
+                : String.valueOf(header.value());
     }
 
     private static JsonNode json(Object value) throws UnreadableException {
@@ -54,6 +113,6 @@ final class ChangeReader {
         }
         throw new UnreadableException(
                 Reason.NOT_AN_EVENT,
-                "a value of " + value.getClass() + " is no entity; use the ByteArrayConverter as value.converter");
+                "a value of " + value.getClass() + " is no entity; value.converter must give JSON or structs");
     }
 }

@@ -2,63 +2,151 @@ package io.furrow.connect.sink;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.Future;
 
+import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
-import io.furrow.connect.sink.EntityUpdates.Update;
+import io.furrow.connect.sink.Batches.Rendered;
+import io.furrow.model.ngsi.UnreadableException;
 
-/** Writes updates in batches; where a batch is refused each of its entities is tried alone, so that one harms no other. */
-final class EntityWriter {
+/**
+ * Writes updates in batches, several at a time, which are of different entities; where a batch is refused it is halved until
+ * what is refused stands alone, so that one entity harms no other: twice log₂ n requests for one of n.
+ */
+final class EntityWriter implements AutoCloseable {
     /** An update that the context broker does not take, and its words. */
     record RefusedUpdate(Update update, String words) {}
 
-    /** The context broker cannot be reached, or says to come again; what was written before may be written again. */
-    static final class AwayException extends Exception {
-        private static final long serialVersionUID = 1L;
+    /**
+     * What became of updates.
+     *
+     * @param failure null where nothing stood in the way; else some updates are neither written nor refused
+     */
+    record Result(List<Update> written, List<RefusedUpdate> refused, Outcome failure) {
+        static Result empty() {
+            return new Result(new ArrayList<>(), new ArrayList<>(), null);
+        }
 
-        AwayException(Outcome.Away away) {
-            super(away.reason(), away.cause());
+        Result and(Result other) {
+            written.addAll(other.written);
+            refused.addAll(other.refused);
+            return new Result(written, refused, failure == null ? other.failure : failure);
+        }
+
+        private Result failed(Outcome outcome) {
+            return new Result(written, refused, outcome);
         }
     }
 
-    /** No request can succeed until a setting is changed. */
-    static final class WrongSettingException extends Exception {
-        private static final long serialVersionUID = 1L;
-
-        WrongSettingException(Outcome.WrongSetting wrong) {
-            super(wrong.words());
-        }
-    }
-
-    private final ContextBroker broker;
+    private final BrokerClient client;
+    private final ContextBrokerApi api;
     private final Batches batches;
+    private final ExecutorService requests;
 
-    EntityWriter(ContextBroker broker, Batches batches) {
-        this.broker = broker;
+    /** @param parallel how many requests may be under way at a time */
+    EntityWriter(BrokerClient client, ContextBrokerApi api, Batches batches, int parallel) {
+        this.client = client;
+        this.api = api;
         this.batches = batches;
+        this.requests = parallel == 1 ? null : Executors.newFixedThreadPool(parallel, EntityWriter::daemon);
     }
 
-    /** Returns the updates that were refused; all others are written. */
-    List<RefusedUpdate> write(List<Update> updates) throws AwayException, WrongSettingException {
-        List<RefusedUpdate> refused = new ArrayList<>();
-        for (List<Update> batch : batches.cut(updates)) {
-            writeOrIsolate(batch, refused);
-        }
-        return refused;
+    private static Thread daemon(Runnable task) {
+        Thread thread = new Thread(task, "ngsi-sink-request");
+        thread.setDaemon(true);
+        return thread;
     }
 
-    private void writeOrIsolate(List<Update> batch, List<RefusedUpdate> refused)
-            throws AwayException, WrongSettingException {
-        Outcome outcome = broker.append(batch.get(0).scope(), batch);
-        if (outcome instanceof Outcome.Away away) {
-            throw new AwayException(away);
-        } else if (outcome instanceof Outcome.WrongSetting wrong) {
-            throw new WrongSettingException(wrong);
-        } else if (outcome instanceof Outcome.Refused refusal && batch.size() == 1) {
-            refused.add(new RefusedUpdate(batch.get(0), refusal.words()));
-        } else if (outcome instanceof Outcome.Refused) {
-            for (Update update : batch) {
-                writeOrIsolate(List.of(update), refused);
+    /** An interrupt while it waits stays set and counts as {@link Outcome.Away}. */
+    Result write(List<Update> updates) {
+        List<List<Rendered>> cut = batches.cut(updates.stream()
+                .map(update -> new Rendered(update, api.render(update)))
+                .toList());
+        Result all = Result.empty();
+        if (requests == null || cut.size() == 1) {
+            for (int i = 0; i < cut.size() && all.failure() == null; i++) {
+                all = all.and(write(cut.get(i), Result.empty()));
             }
+            return all;
+        }
+        return writeTogether(cut);
+    }
+
+    /** Waits for all of them, also after one has failed: what is under way must not overtake a second try. */
+    private Result writeTogether(List<List<Rendered>> cut) {
+        List<Future<Result>> underWay = new ArrayList<>();
+        for (List<Rendered> batch : cut) {
+            underWay.add(requests.submit(() -> write(batch, Result.empty())));
+        }
+        Result all = Result.empty();
+        boolean interrupted = false;
+        for (Future<Result> one : underWay) {
+            while (true) {
+                try {
+                    all = all.and(one.get());
+                    break;
+                } catch (InterruptedException e) {
+                    interrupted = true;
+                } catch (ExecutionException e) {
+                    throw new IllegalStateException("a request failed for a reason of its own", e.getCause());
+                }
+            }
+        }
+        if (interrupted) {
+            Thread.currentThread().interrupt();
+        }
+        return all;
+    }
+
+    private Result write(List<Rendered> batch, Result soFar) {
+        Outcome outcome = client.send(api.write(
+                batch.get(0).update().key().scope(),
+                batch.stream().map(Rendered::json).toList()));
+        if (outcome instanceof Outcome.Done done) {
+            return taken(batch, done, soFar);
+        } else if (outcome instanceof Outcome.Refused refusal) {
+            return refused(batch, refusal.words(), soFar);
+        } else if (outcome instanceof Outcome.Absent absent) {
+            return soFar.failed(new Outcome.WrongSetting(api.name() + " is not there: " + absent.words()));
+        }
+        return soFar.failed(outcome);
+    }
+
+    private Result taken(List<Rendered> batch, Outcome.Done done, Result soFar) {
+        try {
+            Map<String, String> refused = api.refused(done);
+            for (Rendered one : batch) {
+                String words = refused.get(api.idOf(one.update()));
+                if (words == null) {
+                    soFar.written().add(one.update());
+                } else {
+                    soFar.refused().add(new RefusedUpdate(one.update(), words));
+                }
+            }
+            return soFar;
+        } catch (UnreadableException e) {
+            return refused(batch, done.status() + " with a body that is no JSON: " + e.getMessage(), soFar);
+        }
+    }
+
+    private Result refused(List<Rendered> batch, String words, Result soFar) {
+        if (batch.size() == 1) {
+            soFar.refused().add(new RefusedUpdate(batch.get(0).update(), words));
+            return soFar;
+        }
+        int half = batch.size() / 2;
+        Result first = write(batch.subList(0, half), soFar);
+        return first.failure() == null ? write(batch.subList(half, batch.size()), first) : first;
+    }
+
+    @Override
+    public void close() {
+        if (requests != null) {
+            requests.shutdownNow();
         }
     }
 }

@@ -1,39 +1,38 @@
 package io.furrow.connect.sink;
 
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Map;
 
+import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.errors.DataException;
 import org.apache.kafka.connect.errors.RetriableException;
-import org.apache.kafka.connect.header.Header;
 import org.apache.kafka.connect.sink.ErrantRecordReporter;
 import org.apache.kafka.connect.sink.SinkRecord;
 import org.apache.kafka.connect.sink.SinkTask;
 
 import io.furrow.connect.PluginVersion;
-import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerOptions;
-import io.furrow.connect.sink.EntityWriter.AwayException;
-import io.furrow.connect.sink.EntityWriter.RefusedUpdate;
-import io.furrow.connect.sink.EntityWriter.WrongSettingException;
-import io.furrow.model.event.FiwareScope;
+import io.furrow.connect.sink.ContextWriter.Fates;
+import io.furrow.connect.sink.ContextWriter.RefusedChange;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Writes each delivery of the worker as one update per entity. A record that cannot be read or is refused goes to the
- * errant-record reporter, after all others are written; a context broker that is away gets the same records again.
+ * Writes each delivery of the worker before it asks for the next, so that what is committed is written. A record that cannot
+ * be read or is refused goes to the errant-record reporter, after all others are written; a context broker that is away gets
+ * the same records again.
  */
 public class NgsiSinkTask extends SinkTask {
     private record Errant(SinkRecord record, Exception cause) {}
 
-    private EntityWriter writer;
-    private FiwareScope defaultScope;
-    private Duration backoff;
+    private final SinkLedger ledger = new SinkLedger();
+    private SinkEntityOptions entities;
+    private ChangeReader reader;
+    private ContextWriter writer;
+    private Backoff backoff;
 
     /** Made by the worker. */
     public NgsiSinkTask() {}
@@ -46,60 +45,76 @@ public class NgsiSinkTask extends SinkTask {
     @Override
     public void start(Map<String, String> properties) {
         NgsiSinkConfig config = new NgsiSinkConfig(properties);
-        ContextBroker broker =
-                new ContextBroker(new BrokerClient(config.broker().settings()));
-        writer = new EntityWriter(broker, config.batches());
-        defaultScope = config.scope();
-        backoff = config.retryBackoff();
+        entities = config.entities();
+        reader = new ChangeReader(entities.scope(), entities.defaultType());
+        writer = config.writer();
+        backoff = config.delivery().backoff();
+    }
+
+    /** Other tasks may have written what this one remembers. */
+    @Override
+    public void open(Collection<TopicPartition> partitions) {
+        writer.forget();
     }
 
     @Override
     public void put(Collection<SinkRecord> delivered) {
         List<SinkRecord> records = List.copyOf(delivered);
+        if (records.isEmpty()) {
+            return;
+        }
         List<Errant> errant = new ArrayList<>();
-        EntityUpdates updates = read(records, errant);
-        for (RefusedUpdate refused : write(updates)) {
-            String message = "the context broker refuses the entity: " + refused.words();
-            for (int source : refused.update().sources()) {
-                errant.add(new Errant(records.get(source), new DataException(message)));
+        List<Change> changes = new ArrayList<>(records.size());
+        int echo = 0;
+        int ignored = 0;
+        for (int i = 0; i < records.size(); i++) {
+            SinkRecord record = records.get(i);
+            if (entities.isEcho(ChangeReader.header(record, HeaderNames.CE_SOURCE, ""))) {
+                echo++;
+            } else if (record.value() == null && !entities.deletesOnNull()) {
+                ignored++;
+            } else {
+                read(record, i, changes, errant);
             }
         }
+        int unreadable = errant.size();
+        Fates fates = write(changes);
+        for (RefusedChange refused : fates.refused) {
+            String message = "the context broker refuses the entity: " + refused.words();
+            errant.add(new Errant(records.get(refused.change().source()), new DataException(message)));
+        }
+        count(fates);
+        ledger.received.add(records.size());
+        ledger.echo.add(echo);
+        ledger.ignored.add(ignored);
+        ledger.unreadable.add(unreadable);
         report(errant);
     }
 
-    private EntityUpdates read(List<SinkRecord> records, List<Errant> errant) {
-        EntityUpdates updates = new EntityUpdates();
-        for (int i = 0; i < records.size(); i++) {
-            SinkRecord record = records.get(i);
-            if (record.value() == null) {
-                continue;
-            }
-            try {
-                long time = record.timestamp() == null ? Long.MIN_VALUE : record.timestamp();
-                updates.add(scopeOf(record), ChangeReader.entity(record.value()), time, i);
-            } catch (UnreadableException e) {
-                errant.add(new Errant(record, e));
-            }
-        }
-        return updates;
-    }
-
-    private FiwareScope scopeOf(SinkRecord record) throws UnreadableException {
-        return ChangeReader.scope(
-                header(record, HeaderNames.SERVICE, defaultScope.service()),
-                header(record, HeaderNames.SERVICE_PATH, defaultScope.servicePath()));
-    }
-
-    private static String header(SinkRecord record, String name, String otherwise) {
-        Header header = record.headers().lastWithName(name);
-        return header == null || header.value() == null ? otherwise : String.valueOf(header.value());
-    }
-
-    private List<RefusedUpdate> write(EntityUpdates updates) {
+    private void read(SinkRecord record, int source, List<Change> changes, List<Errant> errant) {
         try {
-            return writer.write(updates.merged());
-        } catch (AwayException e) {
-            context.timeout(backoff.toMillis());
+            changes.add(reader.read(record, source));
+        } catch (UnreadableException e) {
+            errant.add(new Errant(record, e));
+        }
+    }
+
+    private void count(Fates fates) {
+        ledger.written.add(fates.written);
+        ledger.coalesced.add(fates.coalesced);
+        ledger.stale.add(fates.stale);
+        ledger.deleted.add(fates.deleted);
+        ledger.refused.add(fates.refused.size());
+    }
+
+    private Fates write(List<Change> changes) {
+        try {
+            Fates fates = writer.apply(changes);
+            backoff.reset();
+            return fates;
+        } catch (BrokerAwayException e) {
+            ledger.retried.increment();
+            context.timeout(backoff.after(e.away()).toMillis());
             throw new RetriableException(e.getMessage(), e);
         } catch (WrongSettingException e) {
             String remedy = "; check " + BrokerOptions.URL + " and the rights of this client";
@@ -120,7 +135,10 @@ public class NgsiSinkTask extends SinkTask {
         }
     }
 
-    /** Nothing is kept between deliveries. */
     @Override
-    public void stop() {}
+    public void stop() {
+        if (writer != null) {
+            writer.close();
+        }
+    }
 }

@@ -7,9 +7,13 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Function;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.eclipse.jetty.http.HttpField;
 import org.eclipse.jetty.io.Content;
 import org.eclipse.jetty.server.Handler;
@@ -23,22 +27,42 @@ import org.eclipse.jetty.util.component.LifeCycle;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Takes {@code POST /v2/op/update} over real HTTP and keeps each attribute's last value; answers as a test says. */
+/**
+ * A context broker over real HTTP that keeps the last value of each attribute, by id: batch updates, queries and deletions of
+ * NGSI-v2 and NGSI-LD. Writes are answered as a test says; those answered below 300 are done.
+ */
 final class FakeContextBroker implements AutoCloseable {
-    /** One update as it came in. */
-    record Update(String path, String service, String servicePath, JsonNode body) {
+    /** One write as it came in. */
+    record Update(String method, String path, Map<String, String> headers, JsonNode body) {
+        String service() {
+            return headers.get("fiware-service");
+        }
+
+        String servicePath() {
+            return headers.get("fiware-servicepath");
+        }
+
+        JsonNode elements() {
+            return body.isArray() ? body : body.path("entities");
+        }
+
         int size() {
-            return body.path("entities").size();
+            return elements().size();
         }
     }
 
-    /** Status and text. */
-    record Reply(int status, String text) {
+    /** Status, text, and a Retry-After or null. */
+    record Reply(int status, String text, String retryAfter) {
         static final Reply WRITTEN = new Reply(204, "");
+
+        Reply(int status, String text) {
+            this(status, text, null);
+        }
     }
 
     final List<Update> requests = new CopyOnWriteArrayList<>();
     final Map<String, JsonNode> entities = new ConcurrentHashMap<>();
+    final AtomicInteger queries = new AtomicInteger();
     volatile Function<Update, Reply> behaviour = request -> Reply.WRITTEN;
 
     private final Server server = new Server();
@@ -52,6 +76,9 @@ final class FakeContextBroker implements AutoCloseable {
             public boolean handle(Request request, Response response, Callback callback) throws IOException {
                 Reply reply = take(request);
                 response.setStatus(reply.status());
+                if (reply.retryAfter() != null) {
+                    response.getHeaders().put("Retry-After", reply.retryAfter());
+                }
                 Content.Sink.write(response, true, reply.text(), callback);
                 return true;
             }
@@ -63,30 +90,61 @@ final class FakeContextBroker implements AutoCloseable {
         return URI.create("http://127.0.0.1:" + connector.getLocalPort());
     }
 
+    /** The value of an attribute, or a missing node. */
+    JsonNode value(String id, String attribute) {
+        JsonNode entity = entities.get(id);
+        return entity == null
+                ? NgsiJson.mapper().missingNode()
+                : entity.path(attribute).path("value");
+    }
+
     private Reply take(Request request) throws IOException {
         String body = Content.Source.asString(request, StandardCharsets.UTF_8);
+        String path = request.getHttpURI().getPathQuery();
         try {
-            Update update = new Update(
-                    Request.getPathInContext(request),
-                    header(request, "Fiware-Service"),
-                    header(request, "Fiware-Servicepath"),
-                    NgsiJson.read(body.getBytes(StandardCharsets.UTF_8)));
+            JsonNode json = body.isEmpty()
+                    ? NgsiJson.mapper().missingNode()
+                    : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8));
+            if (path.startsWith("/v2/op/query")) {
+                queries.incrementAndGet();
+                return found(json.path("entities").findValuesAsText("id"));
+            } else if (request.getMethod().equals("GET")) {
+                queries.incrementAndGet();
+                return found(List.of(
+                        Request.extractQueryParameters(request).getValue("id").split(",")));
+            }
+            Map<String, String> headers = new ConcurrentHashMap<>();
+            for (HttpField field : request.getHeaders()) {
+                headers.put(field.getLowerCaseName(), field.getValue());
+            }
+            Update update = new Update(request.getMethod(), path, headers, json);
             requests.add(update);
             Reply reply = behaviour.apply(update);
-            if (reply.status() < 300) {
-                update.body()
-                        .path("entities")
-                        .forEach(entity -> entities.put(entity.path("id").textValue(), entity));
-            }
-            return reply;
+            return reply.status() < 300 ? done(update, reply) : reply;
         } catch (UnreadableException e) {
             return new Reply(400, e.getMessage());
         }
     }
 
-    private static String header(Request request, String name) {
-        HttpField field = request.getHeaders().getField(name);
-        return field == null ? null : field.getValue();
+    private Reply found(List<String> ids) {
+        ArrayNode found = JsonNodeFactory.instance.arrayNode();
+        ids.stream().distinct().filter(entities::containsKey).map(entities::get).forEach(found::add);
+        return new Reply(200, found.toString());
+    }
+
+    private Reply done(Update update, Reply reply) {
+        if (update.method().equals("DELETE")) {
+            String id = update.path().substring(update.path().lastIndexOf('/') + 1);
+            return entities.remove(id.replace("%3A", ":")) == null ? new Reply(404, "none") : reply;
+        }
+        for (JsonNode entity : update.elements()) {
+            String id = entity.path("id").textValue();
+            if (!reply.text().contains('"' + id + '"')) {
+                entities.merge(
+                        id, entity, (before, after) -> ((ObjectNode) before.deepCopy()).setAll((ObjectNode) after));
+            }
+        }
+        return reply;
     }
 
     @Override

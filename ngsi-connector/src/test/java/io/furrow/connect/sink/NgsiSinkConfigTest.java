@@ -19,7 +19,7 @@ class NgsiSinkConfigTest {
         NgsiSinkConfig config = new NgsiSinkConfig(Map.of("context.broker.url", "http://orion:1026"));
 
         assertThat(config.broker().url()).hasToString("Optional[http://orion:1026]");
-        assertThat(config.scope()).isEqualTo(FiwareScope.DEFAULT);
+        assertThat(config.entities().scope()).isEqualTo(FiwareScope.DEFAULT);
         assertThatThrownBy(() -> new NgsiSinkConfig(Map.of()))
                 .isInstanceOf(ConfigException.class)
                 .hasMessageContaining("context.broker.url");
@@ -36,7 +36,17 @@ class NgsiSinkConfigTest {
         "batch.size, 0",
         "batch.bytes, -1",
         "context.broker.timeout.ms, never",
-        "retry.backoff.ms, 0"
+        "retry.backoff.ms, 0",
+        "retry.backoff.max.ms, 10",
+        "api, ngsi-v1",
+        "ngsi.ld.context, context.jsonld",
+        "time.metadata, a b",
+        "entity.type, a b",
+        "delete.on.null, maybe",
+        "echo.sources, (",
+        "parallel.requests, 0",
+        "known.attributes.max, -1",
+        "context.broker.truststore.location, /nowhere"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {
         Map<String, String> options = new HashMap<>(Map.of("context.broker.url", "http://orion:1026"));

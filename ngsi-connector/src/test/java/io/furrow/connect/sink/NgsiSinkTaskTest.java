@@ -44,9 +44,15 @@ class NgsiSinkTaskTest {
                 .extracting(Update::path, Update::service, Update::servicePath, Update::size)
                 .containsExactlyInAnyOrder(
                         tuple("/v2/op/update", "farm", "/root", 1), tuple("/v2/op/update", "agri", "/plot1", 1));
-        assertThat(broker.requests.get(0).body()).hasToString("""
+        assertThat(broker.requests.stream()
+                        .filter(update -> update.service().equals("farm"))
+                        .findFirst()
+                        .orElseThrow()
+                        .body())
+                .hasToString("""
                         {"actionType":"append","entities":[{"id":"a","type":"T",\
-                        "x":{"type":"Integer","value":2,"metadata":{}}}]}""");
+                        "x":{"type":"Integer","value":2,"metadata":{"TimeInstant":{"type":"DateTime",\
+                        "value":"1970-01-01T00:00:01.002Z"}}}}]}""");
     }
 
     @Test
@@ -91,10 +97,11 @@ class NgsiSinkTaskTest {
     }
 
     @Test
-    void ignoresDeletions() {
+    void leavesDeletionsOutUnlessToldOtherwise() {
+        task.put(List.of(record("a", entity("a", 1))));
         task.put(List.of(record("a", null), record("b", entity("b", 1))));
 
-        assertThat(broker.entities).containsOnlyKeys("b");
+        assertThat(broker.entities).containsOnlyKeys("a", "b");
         assertThat(context.reported).isEmpty();
     }
 
@@ -108,6 +115,29 @@ class NgsiSinkTaskTest {
                 .hasMessageContaining(status + " later");
         assertThat(context.timeouts).containsExactly(50L);
         assertThat(context.reported).as("it will come again, once is enough").isEmpty();
+    }
+
+    @Test
+    void waitsTwiceAsLongAfterEachFailureAndAsLongAsTheBrokerAsksFor() {
+        List<SinkRecord> records = List.of(record("a", entity("a", 1)));
+        broker.behaviour = update -> new Reply(429, "", broker.requests.size() == 3 ? "7" : null);
+        for (int i = 0; i < 5; i++) {
+            assertThatThrownBy(() -> task.put(records)).isInstanceOf(RetriableException.class);
+        }
+        broker.behaviour = update -> Reply.WRITTEN;
+        task.put(records);
+        broker.behaviour = update -> new Reply(503, "");
+        assertThatThrownBy(() -> task.put(records)).isInstanceOf(RetriableException.class);
+
+        assertThat(context.timeouts).containsExactly(50L, 100L, 7_000L, 300L, 300L, 50L);
+    }
+
+    @Test
+    void readsKeyValuesAndTakesTheIdOfTheKeyWhereThereIsNone() {
+        task.put(List.of(record("a", "{\"type\": \"T\", \"x\": 5}")));
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(5);
+        assertThat(broker.entities.get("a").path("x").path("type").textValue()).isEqualTo("Number");
     }
 
     @Test
@@ -158,7 +188,8 @@ class NgsiSinkTaskTest {
                 "context.broker.url", url + "/",
                 "fiware.service", "farm",
                 "fiware.servicepath", "/root",
-                "retry.backoff.ms", "50"));
+                "retry.backoff.ms", "50",
+                "retry.backoff.max.ms", "300"));
         return task;
     }
 

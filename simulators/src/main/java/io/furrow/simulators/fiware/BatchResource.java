@@ -8,7 +8,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.simulators.fiware.EntityUpdate.Action;
 
-/** {@code POST /v2/op/update}: the entities of a batch are updated one after the other, each with its notifications. */
+/**
+ * {@code POST /v2/op/query}, and {@code POST /v2/op/update}: the entities of a batch are updated one after the other, each with its notifications.
+ */
 final class BatchResource {
     private final ContextBroker broker;
 
@@ -17,11 +19,15 @@ final class BatchResource {
     }
 
     Reply answer(Call call) throws NgsiError {
-        if (call.path().size() != 3 || !call.path().get(2).equals("update")) {
+        String operation = call.path().size() == 3 ? call.path().get(2) : "";
+        if (!operation.equals("update") && !operation.equals("query")) {
             throw NgsiError.noService();
         }
         if (!call.method().equals("POST")) {
             throw NgsiError.badMethod();
+        }
+        if (operation.equals("query")) {
+            return BatchQuery.reply(call, broker);
         }
         JsonNode json = call.json();
         Action action = Action.of(json.path("actionType").asText());

@@ -1,0 +1,98 @@
+package io.furrow.connect.sink;
+
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+
+/**
+ * The event time of every attribute of an entity, per type where several entities share the id, and of its last deletion.
+ * Arrays, because a hundred thousand entities are remembered.
+ */
+final class EntityTimes {
+    private String[] types = {};
+    private String[] names = {};
+    private long[] times = {};
+    private long deletedAt = Change.NO_TIME;
+
+    /** {@link Change#NO_TIME} where nothing is known. */
+    long of(String type, String name) {
+        int found = find(type, name);
+        return found < 0 ? Change.NO_TIME : times[found];
+    }
+
+    long deletedAt() {
+        return deletedAt;
+    }
+
+    /** Of all attributes of all types. */
+    long newest() {
+        return Arrays.stream(times).max().orElse(Change.NO_TIME);
+    }
+
+    /** How many attributes are known. */
+    int size() {
+        return names.length;
+    }
+
+    void put(String type, String name, long time) {
+        int found = find(type, name);
+        if (found >= 0) {
+            times[found] = time;
+            return;
+        }
+        int last = names.length;
+        types = Arrays.copyOf(types, last + 1);
+        names = Arrays.copyOf(names, last + 1);
+        times = Arrays.copyOf(times, last + 1);
+        types[last] = type.intern();
+        names[last] = name.intern();
+        times[last] = time;
+    }
+
+    /** Forgets all attributes; what is older than the deletion stays deleted. */
+    void delete(long time) {
+        types = new String[0];
+        names = new String[0];
+        times = new long[0];
+        deletedAt = Math.max(deletedAt, time);
+    }
+
+    /** An attribute of an entity of this type. */
+    record Name(String type, String attribute) {}
+
+    /** The attributes that are not newer. */
+    List<Name> upTo(long time) {
+        List<Name> older = new ArrayList<>();
+        for (int i = 0; i < names.length; i++) {
+            if (times[i] <= time) {
+                older.add(new Name(types[i], names[i]));
+            }
+        }
+        return older;
+    }
+
+    /** Remembers a deletion that newer attributes outlive, and forgets the others. */
+    void outlive(long time) {
+        deletedAt = Math.max(deletedAt, time);
+        int kept = 0;
+        for (int i = 0; i < names.length; i++) {
+            if (times[i] > time) {
+                types[kept] = types[i];
+                names[kept] = names[i];
+                times[kept++] = times[i];
+            }
+        }
+        types = Arrays.copyOf(types, kept);
+        names = Arrays.copyOf(names, kept);
+        times = Arrays.copyOf(times, kept);
+    }
+
+    private int find(String type, String name) {
+        for (int i = 0; i < names.length; i++) {
+            if (names[i].equals(name) && types[i].equals(type)) {
+                return i;
+            }
+        }
+        return -1;
+    }
+}

@@ -1,0 +1,248 @@
+package io.furrow.connect.sink;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.sink.SinkRecord;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import io.furrow.connect.sink.FakeContextBroker.Update;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** What is newer by event time stays, whatever comes when. */
+class NewestValueTest {
+    private final FakeContextBroker broker = new FakeContextBroker();
+    private final Map<String, String> options =
+            new HashMap<>(Map.of("context.broker.url", broker.url().toString(), "delete.on.null", "true"));
+    private final FakeSinkContext context = new FakeSinkContext(true);
+    private NgsiSinkTask task = started();
+
+    @AfterEach
+    void stop() {
+        task.stop();
+        broker.close();
+    }
+
+    @Test
+    void keepsBothOfTwoPartialUpdatesInOneDelivery() {
+        task.put(List.of(record("a", "x", 1, 10), record("a", "y", 2, 5)));
+
+        assertThat(broker.requests).hasSize(1);
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(1);
+        assertThat(broker.value("a", "y").intValue()).isEqualTo(2);
+    }
+
+    @Test
+    void writesNothingThatIsOlderThanWhatAnEarlierDeliveryWrote() {
+        task.put(List.of(record("a", "x", 2, 20)));
+        task.put(List.of(record("a", "x", 1, 10)));
+
+        assertThat(broker.requests).hasSize(1);
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(2);
+    }
+
+    @Test
+    void writesWhatIsAsOldAgainBecauseItMayBeACorrection() {
+        task.put(List.of(record("a", "x", 2, 20)));
+        task.put(List.of(record("a", "x", 3, 20)));
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(3);
+    }
+
+    @Test
+    void readsTheTimesOfAnEntityOnceAfterAStart() {
+        task.put(List.of(record("a", "x", 2, 20)));
+        restart();
+        task.put(List.of(record("a", "x", 1, 10), record("a", "y", 1, 10)));
+        task.put(List.of(record("a", "x", 0, 15)));
+
+        assertThat(broker.queries).hasValue(2);
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(2);
+        assertThat(broker.value("a", "y").intValue()).isEqualTo(1);
+    }
+
+    @Test
+    void readsThemAgainWhenItsPartitionsAreNew() {
+        task.put(List.of(record("a", "x", 1, 10)));
+        broker.entities.put(
+                "a",
+                json("{'id':'a','type':'T','x':{'value':3,'type':'Integer','metadata':{"
+                        + "'TimeInstant':{'type':'DateTime','value':'1970-01-01T00:00:00.030Z'}}}}"));
+        task.open(List.of(new TopicPartition("t", 0)));
+        task.put(List.of(record("a", "x", 2, 20)));
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(3);
+    }
+
+    /** Time of the entity 50; the attribute changed with it or before, or after it at 70. */
+    @ParameterizedTest
+    @CsvSource({"60, 60, 51, true", "60, 60, 49, false", "70, 60, 61, false", "70, 60, 71, true"})
+    void takesWhatOthersWroteForAsOldAsTheEntitySaysUnlessItWasChangedSince(
+            int modified, int reported, int time, boolean written) {
+        broker.entities.put(
+                "a",
+                json(("{'id':'a','type':'T','Time':{'type':'Integer','value':50,'metadata':{'dateModified':"
+                                + "{'type':'DateTime','value':'1970-01-01T00:00:00.0%dZ'}}},'x':{'type':'Integer','value':1,"
+                                + "'metadata':{'dateModified':{'type':'DateTime','value':'1970-01-01T00:00:00.0%dZ'}}}}")
+                        .formatted(reported, modified)));
+
+        task.put(List.of(record("a", "x", 2, time)));
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(written ? 2 : 1);
+    }
+
+    @Test
+    void deletesTheEntityOfARecordWithoutValueAndDoesNotBringItBackForOlderData() {
+        task.put(List.of(record("urn:x:a", "x", 1, 10)));
+        task.put(List.of(deletion("urn:x:a", 20)));
+        task.put(List.of(record("urn:x:a", "x", 2, 15)));
+        assertThat(broker.entities).isEmpty();
+        assertThat(broker.requests)
+                .extracting(Update::method, Update::path)
+                .last()
+                .hasToString("(\"DELETE\", \"/v2/entities/urn%3Ax%3Aa\")");
+
+        task.put(List.of(record("urn:x:a", "y", 3, 30)));
+        assertThat(broker.entities.get("urn:x:a").has("x")).isFalse();
+        assertThat(broker.value("urn:x:a", "y").intValue()).isEqualTo(3);
+    }
+
+    @Test
+    void takesAnAbsentEntityForDeleted() {
+        task.put(List.of(deletion("a", 20)));
+
+        assertThat(context.reported).isEmpty();
+        assertThat(broker.requests).extracting(Update::method).containsExactly("DELETE");
+    }
+
+    @Test
+    void leavesWhatIsNewerThanADeletion() {
+        task.put(List.of(record("a", "x", 1, 10), record("a", "y", 2, 30)));
+        task.put(List.of(deletion("a", 20)));
+
+        assertThat(broker.requests)
+                .extracting(Update::path)
+                .containsExactly("/v2/op/update", "/v2/entities/a/attrs/x?type=T");
+    }
+
+    @Test
+    void leavesOutWhatCameFromAContextBrokerUnlessToldOtherwise() {
+        SinkRecord echo = record("a", "x", 1, 10);
+        echo.headers().addString("ce_source", "/ngsi/51c0ac9ed714fb3b37d7d5a8");
+        SinkRecord news = record("b", "x", 1, 10);
+        news.headers().addString("ce_source", "/furrow/temperature");
+
+        task.put(List.of(echo, news));
+        assertThat(broker.entities).containsOnlyKeys("b");
+
+        options.put("echo.sources", "");
+        restart();
+        task.put(List.of(echo));
+        assertThat(broker.entities).containsOnlyKeys("a", "b");
+    }
+
+    @Test
+    void takesTheStatedTimeWhereTheTopicStampsRecordsItself() {
+        SinkRecord late =
+                new SinkRecord("t", 0, null, "a", null, entity("a", "x", 1), 0, 99_000L, TimestampType.LOG_APPEND_TIME);
+        late.headers().addString("ce_time", "1970-01-01T00:00:00.010Z");
+        task.put(List.of(record("a", "x", 2, 20)));
+        task.put(List.of(late));
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(2);
+    }
+
+    @Test
+    void isolatesOneOfManyInFewRequests() {
+        options.put("batch.size", "1024");
+        restart();
+        broker.behaviour = update -> update.body().toString().contains("\"e77\"")
+                ? new FakeContextBroker.Reply(400, "no")
+                : FakeContextBroker.Reply.WRITTEN;
+        List<SinkRecord> records = new ArrayList<>();
+        for (int i = 0; i < 1024; i++) {
+            records.add(record("e" + i, "x", i, i));
+        }
+
+        task.put(records);
+
+        assertThat(broker.entities).hasSize(1023);
+        assertThat(broker.requests).hasSize(21);
+    }
+
+    @Test
+    void triesTheRecordsOfARefusedUpdateOneByOne() {
+        broker.behaviour = update -> update.body().toString().contains("\"bad\"")
+                ? new FakeContextBroker.Reply(400, "no")
+                : FakeContextBroker.Reply.WRITTEN;
+
+        task.put(List.of(record("a", "x", 1, 10), record("a", "bad", 2, 20), record("a", "x", 0, 5)));
+
+        assertThat(broker.value("a", "x").intValue()).isEqualTo(1);
+        assertThat(context.reported)
+                .singleElement()
+                .satisfies(reported -> assertThat(reported.record().timestamp()).isEqualTo(20));
+    }
+
+    @Test
+    void keepsEntitiesOfOneIdAndTwoTypesApart() {
+        task.put(List.of(
+                record("a", "x", 1, 10),
+                new SinkRecord(
+                        "t",
+                        0,
+                        null,
+                        "a",
+                        null,
+                        Entity.builder("a", "Other").integer("x", 2).build().toBytes(),
+                        0,
+                        5L,
+                        TimestampType.CREATE_TIME)));
+
+        assertThat(broker.requests)
+                .singleElement()
+                .satisfies(update -> assertThat(update.size()).isEqualTo(2));
+    }
+
+    private void restart() {
+        task.stop();
+        task = started();
+    }
+
+    private NgsiSinkTask started() {
+        NgsiSinkTask started = new NgsiSinkTask();
+        started.initialize(context);
+        started.start(options);
+        return started;
+    }
+
+    private static com.fasterxml.jackson.databind.JsonNode json(String quoted) {
+        try {
+            return NgsiJson.mapper().readTree(quoted.replace('\'', '"'));
+        } catch (java.io.IOException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    private static SinkRecord record(String id, String attribute, long value, long time) {
+        return new SinkRecord("t", 0, null, id, null, entity(id, attribute, value), 0, time, TimestampType.CREATE_TIME);
+    }
+
+    private static byte[] entity(String id, String attribute, long value) {
+        return Entity.builder(id, "T").integer(attribute, value).build().toBytes();
+    }
+
+    private static SinkRecord deletion(String id, long time) {
+        return new SinkRecord("t", 0, null, id, null, null, 0, time, TimestampType.CREATE_TIME);
+    }
+}

@@ -1,0 +1,125 @@
+package io.furrow.connect.sink;
+
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.sink.SinkRecord;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.connect.sink.FakeContextBroker.Reply;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class NgsiLdSinkTest {
+    private final FakeContextBroker broker = new FakeContextBroker();
+    private final FakeSinkContext context = new FakeSinkContext(true);
+    private NgsiSinkTask task = started();
+
+    @AfterEach
+    void stop() {
+        task.stop();
+        broker.close();
+    }
+
+    @Test
+    void writesPropertiesRelationshipsAndGeoProperties() throws Exception {
+        task.put(List.of(record("barn1", 1_000, """
+                {"id": "barn1", "type": "Barn",
+                 "weight": {"type": "Number", "value": 1.50, "metadata": {
+                    "unitCode": {"type": "Text", "value": "KGM"}, "accuracy": {"type": "Number", "value": 2},
+                    "TimeInstant": {"type": "DateTime", "value": "2020-01-01T00:00:00Z"}}},
+                 "built": {"type": "DateTime", "value": "1970-01-02T00:00:00Z", "metadata": {}},
+                 "refOwner": {"type": "Relationship", "value": "urn:ngsi-ld:Person:1", "metadata": {}},
+                 "near": {"type": "Relationship", "value": ["barn2", "urn:x:3"], "metadata": {}},
+                 "location": {"type": "geo:point", "value": "40.1, -3.5", "metadata": {}},
+                 "area": {"type": "geo:json", "value": {"type": "Point", "coordinates": [1, 2]}, "metadata": {}},
+                 "none": {"type": "None", "value": null, "metadata": {}},
+                 "dateModified": {"type": "DateTime", "value": "2020-01-01T00:00:00Z", "metadata": {}}}""")));
+
+        assertThat(broker.requests).singleElement().satisfies(update -> {
+            assertThat(update.path()).isEqualTo("/ngsi-ld/v1/entityOperations/upsert?options=update");
+            assertThat(update.headers())
+                    .containsEntry("ngsild-tenant", "farm")
+                    .containsEntry("content-type", "application/json")
+                    .containsEntry(
+                            "link",
+                            "<http://example.org/c.jsonld>; rel=\"http://www.w3.org/ns/json-ld#context\";"
+                                    + " type=\"application/ld+json\"");
+            assertThat(update.body()).isEqualTo(NgsiJson.mapper().readTree("""
+                    [{"id": "urn:ngsi-ld:Barn:barn1", "type": "Barn",
+                      "weight": {"type": "Property", "value": 1.50, "unitCode": "KGM",
+                        "accuracy": {"type": "Property", "value": 2}, "observedAt": "1970-01-01T00:00:01Z"},
+                      "built": {"type": "Property", "value": {"@type": "DateTime", "@value": "1970-01-02T00:00:00Z"},
+                        "observedAt": "1970-01-01T00:00:01Z"},
+                      "refOwner": {"type": "Relationship", "object": "urn:ngsi-ld:Person:1",
+                        "observedAt": "1970-01-01T00:00:01Z"},
+                      "near": {"type": "Relationship", "object": ["urn:ngsi-ld:near:barn2", "urn:x:3"],
+                        "observedAt": "1970-01-01T00:00:01Z"},
+                      "location": {"type": "GeoProperty", "value": {"type": "Point", "coordinates": [-3.5, 40.1]},
+                        "observedAt": "1970-01-01T00:00:01Z"},
+                      "area": {"type": "GeoProperty", "value": {"type": "Point", "coordinates": [1, 2]},
+                        "observedAt": "1970-01-01T00:00:01Z"}}]"""));
+        });
+    }
+
+    @Test
+    void setsAsideWhatAMultiStatusAnswerRefusesAndNothingElse() {
+        broker.behaviour = update -> new Reply(207, """
+                {"success": ["urn:x:a", "urn:x:c"], "errors": [
+                  {"entityId": "urn:x:b", "error": {"title": "Bad Request", "detail": "no such thing", "status": 400}}]}
+                """.replace("\"urn:x:a\", \"urn:x:c\"", ""));
+
+        task.put(List.of(record("urn:x:a", 1), record("urn:x:b", 1), record("urn:x:c", 1)));
+
+        assertThat(broker.requests).hasSize(1);
+        assertThat(broker.entities).containsOnlyKeys("urn:x:a", "urn:x:c");
+        assertThat(context.reported).singleElement().satisfies(reported -> {
+            assertThat(reported.record().key()).isEqualTo("urn:x:b");
+            assertThat(reported.cause()).hasMessageContaining("no such thing");
+        });
+    }
+
+    @Test
+    void neverOverwritesWhatIsNewerAlsoAfterAStart() {
+        broker.behaviour = update -> new Reply(201, "[]");
+        task.put(List.of(record("7", 20)));
+        task.stop();
+        task = started();
+        task.put(List.of(record("7", 10)));
+
+        assertThat(broker.requests).hasSize(1);
+        assertThat(broker.entities).containsOnlyKeys("urn:ngsi-ld:T:7");
+    }
+
+    @Test
+    void deletesByIdAndScope() {
+        task.put(List.of(record("urn:x:a", 1)));
+        task.put(List.of(new SinkRecord("t", 0, null, "urn:x:a", null, null, 0, 9L, TimestampType.CREATE_TIME)));
+
+        assertThat(broker.entities).isEmpty();
+        assertThat(broker.requests.get(1).headers()).containsEntry("ngsild-tenant", "farm");
+    }
+
+    private NgsiSinkTask started() {
+        NgsiSinkTask started = new NgsiSinkTask();
+        started.initialize(context);
+        started.start(Map.of(
+                "context.broker.url", broker.url().toString(),
+                "api", "ngsi-ld",
+                "ngsi.ld.context", "http://example.org/c.jsonld",
+                "delete.on.null", "true",
+                "fiware.service", "farm"));
+        return started;
+    }
+
+    private static SinkRecord record(String id, long time) {
+        return record(id, time, "{\"id\": \"" + id + "\", \"type\": \"T\", \"x\": 1}");
+    }
+
+    private static SinkRecord record(String id, long time, String json) {
+        return new SinkRecord("t", 0, null, id, null, json, 0, time, TimestampType.CREATE_TIME);
+    }
+}
