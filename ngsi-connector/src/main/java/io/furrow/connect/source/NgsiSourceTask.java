@@ -20,6 +20,7 @@ import io.furrow.connect.PluginVersion;
 import io.furrow.connect.journal.JournalFolders;
 import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.ledger.LedgerBean;
 
 /** Listens for notifications, answers when they are in its journal, and hands the journal's records to the worker. */
 public class NgsiSourceTask extends SourceTask {
@@ -30,6 +31,7 @@ public class NgsiSourceTask extends SourceTask {
     private final AtomicReference<Reception> reception = new AtomicReference<>();
     private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
     private final AtomicReference<TaskJournals> journals = new AtomicReference<>();
+    private final AtomicReference<LedgerBean> bean = new AtomicReference<>();
     private Ledger ledger;
     private int batchSize;
 
@@ -51,6 +53,7 @@ public class NgsiSourceTask extends SourceTask {
             String journal = journals.get().own().id();
             ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
             ledger.detail("orphans", this::orphans);
+            bean.set(LedgerBean.show(ledger, config.name(), config.taskIndex()));
             reception.set(
                     Reception.open(config, new JournaledIntake(journals.get().own(), ledger), ledger));
             keeper.set(JournalKeeper.start(journals.get(), config.taskCount() > 1));
@@ -137,6 +140,10 @@ public class NgsiSourceTask extends SourceTask {
         Reception listening = reception.getAndSet(null);
         if (listening != null) {
             listening.close();
+        }
+        LedgerBean shown = bean.getAndSet(null);
+        if (shown != null) {
+            shown.close();
         }
         JournalKeeper keeping = keeper.getAndSet(null);
         if (keeping != null) {

@@ -14,6 +14,7 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.LedgerJson;
+import io.furrow.connect.ledger.PrometheusPage;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Everything between the port and the intake; closing it frees the port and answers whoever waits. */
@@ -52,7 +53,7 @@ final class Reception implements AutoCloseable {
                         new ByteBudget(config.overload().memoryBytes(), threads),
                         config.overload().hold().toNanos(),
                         config.overload().resets()),
-                pages(ledger));
+                pages(config, ledger));
         try {
             return new Reception(
                     deliveries, NotificationServer.start(settings(config), threads, handler, ledger, patience));
@@ -63,8 +64,13 @@ final class Reception implements AutoCloseable {
         }
     }
 
-    private static Map<String, Supplier<Page>> pages(Ledger ledger) {
-        return Map.of("/health", () -> new Page("application/json", NgsiJson.write(LedgerJson.of(ledger))));
+    private static Map<String, Supplier<Page>> pages(NgsiSourceConfig config, Ledger ledger) {
+        PrometheusPage prometheus = new PrometheusPage(ledger, config.name(), config.taskIndex());
+        return Map.of(
+                "/health",
+                () -> new Page("application/json", NgsiJson.write(LedgerJson.of(ledger))),
+                "/metrics",
+                () -> new Page(PrometheusPage.CONTENT_TYPE, prometheus.write()));
     }
 
     private static NotificationServer.Settings settings(NgsiSourceConfig config) {

@@ -121,6 +121,17 @@ class NotificationServerTest {
     }
 
     @Test
+    void showsItsNumbersToPrometheus() {
+        rig.post("{\"id\": \"a\"}").join();
+
+        HttpResponse<String> answer = rig.get("/metrics").join();
+
+        assertThat(answer.headers().firstValue("Content-Type")).contains("text/plain; version=0.0.4; charset=utf-8");
+        assertThat(answer.body())
+                .contains("furrow_ngsi_source_accepted_total{connector=\"ngsi-source\",task=\"0\"} 1.0\n");
+    }
+
+    @Test
     void freesItsPortWhenItCloses() {
         assertThat(rig.post("{\"id\": \"a\"}").join().statusCode()).isEqualTo(200);
         int port = rig.port();

@@ -1,0 +1,130 @@
+package io.furrow.connect.ledger;
+
+import java.lang.management.ManagementFactory;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.function.LongSupplier;
+import java.util.regex.Pattern;
+import javax.management.Attribute;
+import javax.management.AttributeList;
+import javax.management.AttributeNotFoundException;
+import javax.management.DynamicMBean;
+import javax.management.InstanceAlreadyExistsException;
+import javax.management.InstanceNotFoundException;
+import javax.management.JMException;
+import javax.management.MBeanAttributeInfo;
+import javax.management.MBeanInfo;
+import javax.management.MBeanServer;
+import javax.management.ObjectName;
+
+/**
+ * The ledger over JMX, while it is open: {@code furrow.connect:type=ngsi-source,connector=…,task=0} with the attributes
+ * {@code received-total} and so on, gauges without {@code -total}.
+ */
+public final class LedgerBean implements AutoCloseable {
+    private static final Pattern NEEDS_NO_QUOTES = Pattern.compile("[\\w-%. ]+");
+
+    private final MBeanServer server = ManagementFactory.getPlatformMBeanServer();
+    private final ObjectName name;
+
+    private LedgerBean(ObjectName name) {
+        this.name = name;
+    }
+
+    /** Shows a ledger, in the place of one that was left under the same name. */
+    public static LedgerBean show(Ledger ledger, String connector, int task) {
+        String plain = NEEDS_NO_QUOTES.matcher(connector).matches() ? connector : ObjectName.quote(connector);
+        try {
+            LedgerBean bean = new LedgerBean(
+                    new ObjectName("furrow.connect:type=ngsi-source,connector=" + plain + ",task=" + task));
+            bean.close();
+            bean.server.registerMBean(new Numbers(ledger), bean.name);
+            return bean;
+        } catch (InstanceAlreadyExistsException e) {
+            throw new IllegalStateException("two tasks show themselves under one name at the same moment", e);
+        } catch (JMException e) {
+            throw new IllegalStateException("cannot show the ledger of " + connector + " over JMX", e);
+        }
+    }
+
+    /** Shows it no more; does nothing if it is not shown. */
+    @Override
+    public void close() {
+        try {
+            server.unregisterMBean(name);
+        } catch (InstanceNotFoundException e) {
+            return; // it is not shown
+        } catch (JMException e) {
+            throw new IllegalStateException("cannot take " + name + " from JMX", e);
+        }
+    }
+
+    /** All as attributes to read; nothing to set, nothing to call. */
+    private record Numbers(Ledger ledger) implements DynamicMBean {
+        private static final String DESCRIPTION = "What a task of the NGSI source has counted since its start.";
+
+        @Override
+        public Object getAttribute(String attribute) throws AttributeNotFoundException {
+            LongSupplier number = numbers().get(attribute);
+            if (number == null) {
+                throw new AttributeNotFoundException(attribute);
+            }
+            return number.getAsLong();
+        }
+
+        @Override
+        public AttributeList getAttributes(String[] names) {
+            Map<String, LongSupplier> numbers = numbers();
+            AttributeList found = new AttributeList();
+            for (String name : names) {
+                if (numbers.containsKey(name)) {
+                    found.add(new Attribute(name, numbers.get(name).getAsLong()));
+                }
+            }
+            return found;
+        }
+
+        private Map<String, LongSupplier> numbers() {
+            Map<String, LongSupplier> numbers = new TreeMap<>();
+            ledger.counters().forEach(counter -> numbers.put(kebabCase(counter.name()) + "-total", counter::sum));
+            ledger.gauges().forEach(gauge -> numbers.put(kebabCase(gauge.name()), gauge.now()));
+            return numbers;
+        }
+
+        @Override
+        public MBeanInfo getMBeanInfo() {
+            List<MBeanAttributeInfo> attributes = new ArrayList<>();
+            ledger.counters()
+                    .forEach(counter -> attributes.add(readable(kebabCase(counter.name()) + "-total", counter.help())));
+            ledger.gauges().forEach(gauge -> attributes.add(readable(kebabCase(gauge.name()), gauge.help())));
+            MBeanAttributeInfo[] all = attributes.toArray(MBeanAttributeInfo[]::new);
+            return new MBeanInfo(Ledger.class.getName(), DESCRIPTION, all, null, null, null);
+        }
+
+        private static MBeanAttributeInfo readable(String name, String help) {
+            return new MBeanAttributeInfo(name, Long.class.getName(), help, true, false, false);
+        }
+
+        private static String kebabCase(String camelCase) {
+            return camelCase.replaceAll("([A-Z])", "-$1").toLowerCase(Locale.ROOT);
+        }
+
+        @Override
+        public void setAttribute(Attribute attribute) throws AttributeNotFoundException {
+            throw new AttributeNotFoundException(attribute.getName() + " cannot be set");
+        }
+
+        @Override
+        public AttributeList setAttributes(AttributeList attributes) {
+            return new AttributeList();
+        }
+
+        @Override
+        public Object invoke(String action, Object[] parameters, String[] signature) {
+            throw new UnsupportedOperationException(action);
+        }
+    }
+}

@@ -1,0 +1,91 @@
+package io.furrow.connect;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Random;
+import java.util.stream.Stream;
+
+import org.apache.logging.log4j.Level;
+import org.apache.logging.log4j.core.config.Configurator;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.connect.journal.FuzzJournal;
+import io.furrow.connect.source.FuzzBodies;
+import io.furrow.connect.source.FuzzRecords;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/**
+ * What the fuzzer begins with and what it once found, in {@code src/test/resources/fuzz}, each of it whole, cut short and with
+ * random bytes changed. The fuzzer itself: {@code ./furrow soak fuzz}.
+ */
+class FuzzRegressionTest {
+    private static final Path FUZZ = Path.of("src/test/resources/fuzz");
+
+    private interface Target {
+        void accept(byte[] input) throws Exception;
+    }
+
+    @Test
+    void readsAnyBody() throws Exception {
+        run("bodies", FuzzBodies::fuzzerTestOneInput, 500);
+    }
+
+    @Test
+    void readsAnyPayload() throws Exception {
+        run("bodies", FuzzRecords::fuzzerTestOneInput, 100);
+    }
+
+    @Test
+    void readsAnyJournal() throws Exception {
+        run("journal", FuzzJournal::fuzzerTestOneInput, 50);
+    }
+
+    @BeforeAll
+    static void logNoDamage() {
+        Configurator.setLevel("io.furrow.connect.journal", Level.OFF);
+    }
+
+    @AfterAll
+    static void logAgain() {
+        Configurator.setLevel("io.furrow.connect.journal", Level.INFO);
+    }
+
+    private static void run(String corpus, Target target, int changes) throws Exception {
+        long seed = System.nanoTime();
+        Random random = new Random(seed);
+        for (byte[] input : inputs(corpus)) {
+            accept(target, input, "as it is");
+            for (int i = 0; i < changes; i++) {
+                byte[] changed = Arrays.copyOf(input, 1 + random.nextInt(input.length));
+                changed[random.nextInt(changed.length)] = (byte) random.nextInt(256);
+                accept(target, changed, "seed " + seed);
+            }
+        }
+    }
+
+    private static void accept(Target target, byte[] input, String what) {
+        try {
+            target.accept(input);
+        } catch (Exception | StackOverflowError e) {
+            throw new AssertionError(what + ": " + java.util.HexFormat.of().formatHex(input), e);
+        }
+    }
+
+    private static List<byte[]> inputs(String corpus) throws IOException {
+        try (Stream<Path> files = Files.list(FUZZ.resolve(corpus))) {
+            List<Path> sorted = files.sorted().toList();
+            assertThat(sorted).isNotEmpty();
+            List<byte[]> inputs = new java.util.ArrayList<>();
+            for (Path file : sorted) {
+                inputs.add(Files.readAllBytes(file));
+            }
+            return inputs;
+        }
+    }
+}

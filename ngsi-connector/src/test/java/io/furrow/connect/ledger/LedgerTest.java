@@ -1,0 +1,78 @@
+package io.furrow.connect.ledger;
+
+import java.lang.management.ManagementFactory;
+import java.nio.charset.StandardCharsets;
+import javax.management.AttributeNotFoundException;
+import javax.management.InstanceNotFoundException;
+import javax.management.MBeanServer;
+import javax.management.ObjectName;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class LedgerTest {
+    private final Ledger ledger = new Ledger();
+    private final MBeanServer beans = ManagementFactory.getPlatformMBeanServer();
+
+    @Test
+    void showsEveryNumberAsJson() {
+        ledger.received.add(3);
+        ledger.gauge("pending", "Records that wait", () -> 7);
+        ledger.detail("journal", () -> JsonNodeFactory.instance.textNode("j1"));
+
+        assertThat(LedgerJson.of(ledger).toString())
+                .contains("\"received\":3", "\"turnedAway\":0", "\"pending\":7", "\"journal\":\"j1\"");
+    }
+
+    @Test
+    void showsEveryNumberToPrometheus() {
+        ledger.turnedAway.add(3);
+        ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
+
+        String page = new String(new PrometheusPage(ledger, "a \"b\"", 2).write(), StandardCharsets.UTF_8);
+
+        assertThat(page)
+                .contains("# TYPE furrow_ngsi_source_turned_away_total counter\n")
+                .contains("# HELP furrow_ngsi_source_turned_away_total Accepted and dead records")
+                .contains("furrow_ngsi_source_turned_away_total{connector=\"a \\\"b\\\"\",task=\"2\"} 3.0\n")
+                .contains("furrow_ngsi_source_pending_bytes{connector=\"a \\\"b\\\"\",task=\"2\"} 7.0\n");
+        assertThat(page.lines().filter(line -> line.startsWith("# TYPE")))
+                .hasSize(ledger.counters().size() + 1);
+    }
+
+    @Test
+    void showsEveryNumberOverJmxWhileItIsOpen() throws Exception {
+        ledger.turnedAway.add(3);
+        ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
+        ObjectName name = new ObjectName("furrow.connect:type=ngsi-source,connector=farm,task=1");
+
+        try (LedgerBean shown = LedgerBean.show(ledger, "farm", 1)) {
+            assertThat(shown).isNotNull();
+            assertThat(beans.getAttribute(name, "turned-away-total")).isEqualTo(3L);
+            assertThat(beans.getAttribute(name, "pending-bytes")).isEqualTo(7L);
+            assertThat(beans.getMBeanInfo(name).getAttributes())
+                    .hasSize(ledger.counters().size() + 1);
+            assertThatThrownBy(() -> beans.getAttribute(name, "nothing"))
+                    .isInstanceOf(AttributeNotFoundException.class);
+        }
+
+        assertThatThrownBy(() -> beans.getAttribute(name, "turned-away-total"))
+                .isInstanceOf(InstanceNotFoundException.class);
+    }
+
+    @Test
+    void takesThePlaceOfOneThatWasLeft() throws Exception {
+        Ledger left = new Ledger();
+        ObjectName name = new ObjectName("furrow.connect:type=ngsi-source,connector=\"x,y=z\",task=0");
+        ledger.received.add(9);
+
+        try (LedgerBean old = LedgerBean.show(left, "x,y=z", 0);
+                LedgerBean shown = LedgerBean.show(ledger, "x,y=z", 0)) {
+            assertThat(old).isNotSameAs(shown);
+            assertThat(beans.getAttribute(name, "received-total")).isEqualTo(9L);
+        }
+    }
+}

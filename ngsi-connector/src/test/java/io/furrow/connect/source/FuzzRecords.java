@@ -1,0 +1,22 @@
+package io.furrow.connect.source;
+
+import java.util.Arrays;
+
+/** What a fuzzer throws at the reading of a journal's payloads: it is a record, written again as the same, or refused. */
+public final class FuzzRecords {
+    private FuzzRecords() {}
+
+    /** One payload; throws whatever is wrong. */
+    public static void fuzzerTestOneInput(byte[] payload) {
+        OutgoingRecord record;
+        try {
+            record = RecordForm.read(payload);
+        } catch (IllegalArgumentException refused) {
+            return;
+        }
+        OutgoingRecord again = RecordForm.read(RecordForm.write(record));
+        if (!again.headers().equals(record.headers()) || !Arrays.equals(again.value(), record.value())) {
+            throw new IllegalStateException("read differently the second time");
+        }
+    }
+}
