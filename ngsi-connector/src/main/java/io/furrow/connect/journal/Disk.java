@@ -7,10 +7,10 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
+import java.util.Optional;
 
 import static java.nio.file.StandardOpenOption.CREATE;
 import static java.nio.file.StandardOpenOption.READ;
-import static java.nio.file.StandardOpenOption.TRUNCATE_EXISTING;
 import static java.nio.file.StandardOpenOption.WRITE;
 
 /** What a journal asks of a disk when it writes; tests put a failing one in its place. */
@@ -33,12 +33,26 @@ interface Disk {
      */
     SegmentFile create(Path file, ByteBuffer header, long capacity) throws IOException;
 
+    /** Says that a file of this capacity will be created in the folder, so that it can be made ahead. */
+    default void prepare(Path folder, long capacity) {}
+
+    /** No file will be created any more. */
+    default void close() {}
+
     /** Bytes that can still be written on the disk that holds the folder. */
     long usable(Path folder) throws IOException;
 
     /** The real one. */
     static Disk real() {
         return new FileDisk();
+    }
+
+    /** Writes all of {@code bytes} at a position. */
+    static void writeFully(FileChannel channel, ByteBuffer bytes, long position) throws IOException {
+        long at = position;
+        while (bytes.hasRemaining()) {
+            at += channel.write(bytes, at);
+        }
     }
 
     /** Makes a new or vanished name in the folder durable; file systems that cannot do that do not need it. */
@@ -53,14 +67,23 @@ interface Disk {
     /** Files through {@link FileChannel}. */
     final class FileDisk implements Disk {
         private static final int ZEROS_AT_ONCE = 1024 * 1024;
+        /** Recovery deletes it by its end. */
+        private static final String SPARE = "spare.segment.tmp";
+
+        private final SpareFile spare = new SpareFile();
+
+        @Override
+        public void prepare(Path folder, long capacity) {
+            spare.make(folder.resolve(SPARE), capacity);
+        }
 
         @Override
         public SegmentFile create(Path file, ByteBuffer header, long capacity) throws IOException {
-            Path temporary = file.resolveSibling(file.getFileName() + ".tmp");
-            try (FileChannel channel = FileChannel.open(temporary, CREATE, TRUNCATE_EXISTING, WRITE)) {
-                ByteBuffer zeros = ByteBuffer.allocateDirect(ZEROS_AT_ONCE);
-                for (long at = 0; at < capacity; at += ZEROS_AT_ONCE) {
-                    writeFully(channel, zeros.clear().limit((int) Math.min(ZEROS_AT_ONCE, capacity - at)), at);
+            Optional<Path> ready = spare.take(capacity);
+            Path temporary = ready.orElse(file.resolveSibling(file.getFileName() + ".tmp"));
+            try (FileChannel channel = FileChannel.open(temporary, CREATE, WRITE)) {
+                if (ready.isEmpty()) {
+                    writeZeros(channel, capacity);
                 }
                 writeFully(channel, header, 0);
                 channel.force(true);
@@ -73,16 +96,22 @@ interface Disk {
             return new ChannelFile(FileChannel.open(file, StandardOpenOption.WRITE));
         }
 
+        private static void writeZeros(FileChannel channel, long capacity) throws IOException {
+            channel.truncate(0);
+            ByteBuffer zeros = ByteBuffer.allocateDirect(ZEROS_AT_ONCE);
+            for (long at = 0; at < capacity; at += ZEROS_AT_ONCE) {
+                writeFully(channel, zeros.clear().limit((int) Math.min(ZEROS_AT_ONCE, capacity - at)), at);
+            }
+        }
+
+        @Override
+        public void close() {
+            spare.discard();
+        }
+
         @Override
         public long usable(Path folder) throws IOException {
             return Files.getFileStore(folder).getUsableSpace();
-        }
-
-        static void writeFully(FileChannel channel, ByteBuffer bytes, long position) throws IOException {
-            long at = position;
-            while (bytes.hasRemaining()) {
-                at += channel.write(bytes, at);
-            }
         }
     }
 
@@ -90,7 +119,7 @@ interface Disk {
     record ChannelFile(FileChannel channel) implements SegmentFile {
         @Override
         public void write(ByteBuffer bytes, long position) throws IOException {
-            FileDisk.writeFully(channel, bytes, position);
+            Disk.writeFully(channel, bytes, position);
         }
 
         @Override

@@ -125,6 +125,9 @@ final class GroupCommit {
                 append.durable().completeExceptionally(outcome);
             }
         }
+        if (writer.isNextUnprepared()) {
+            writer.prepareNext(room.isForSegment());
+        }
     }
 
     private JournalException abandon(Throwable failed, List<Append> group) {

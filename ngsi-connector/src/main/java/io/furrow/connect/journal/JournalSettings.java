@@ -9,7 +9,7 @@ package io.furrow.connect.journal;
  * @param minFree that stay free on the disk
  */
 public record JournalSettings(long maxBytes, int segmentBytes, long maxWaiting, long minFree) {
-    private static final int LARGEST_SEGMENT = 64 * 1024 * 1024;
+    private static final int LARGEST_SEGMENT = 16 * 1024 * 1024;
     private static final int SEGMENTS_AT_LEAST = 8;
 
     /** The settings with segments of a size that suits the others. */

@@ -39,6 +39,12 @@ final class Room {
         return segments.bytes() + needed <= settings.maxBytes() && isFree(needed);
     }
 
+    /** Whether one more segment of the usual size fits, full or empty. */
+    boolean isForSegment() {
+        long needed = settings.segmentBytes();
+        return segments.bytes() + needed <= settings.maxBytes() && isFree(needed);
+    }
+
     /** Bytes of records as they are on the disk. */
     static long sizeOf(List<byte[]> payloads) {
         return payloads.stream().mapToLong(SegmentFormat::sizeOf).sum();

@@ -28,6 +28,7 @@ final class SegmentWriter {
     private long written;
     private long sequence;
     private boolean first = true;
+    private boolean nextPrepared = true;
 
     SegmentWriter(Path folder, int segmentBytes, Disk disk, Segments segments) {
         this.folder = folder;
@@ -112,6 +113,20 @@ final class SegmentWriter {
         segments.add(segment);
         written = SegmentFormat.HEADER;
         first = false;
+        nextPrepared = false;
+    }
+
+    /** Whether {@link #prepareNext} has something to do. */
+    boolean isNextUnprepared() {
+        return !nextPrepared;
+    }
+
+    /** Lets the disk make the file after this one ahead, if there is room for it. */
+    void prepareNext(boolean room) {
+        nextPrepared = true;
+        if (room) {
+            disk.prepare(folder, segmentBytes);
+        }
     }
 
     /** Leaves the file after an error: its records end where they were durable. */
@@ -140,5 +155,6 @@ final class SegmentWriter {
 
     void close() {
         leaveSegment();
+        disk.close();
     }
 }

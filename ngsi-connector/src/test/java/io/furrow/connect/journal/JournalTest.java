@@ -18,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
 
 class JournalTest {
     private static final JournalSettings SMALL = new JournalSettings(64 * 1024, 4 * 1024, 8 * 1024, 0);
@@ -61,6 +62,19 @@ class JournalTest {
             assertThat(read(journal.reader(3))).containsExactly("3 record 3", "4 record 4");
             assertThat(journal.damages()).isEmpty();
         }
+    }
+
+    @Test
+    void makesTheNextFileAheadAndLeavesNoneBehind() throws Exception {
+        try (Journal journal = open(SMALL)) {
+            append(journal, "a");
+
+            Path spare = folder.resolve("spare.segment.tmp");
+            await().untilAsserted(() -> assertThat(spare).exists());
+            append(journal, "b".repeat(4000));
+            assertThat(read(journal.reader(0))).hasSize(2);
+        }
+        assertThat(folder.resolve("spare.segment.tmp")).doesNotExist();
     }
 
     @Test

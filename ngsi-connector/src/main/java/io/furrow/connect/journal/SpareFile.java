@@ -1,0 +1,98 @@
+package io.furrow.connect.journal;
+
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.channels.FileChannel;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import static java.nio.file.StandardOpenOption.CREATE;
+import static java.nio.file.StandardOpenOption.TRUNCATE_EXISTING;
+import static java.nio.file.StandardOpenOption.WRITE;
+
+/**
+ * A file of zeros that is made in the background, so that nobody waits for it when the next segment is needed. It leaves the
+ * disk to others half of the time until it is needed. Its methods are called by one thread.
+ */
+final class SpareFile {
+    private static final Logger LOG = LoggerFactory.getLogger(SpareFile.class);
+    private static final int PIECE = 1024 * 1024;
+
+    private Path file;
+    private long capacity;
+    private CompletableFuture<Boolean> made;
+    private volatile boolean hurry;
+    private volatile boolean unwanted;
+
+    /** Begins to make it, unless there is one already. */
+    void make(Path path, long bytes) {
+        if (made != null) {
+            return;
+        }
+        file = path;
+        capacity = bytes;
+        hurry = false;
+        unwanted = false;
+        made = CompletableFuture.supplyAsync(() -> write(path, bytes), SpareFile::onThread);
+    }
+
+    private static void onThread(Runnable task) {
+        Thread thread = new Thread(task, "journal-spare");
+        thread.setDaemon(true);
+        thread.start();
+    }
+
+    /** The file if one of this size was begun and could be made; the caller has it from now on. */
+    Optional<Path> take(long bytes) {
+        if (made == null || capacity != bytes) {
+            return Optional.empty();
+        }
+        hurry = true;
+        boolean whole = made.join();
+        made = null;
+        return whole ? Optional.of(file) : Optional.empty();
+    }
+
+    /** Deletes it. */
+    void discard() {
+        if (made == null) {
+            return;
+        }
+        unwanted = true;
+        made.join();
+        made = null;
+        try {
+            Files.deleteIfExists(file);
+        } catch (IOException e) {
+            LOG.debug("{} stays until the journal is opened again", file, e);
+        }
+    }
+
+    /** Whether the file is whole; without it, the segment is made when it is needed, and reports what is wrong. */
+    private boolean write(Path path, long bytes) {
+        try (FileChannel channel = FileChannel.open(path, CREATE, TRUNCATE_EXISTING, WRITE)) {
+            ByteBuffer zeros = ByteBuffer.allocateDirect((int) Math.min(PIECE, bytes));
+            for (long at = 0; at < bytes && !unwanted; at += PIECE) {
+                long start = System.nanoTime();
+                Disk.writeFully(channel, zeros.clear().limit((int) Math.min(PIECE, bytes - at)), at);
+                channel.force(false);
+                if (!hurry) {
+                    Thread.sleep(Duration.ofNanos(System.nanoTime() - start).toMillis());
+                }
+            }
+            return !unwanted;
+        } catch (IOException e) {
+            LOG.debug("{} could not be made ahead", path, e);
+            return false;
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            return false;
+        }
+    }
+}

@@ -1,0 +1,23 @@
+package io.furrow.connect.journal;
+
+import java.nio.file.Path;
+import java.util.List;
+
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class RoomTest {
+    @ParameterizedTest
+    @CsvSource({"8000, 10000, true", "7999, 10000, false", "8000, 4999, false"})
+    void hasRoomForASegmentWithinTheJournalsBytesAndTheDisks(long maxBytes, long usable, boolean room) {
+        StubbornDisk disk = new StubbornDisk();
+        disk.usable(usable);
+        Path folder = Path.of(".");
+        Segments segments = new Segments(List.of(Segment.created(0, folder, 4000)));
+        JournalSettings settings = new JournalSettings(maxBytes, 4000, 1000, 1000);
+
+        assertThat(new Room(settings, folder, disk, segments).isForSegment()).isEqualTo(room);
+    }
+}
