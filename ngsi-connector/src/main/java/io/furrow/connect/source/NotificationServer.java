@@ -29,6 +29,9 @@ final class NotificationServer implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(NotificationServer.class);
 
     private static final int THREADS = 16;
+    /** Connections that a burst may make before the acceptor comes to them; beyond it, a sender tries again after a second. */
+    private static final int ACCEPT_QUEUE = 1024;
+
     private static final int WAITING_TO_BE_ACCEPTED = 4096;
     private static final Duration STOP_WITHIN = Duration.ofMillis(800);
     private static final Duration IDLE_AFTER_STOP = Duration.ofMillis(100);
@@ -73,6 +76,7 @@ final class NotificationServer implements AutoCloseable {
         connector.setHost(settings.address().getHostString());
         connector.setPort(settings.address().getPort());
         connector.setAcceptQueueSize(WAITING_TO_BE_ACCEPTED);
+        connector.setAcceptQueueSize(ACCEPT_QUEUE);
         connector.setIdleTimeout(settings.idle().toMillis());
         connector.setShutdownIdleTimeout(IDLE_AFTER_STOP.toMillis());
         connector.addBean(slowSenders);
