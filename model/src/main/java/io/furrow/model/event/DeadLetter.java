@@ -1,5 +1,6 @@
 package io.furrow.model.event;
 
+import java.nio.charset.StandardCharsets;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
@@ -23,7 +24,20 @@ public record DeadLetter(Reason reason, String message, String stage, String sou
 
     public DeadLetter {
         String sentence = message == null ? reason.code() : message;
-        message = sentence.length() <= LONGEST_MESSAGE ? sentence : sentence.substring(0, LONGEST_MESSAGE - 1) + "…";
+        message = unicode(
+                sentence.length() <= LONGEST_MESSAGE ? sentence : sentence.substring(0, LONGEST_MESSAGE - 1) + "…");
+        source = unicode(source);
+    }
+
+    /** Half of a surrogate pair, quoted from the input or left by cutting it, has no UTF-8 form, which a header must have. */
+    private static String unicode(String text) {
+        if (text == null || StandardCharsets.UTF_8.newEncoder().canEncode(text)) {
+            return text;
+        }
+        return text.codePoints()
+                .map(sign -> sign >= Character.MIN_SURROGATE && sign <= Character.MAX_SURROGATE ? 0xfffd : sign)
+                .collect(StringBuilder::new, StringBuilder::appendCodePoint, StringBuilder::append)
+                .toString();
     }
 
     public Map<String, String> headers() {

@@ -29,4 +29,15 @@ class DeadLetterTest {
     void fallsBackOnTheReasonWhereThereIsNoSentence() {
         assertThat(new DeadLetter(Reason.REFUSED, null, "sink", "").headers()).containsEntry("dead-message", "refused");
     }
+
+    @Test
+    void quotesHalfASurrogatePairAsUnknown() {
+        String cut = "x".repeat(498) + "\ud83d\ude9c and more";
+
+        assertThat(new DeadLetter(Reason.NOT_JSON, "a\ud83db", "stage", "s\udc00")
+                        .headers()
+                        .values())
+                .contains("a\ufffdb", "s\ufffd");
+        assertThat(new DeadLetter(Reason.NOT_JSON, cut, "stage", "s").message()).isEqualTo("x".repeat(498) + "\ufffd…");
+    }
 }

@@ -37,6 +37,7 @@ public final class FuzzBodies {
         for (OutgoingRecord record : translation.records()) {
             check(record);
         }
+        require(Answer.taken(translation.refusal()).status() >= 200, "there is no answer");
         require(
                 ledger.received.sum() == ledger.accepted.sum() + ledger.dead.sum() + ledger.excluded.sum(),
                 "the ledger does not add up");
