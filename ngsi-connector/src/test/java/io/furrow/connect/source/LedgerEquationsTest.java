@@ -18,8 +18,6 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.producer.RecordMetadata;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.connect.source.SourceRecord;
-import org.apache.kafka.connect.source.SourceTaskContext;
-import org.apache.kafka.connect.storage.OffsetStorageReader;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -162,46 +160,8 @@ class LedgerEquationsTest {
             all.put(options[i], options[i + 1]);
         }
         NgsiSourceTask task = new NgsiSourceTask();
-        task.initialize(new StubContext(all));
+        task.initialize(new StubContext(all, committed));
         task.start(all);
         return task;
-    }
-
-    /** The worker's side, as much of it as a task asks for. */
-    private final class StubContext implements SourceTaskContext {
-        private final Map<String, String> configs;
-
-        private StubContext(Map<String, String> configs) {
-            this.configs = configs;
-        }
-
-        @Override
-        public Map<String, String> configs() {
-            return configs;
-        }
-
-        @Override
-        public OffsetStorageReader offsetStorageReader() {
-            return new OffsetStorageReader() {
-                @Override
-                @SuppressWarnings("unchecked")
-                public <T> Map<String, Object> offset(Map<String, T> partition) {
-                    return (Map<String, Object>) committed.get(partition);
-                }
-
-                @Override
-                public <T> Map<Map<String, T>, Map<String, Object>> offsets(
-                        java.util.Collection<Map<String, T>> partitions) {
-                    Map<Map<String, T>, Map<String, Object>> all = new HashMap<>();
-                    partitions.forEach(partition -> all.put(partition, offset(partition)));
-                    return all;
-                }
-            };
-        }
-
-        @Override
-        public org.apache.kafka.common.metrics.PluginMetrics pluginMetrics() {
-            return null;
-        }
     }
 }
