@@ -31,6 +31,25 @@ public final class Validators {
         return LambdaValidator.with(Validators::requirePatterns, () -> "regular expressions");
     }
 
+    /** A regular expression, or nothing. */
+    public static Validator pattern() {
+        return LambdaValidator.with(
+                (name, value) -> requirePatterns(name, List.of(value)), () -> "a regular expression");
+    }
+
+    /** A list of texts that match as a whole. */
+    public static Validator names(Pattern pattern, String expected) {
+        return LambdaValidator.with(
+                (name, value) -> {
+                    for (Object one : (List<?>) value) {
+                        if (!pattern.matcher((String) one).matches()) {
+                            throw new ConfigException(name, one, "expected " + expected);
+                        }
+                    }
+                },
+                () -> expected);
+    }
+
     /** The base URL of an HTTP server. */
     public static Validator httpUrl() {
         return LambdaValidator.with(Validators::requireHttpUrl, () -> "http://HOST:PORT or https://HOST:PORT");

@@ -87,6 +87,26 @@ public final class ConnectRig implements AutoCloseable {
         awaitRunning(name);
     }
 
+    /** Ends the tasks of a connector and keeps the rest of it; returns when they have ended. */
+    public void stop(String name) {
+        HttpResponse<String> stopped =
+                send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/stop"))
+                        .PUT(BodyPublishers.noBody()));
+        assertThat(stopped.statusCode()).as(stopped.body()).isEqualTo(204);
+        await().atMost(PATIENCE)
+                .until(() ->
+                        get("/connectors/" + name + "/status").path("tasks").isEmpty());
+    }
+
+    /** The opposite of {@link #stop}; returns when the first task runs. */
+    public void resume(String name) {
+        HttpResponse<String> resumed =
+                send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/resume"))
+                        .PUT(BodyPublishers.noBody()));
+        assertThat(resumed.statusCode()).as(resumed.body()).isEqualTo(202);
+        awaitRunning(name);
+    }
+
     /** The worker's answer to {@code GET path}. */
     public JsonNode get(String path) {
         return json(

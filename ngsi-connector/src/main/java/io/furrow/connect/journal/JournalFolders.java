@@ -137,7 +137,7 @@ public final class JournalFolders {
     }
 
     /** A name of a folder, different for different owners: bytes other than letters, digits, - and _ as %XX. */
-    static String folderName(String owner) {
+    public static String folderName(String owner) {
         StringBuilder name = new StringBuilder();
         for (byte part : owner.getBytes(StandardCharsets.UTF_8)) {
             boolean plain = part > 0 && (Character.isLetterOrDigit(part) || part == '-' || part == '_');

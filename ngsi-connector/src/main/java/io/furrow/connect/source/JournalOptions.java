@@ -12,6 +12,8 @@ import org.apache.kafka.common.config.ConfigDef.Type;
 import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
 
+import io.furrow.connect.journal.JournalFolders;
+
 /** Where what was taken is kept until Kafka has it. */
 record JournalOptions(AbstractConfig config) {
     static final String DIR = "journal.dir";
@@ -72,6 +74,11 @@ record JournalOptions(AbstractConfig config) {
 
     Path dir() {
         return Path.of(config.getString(DIR));
+    }
+
+    /** Where the repair keeps what outlives a restart: beside the journals of a connector, not among them. */
+    Path repairFolder(String connector) {
+        return dir().resolve(JournalFolders.folderName(connector) + ".repair");
     }
 
     long maxBytes() {

@@ -1,10 +1,14 @@
 package io.furrow.connect.source;
 
 import java.util.Map;
+import java.util.Optional;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
+
+import io.furrow.connect.broker.BrokerOptions;
+import io.furrow.connect.subscription.IdShare;
 
 /**
  * The options of the source, a group each; throws {@link ConfigException} naming the option where one cannot be used. Each
@@ -28,6 +32,9 @@ public class NgsiSourceConfig extends AbstractConfig {
     private final OverloadOptions overload;
     private final SecurityOptions security;
     private final TlsOptions tls;
+    private final BrokerOptions broker;
+    private final SubscriptionOptions subscription;
+    private final RepairOptions repair;
 
     NgsiSourceConfig(Map<String, String> properties) {
         super(definition(), properties);
@@ -41,13 +48,21 @@ public class NgsiSourceConfig extends AbstractConfig {
         overload = new OverloadOptions(this);
         security = new SecurityOptions(this);
         tls = new TlsOptions(this);
+        broker = new BrokerOptions(this);
+        subscription = new SubscriptionOptions(this);
+        repair = new RepairOptions(this);
         checkPorts();
         checkSizes();
+        checkSubscription();
+    }
+
+    private int tasks() {
+        return Integer.parseInt(
+                originalsStrings().getOrDefault("tasks.max", "1").strip());
     }
 
     private void checkPorts() {
-        int tasks = Integer.parseInt(
-                originalsStrings().getOrDefault("tasks.max", "1").strip());
+        int tasks = tasks();
         if (listening.firstPort() + tasks - 1 > LAST_PORT) {
             throw new ConfigException(
                     ListeningOptions.PORT,
@@ -75,6 +90,24 @@ public class NgsiSourceConfig extends AbstractConfig {
         }
     }
 
+    private void checkSubscription() {
+        int tasks = tasks();
+        if (!subscription.enabled()) {
+            return;
+        }
+        if (tasks > IdShare.MOST) {
+            throw new ConfigException(
+                    "tasks.max",
+                    tasks,
+                    "the ids can be divided among " + IdShare.MOST + " tasks at most; lower it, or set "
+                            + SubscriptionOptions.ENABLED + "=false");
+        }
+        if (tasks > 1) {
+            subscription.requireAnyId();
+        }
+        subscription.requireAddress(listening.host());
+    }
+
     static ConfigDef definition() {
         ConfigDef options = new ConfigDef();
         ListeningOptions.define(options);
@@ -87,6 +120,13 @@ public class NgsiSourceConfig extends AbstractConfig {
         OverloadOptions.define(options);
         SecurityOptions.define(options);
         TlsOptions.define(options);
+        BrokerOptions.define(
+                options,
+                Optional.of(
+                        "Empty where subscriptions are made by somebody else: the source then makes none, and cannot"
+                                + " repair what it missed."));
+        SubscriptionOptions.define(options);
+        RepairOptions.define(options);
         return options;
     }
 
@@ -142,6 +182,18 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     TlsOptions tls() {
         return tls;
+    }
+
+    BrokerOptions broker() {
+        return broker;
+    }
+
+    SubscriptionOptions subscription() {
+        return subscription;
+    }
+
+    RepairOptions repair() {
+        return repair;
     }
 
     /** What the translation of notifications needs. */

@@ -32,6 +32,7 @@ public class NgsiSourceTask extends SourceTask {
     private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
     private final AtomicReference<TaskJournals> journals = new AtomicReference<>();
     private final AtomicReference<LedgerBean> bean = new AtomicReference<>();
+    private final AtomicReference<OwnSubscriptions> subscriptions = new AtomicReference<>();
     private Ledger ledger;
     private int batchSize;
 
@@ -53,10 +54,13 @@ public class NgsiSourceTask extends SourceTask {
             String journal = journals.get().own().id();
             ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
             ledger.detail("orphans", this::orphans);
-            bean.set(LedgerBean.show(ledger, config.name(), config.taskIndex()));
+            subscriptions.set(OwnSubscriptions.of(config, ledger));
+            Intake intake = new JournaledIntake(journals.get().own(), ledger);
             reception.set(
-                    Reception.open(config, new JournaledIntake(journals.get().own(), ledger), ledger));
+                    Reception.open(config, subscriptions.get().watched(intake), ledger, subscriptions.get()::arrived));
             keeper.set(JournalKeeper.start(journals.get(), config.taskCount() > 1));
+            subscriptions.get().start(port(), intake);
+            bean.set(LedgerBean.show(ledger, config.name(), config.taskIndex()));
         } catch (RuntimeException e) {
             // The worker does not stop a task that did not start.
             stop();
@@ -116,7 +120,12 @@ public class NgsiSourceTask extends SourceTask {
                     failure);
         });
         TaskJournals.Turn turn = open.next(batchSize, POLL_WAIT);
-        return turn.records().isEmpty() ? null : SourceRecords.of(turn);
+        if (turn.records().isEmpty()) {
+            return null;
+        }
+        List<SourceRecord> records = SourceRecords.of(turn);
+        subscriptions.get().handedOn(records);
+        return records;
     }
 
     /** Without metadata the record was filtered out or skipped by the worker's own settings. */
@@ -137,6 +146,10 @@ public class NgsiSourceTask extends SourceTask {
     /** Once the worker calls this it commits nothing more, so the journals may go to another task. */
     @Override
     public void stop() {
+        OwnSubscriptions own = subscriptions.get();
+        if (own != null) {
+            own.close();
+        }
         Reception listening = reception.getAndSet(null);
         if (listening != null) {
             listening.close();

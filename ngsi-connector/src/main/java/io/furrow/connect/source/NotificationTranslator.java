@@ -5,6 +5,7 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
+import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
 import io.furrow.connect.ledger.Ledger;
@@ -46,11 +47,18 @@ final class NotificationTranslator {
 
     private final Settings settings;
     private final Ledger ledger;
+    private final Consumer<String> arrived;
     private final ClockReport clocks = new ClockReport();
 
     NotificationTranslator(Settings settings, Ledger ledger) {
+        this(settings, ledger, subscription -> {});
+    }
+
+    /** @param arrived is told the subscription of each notification that names one */
+    NotificationTranslator(Settings settings, Ledger ledger, Consumer<String> arrived) {
         this.settings = settings;
         this.ledger = ledger;
+        this.arrived = arrived;
     }
 
     Translation translate(ReceivedNotification received) {
@@ -73,6 +81,7 @@ final class NotificationTranslator {
                         .subscriptionId()
                         .filter(id -> SUBSCRIPTION.matcher(id).matches())
                         .orElse(settings.name());
+        notification.subscriptionId().ifPresent(arrived);
         List<OutgoingRecord> records = new ArrayList<>();
         ledger.received.add(
                 notification.entities().size() + notification.rejected().size());

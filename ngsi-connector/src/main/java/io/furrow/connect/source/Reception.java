@@ -6,6 +6,7 @@ import java.security.KeyStore;
 import java.time.Duration;
 import java.util.Map;
 import java.util.Optional;
+import java.util.function.Consumer;
 import java.util.function.Supplier;
 
 import org.apache.kafka.connect.errors.ConnectException;
@@ -40,13 +41,25 @@ final class Reception implements AutoCloseable {
 
     /** @param patience how long to wait for a port that is taken */
     static Reception open(NgsiSourceConfig config, Intake intake, Ledger ledger, Duration patience) {
+        return open(config, new NotificationTranslator(config.translation(), ledger), intake, ledger, patience);
+    }
+
+    /** @param arrived is told the subscription of each notification that names one */
+    static Reception open(NgsiSourceConfig config, Intake intake, Ledger ledger, Consumer<String> arrived) {
+        NotificationTranslator translator = new NotificationTranslator(config.translation(), ledger, arrived);
+        return open(config, translator, intake, ledger, BIND_PATIENCE);
+    }
+
+    private static Reception open(
+            NgsiSourceConfig config,
+            NotificationTranslator translator,
+            Intake intake,
+            Ledger ledger,
+            Duration patience) {
         QueuedThreadPool threads = NotificationServer.threads();
         Deliveries deliveries = new Deliveries(intake, ledger);
         NotificationHandler handler = new NotificationHandler(
-                new NotificationHandler.Path(
-                        new Gatekeeper(config.security(), ledger),
-                        new NotificationTranslator(config.translation(), ledger),
-                        deliveries),
+                new NotificationHandler.Path(new Gatekeeper(config.security(), ledger), translator, deliveries),
                 ledger,
                 new NotificationHandler.Limits(
                         config.sizes().maxBodyBytes(),

@@ -1,0 +1,53 @@
+package io.furrow.connect.broker;
+
+import java.time.Duration;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.UnreadableException;
+
+/** A context broker is away or does not do what it was asked; the message says what and where, for people. */
+public final class BrokerException extends Exception {
+    private static final long serialVersionUID = 1L;
+
+    private final transient Optional<Duration> retryAfter;
+
+    private BrokerException(String message, Throwable cause, Optional<Duration> retryAfter) {
+        super(message, cause);
+        this.retryAfter = retryAfter;
+    }
+
+    /** How long the context broker asks to be left alone. */
+    public Optional<Duration> retryAfter() {
+        return retryAfter == null ? Optional.empty() : retryAfter;
+    }
+
+    /**
+     * The outcome, if it is a success.
+     *
+     * @param what was asked for, for instance {@code list subscriptions}
+     */
+    public static Outcome.Done success(String what, Outcome outcome) throws BrokerException {
+        if (outcome instanceof Outcome.Done done) {
+            return done;
+        }
+        if (outcome instanceof Outcome.Away away) {
+            throw new BrokerException("cannot " + what + ": " + away.reason(), away.cause(), away.retryAfter());
+        }
+        String words = outcome instanceof Outcome.Refused refused
+                ? refused.words()
+                : outcome instanceof Outcome.WrongSetting wrong ? wrong.words() : ((Outcome.Absent) outcome).words();
+        throw new BrokerException("cannot " + what + ": the context broker answered " + words, null, Optional.empty());
+    }
+
+    /** The body of a success as JSON. */
+    public static JsonNode json(String what, Outcome.Done done) throws BrokerException {
+        try {
+            return done.json();
+        } catch (UnreadableException e) {
+            throw new BrokerException(
+                    "cannot " + what + ": the answer cannot be read: " + e.getMessage(), e, Optional.empty());
+        }
+    }
+}

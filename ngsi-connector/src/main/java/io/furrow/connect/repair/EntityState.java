@@ -1,0 +1,28 @@
+package io.furrow.connect.repair;
+
+import java.time.Instant;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * An entity as the context broker holds it.
+ *
+ * @param time that it was asked for by: when it was modified or created, whole milliseconds
+ */
+record EntityState(Entity entity, FiwareScope scope, Instant time) {
+    /** Of the entity, whatever its type. */
+    String identity() {
+        return scope.identity(entity.id());
+    }
+
+    /** Of the entity with its type. */
+    String key() {
+        return identity() + "|" + entity.type();
+    }
+
+    /** Of the entity as it is: it may change twice in a millisecond. */
+    String version() {
+        return key() + "|" + entity.json().hashCode();
+    }
+}

@@ -1,0 +1,133 @@
+package io.furrow.connect.repair;
+
+import java.io.IOException;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+import io.furrow.connect.broker.BrokerException;
+
+/**
+ * Reads all entities from a time on, in the order of that time, page by page. The next page begins at the time of the last
+ * entity seen, not behind a number of entities: an entity that changes meanwhile moves to the end and would push another one
+ * over the edge of a numbered page. Only where one millisecond fills a page are entities counted, within it; they are counted
+ * anew when the last entity of a page is not found again as the first of the next, and until a count finds nothing new.
+ */
+final class KeysetReader {
+    /** One question to the context broker, oldest first. */
+    interface Pages {
+        Page page(Instant from, int offset, int limit) throws BrokerException, InterruptedException;
+    }
+
+    /**
+     * @param states that could be read
+     * @param isFull whether there may be more
+     */
+    record Page(List<EntityState> states, boolean isFull) {
+        boolean beginsWith(String key) {
+            return !states.isEmpty() && states.get(0).key().equals(key);
+        }
+    }
+
+    /** Takes what was read, in order; the same state is never given twice. */
+    interface Reader {
+        void read(List<EntityState> states) throws BrokerException, InterruptedException, IOException;
+    }
+
+    private static final int MOST_RECOUNTS = 100;
+
+    private final Pages pages;
+    private final int limit;
+
+    private Instant from;
+    private int offset;
+    /** The last of the page before, where the same millisecond goes on. */
+    private String expected;
+    /** What was given of the millisecond {@code from}. */
+    private final Set<String> given = new HashSet<>();
+
+    private boolean isNewFound;
+    private int recounts;
+
+    /** @param limit at least 2 */
+    KeysetReader(Pages pages, int limit) {
+        this.pages = pages;
+        this.limit = limit;
+    }
+
+    /** Reads until a page is not full. */
+    void readFrom(Instant start, Reader reader) throws BrokerException, InterruptedException, IOException {
+        moveTo(start);
+        while (true) {
+            Page page = pages.page(from, offset, limit);
+            if (isShifted(page)) {
+                countAnew();
+                continue;
+            }
+            List<EntityState> later = new ArrayList<>(page.states());
+            later.removeIf(state -> !state.time().isAfter(from));
+            read(page.states().subList(0, page.states().size() - later.size()), reader);
+            boolean atItsEnd = !page.isFull() || !later.isEmpty();
+            if (!atItsEnd) {
+                goOnWithin(page);
+            } else if (offset > 0 && isNewFound && recounts < MOST_RECOUNTS) {
+                countAnew();
+            } else {
+                if (!later.isEmpty()) {
+                    moveThrough(later, reader);
+                }
+                if (!page.isFull()) {
+                    return;
+                }
+            }
+        }
+    }
+
+    /** Of the millisecond that is being read. */
+    private void read(List<EntityState> states, Reader reader)
+            throws BrokerException, InterruptedException, IOException {
+        List<EntityState> unseen =
+                states.stream().filter(state -> given.add(state.version())).toList();
+        isNewFound |= !unseen.isEmpty();
+        reader.read(unseen);
+    }
+
+    private void moveThrough(List<EntityState> later, Reader reader)
+            throws BrokerException, InterruptedException, IOException {
+        for (EntityState state : later) {
+            if (state.time().isAfter(from)) {
+                moveTo(state.time());
+            }
+            given.add(state.version());
+        }
+        reader.read(later);
+    }
+
+    /** The last is asked for once more, to see whether it still is where it was. */
+    private void goOnWithin(Page page) {
+        int count = page.states().size();
+        offset += limit - 1;
+        expected = count == limit ? page.states().get(count - 1).key() : null;
+    }
+
+    /** A context broker that orders one millisecond differently each time is not asked for ever. */
+    private boolean isShifted(Page page) {
+        return expected != null && recounts < MOST_RECOUNTS && !page.beginsWith(expected);
+    }
+
+    private void countAnew() {
+        recounts++;
+        offset = 0;
+        expected = null;
+        isNewFound = false;
+    }
+
+    private void moveTo(Instant time) {
+        from = time;
+        countAnew();
+        recounts = 0;
+        given.clear();
+    }
+}

@@ -1,0 +1,137 @@
+package io.furrow.connect.source;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.atomic.AtomicLong;
+
+import org.apache.kafka.connect.errors.ConnectException;
+import org.apache.kafka.connect.header.Header;
+import org.apache.kafka.connect.source.SourceRecord;
+
+import io.furrow.connect.broker.BrokerClient;
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.Caretaker;
+import io.furrow.connect.repair.Caretakers;
+import io.furrow.connect.repair.Caretakers.Commission;
+import io.furrow.connect.repair.LiveEvents;
+import io.furrow.connect.subscription.IdShare;
+import io.furrow.connect.subscription.Target;
+import io.furrow.connect.subscription.WantedSubscription;
+import io.furrow.connect.subscription.WantedSubscription.Name;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+
+/**
+ * The subscriptions of one task, and the repair of what they miss, put together from the options. Where these name no context
+ * broker, or want no subscription, it does nothing.
+ */
+final class OwnSubscriptions implements AutoCloseable {
+    private final NgsiSourceConfig config;
+    private final Ledger ledger;
+    private final LiveEvents live = new LiveEvents();
+    private final AtomicLong unseen;
+    private volatile Caretakers caretakers;
+
+    private OwnSubscriptions(NgsiSourceConfig config, Ledger ledger) {
+        this.config = config;
+        this.ledger = ledger;
+        this.unseen = new AtomicLong(config.subscription().enabled() ? ledger.recovered.sum() : 0);
+    }
+
+    /** @param ledger that counts what the journal held at the start already */
+    static OwnSubscriptions of(NgsiSourceConfig config, Ledger ledger) {
+        return new OwnSubscriptions(config, ledger);
+    }
+
+    /** The same intake, which lets the repair know what goes in. */
+    Intake watched(Intake intake) {
+        return config.subscription().enabled() ? new WatchedIntake(intake, live, this::note) : intake;
+    }
+
+    private void note(FiwareScope scope, String id, boolean gone) {
+        Caretakers started = caretakers;
+        if (started != null) {
+            started.note(scope, id, gone);
+        }
+    }
+
+    /** A notification of a subscription came. */
+    void arrived(String subscription) {
+        live.arrived(subscription);
+    }
+
+    /** Records left the journal; the first ones may be of before the start, and are seen now. */
+    void handedOn(List<SourceRecord> records) {
+        if (unseen.get() > 0) {
+            unseen.addAndGet(-records.size());
+            for (SourceRecord record : records) {
+                Header id = record.headers().lastWithName(HeaderNames.CE_ID);
+                if (id != null) {
+                    live.durable(id.value().toString());
+                }
+            }
+        }
+    }
+
+    /**
+     * Begins to keep the subscriptions, on another thread.
+     *
+     * @param port that the task listens on
+     * @param intake the one for what is repaired, not the watched one
+     */
+    void start(int port, Intake intake) {
+        if (!config.subscription().enabled()) {
+            return;
+        }
+        List<Commission> commissions = new ArrayList<>();
+        for (String tenant : config.subscription().tenants()) {
+            for (String path : config.subscription().servicePaths()) {
+                commissions.add(new Commission(new FiwareScope(tenant, path), wanted(path, port)));
+            }
+        }
+        Path folder = config.journal().repairFolder(config.name());
+        try {
+            caretakers = Caretakers.start(
+                    new BrokerClient(config.broker().settings())::send,
+                    commissions,
+                    config.repair().settings(folder, config.entities()),
+                    new Caretaker.Means(live, new RepairedRecords(config.translation(), intake, ledger), ledger),
+                    config.subscription().checkInterval());
+        } catch (IOException e) {
+            throw new ConnectException("cannot use " + folder + " (" + e + "); make it writable", e);
+        }
+    }
+
+    private WantedSubscription wanted(String servicePath, int port) {
+        SubscriptionOptions options = config.subscription();
+        IdShare share = new IdShare(config.taskIndex(), config.taskCount());
+        Name name = new Name(options.description(config.name()), share, servicePath);
+        return new WantedSubscription(
+                name,
+                options.subject(share.count() > 1 ? Optional.of(share.pattern()) : Optional.empty()),
+                options.content(),
+                new Target(options.url("http", config.listening().host(), port), Map.of(), options.maxFails()),
+                options.pace());
+    }
+
+    /** The one that counts; a previous one is only taken, not asked for. */
+    private Map<String, String> secret() {
+        return config.security().secrets().stream()
+                .findFirst()
+                .map(secret -> Map.of(config.security().secretHeader(), secret.value()))
+                .orElse(Map.of());
+    }
+
+    /** Nothing is asked of the context broker any more; the subscriptions stay. */
+    @Override
+    public void close() {
+        Caretakers started = caretakers;
+        if (started != null) {
+            started.close();
+        }
+    }
+}

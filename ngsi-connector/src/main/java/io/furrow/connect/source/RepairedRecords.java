@@ -1,0 +1,59 @@
+package io.furrow.connect.source;
+
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.Finding;
+import io.furrow.connect.repair.RepairOutput;
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.EntityDeletion;
+import io.furrow.model.event.EntityEvent;
+import io.furrow.model.ngsi.Reason;
+
+/** Makes records of what the repair found, and hands them to the intake. */
+final class RepairedRecords implements RepairOutput {
+    private final NotificationTranslator.Settings settings;
+    private final Intake intake;
+    private final Ledger ledger;
+
+    /** @param intake the same as that of notifications */
+    RepairedRecords(NotificationTranslator.Settings settings, Intake intake, Ledger ledger) {
+        this.settings = settings;
+        this.intake = intake;
+        this.ledger = ledger;
+    }
+
+    @Override
+    public Optional<CompletableFuture<Void>> emit(String subscription, List<Finding> findings) {
+        String source = "/ngsi/" + subscription;
+        List<OutgoingRecord> records =
+                findings.stream().map(finding -> record(source, finding)).toList();
+        return intake.take(records).map(durable -> durable.thenRun(() -> ledger.repaired.add(records.size())));
+    }
+
+    private OutgoingRecord record(String source, Finding finding) {
+        if (finding instanceof Finding.Deleted deleted) {
+            EntityDeletion gone = deleted.deletion();
+            return new OutgoingRecord(settings.topic(), gone.entityId(), null, gone.time(), gone.headers(source));
+        }
+        EntityEvent event = ((Finding.Changed) finding).event();
+        OutgoingRecord record = new OutgoingRecord(
+                settings.topic(),
+                event.entity().id(),
+                event.entity().toBytes(),
+                event.time().time(),
+                event.headers(source));
+        return record.bytes() <= settings.maxRecordBytes() ? record : deadLetter(record, event, source);
+    }
+
+    /** The entity stays where it was read from, so its id is enough to find it. */
+    private OutgoingRecord deadLetter(OutgoingRecord record, EntityEvent event, String source) {
+        String message = "the entity " + event.entity().id() + " makes a record of " + record.bytes()
+                + " bytes, the limit is " + settings.maxRecordBytes();
+        DeadLetter letter = new DeadLetter(Reason.TOO_LARGE, message, NotificationTranslator.STAGE, source);
+        byte[] value = event.entity().id().getBytes(java.nio.charset.StandardCharsets.UTF_8);
+        return new OutgoingRecord(settings.deadLetterTopic(), null, value, event.received(), letter.headers());
+    }
+}

@@ -1,0 +1,261 @@
+package io.furrow.connect.source;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
+import java.util.Optional;
+import java.util.Set;
+import java.util.regex.Pattern;
+
+import org.apache.kafka.common.config.AbstractConfig;
+import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.common.config.ConfigDef.Range;
+import org.apache.kafka.common.config.ConfigException;
+
+import io.furrow.connect.Validators;
+import io.furrow.connect.broker.BrokerOptions;
+import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.Subject;
+import io.furrow.connect.subscription.WantedSubscription.Pace;
+
+/** Which subscriptions the source makes and keeps for itself. */
+record SubscriptionOptions(AbstractConfig config) {
+    static final String ENABLED = "subscription.enabled";
+    static final String PUBLIC_URL = "public.url";
+    static final String DESCRIPTION = "subscription.description";
+    static final String TENANTS = "subscription.tenants";
+    static final String SERVICE_PATHS = "subscription.servicepaths";
+    static final String TYPES = "subscription.types";
+    static final String TYPE_PATTERN = "subscription.type.pattern";
+    static final String ID_PATTERN = "subscription.id.pattern";
+    static final String ATTRS = "subscription.attrs";
+    static final String ATTRS_FORMAT = "subscription.attrs.format";
+    static final String ONLY_CHANGED = "subscription.only.changed.attrs";
+    static final String ALTERATION_TYPES = "subscription.alteration.types";
+    static final String THROTTLING = "subscription.throttling.s";
+    static final String EXPIRY = "subscription.expiry.ms";
+    static final String MAX_FAILS = "subscription.max.fails";
+    static final String CHECK_INTERVAL = "subscription.check.interval.ms";
+
+    private static final String GROUP = "Subscription";
+    private static final String DELETED = "entityDelete";
+    private static final String ALTERATION = "alterationType";
+    private static final List<String> FORMATS =
+            List.of("normalized", "keyValues", "simplifiedNormalized", "simplifiedKeyValues");
+    private static final List<String> ALTERATIONS = List.of("entityCreate", "entityChange", "entityUpdate", DELETED);
+    private static final String ANY_ID = ".*";
+
+    /** Checks what concerns more than one option. */
+    SubscriptionOptions {
+        if (!config.getList(TYPES).isEmpty() && !config.getString(TYPE_PATTERN).isEmpty()) {
+            throw new ConfigException(TYPE_PATTERN, config.getString(TYPE_PATTERN), "excludes " + TYPES);
+        }
+    }
+
+    static void define(ConfigDef options) {
+        OptionGroup declare = new OptionGroup(options, GROUP);
+        declare.flag(
+                ENABLED,
+                true,
+                "Keep",
+                "Whether the source makes its own subscriptions at " + BrokerOptions.URL
+                        + " and keeps them as set here. Without that URL it never does.");
+        declare.text(
+                PUBLIC_URL,
+                "",
+                Validators.matching(Pattern.compile("|https?://[^\\s]+"), "empty, http://HOST:PORT/PATH or https://…"),
+                "Own address",
+                "Address of this source as the context broker reaches it; {port} stands for the port of the task. Empty for"
+                        + " http://" + ListeningOptions.HOST
+                        + ":{port}/v2/notify. Where workers have addresses of their own,"
+                        + " take it from each worker's environment with a config provider, for instance"
+                        + " http://${env:POD_IP}:{port}/v2/notify.");
+        declare.text(
+                DESCRIPTION,
+                "",
+                Validators.matching(
+                        Pattern.compile("[^<>\"'=;()]{0,900}"), "at most 900 signs without < > \" ' = ; ( )"),
+                "Description",
+                "What a subscription is found again by, followed by the number of the task, for instance 1/1; empty for"
+                        + " furrow and the connector's name. Only one source per context broker may have it.");
+        defineSubject(declare);
+        defineContent(declare);
+        definePace(declare);
+    }
+
+    private static void defineSubject(OptionGroup declare) {
+        declare.list(
+                TENANTS,
+                SecurityOptions.NO_TENANT,
+                Validators.names(Pattern.compile("[A-Za-z0-9_]{1,50}|-"), "tenants, - for the one without a name"),
+                "Tenants",
+                "Tenants (fiware-service) to subscribe in, " + SecurityOptions.NO_TENANT
+                        + " for the one without a name.");
+        declare.list(
+                SERVICE_PATHS,
+                "/#",
+                Validators.names(Pattern.compile("/#|/|(/[A-Za-z0-9_]{1,50}){1,10}(/#)?"), "absolute service paths"),
+                "Service paths",
+                "Service paths to subscribe to, one subscription each; /# at the end takes those below as well.");
+        declare.list(
+                TYPES,
+                "",
+                Validators.names(Pattern.compile("\\S+"), "entity types"),
+                "Types",
+                "Entity types; empty for all.");
+        declare.text(
+                TYPE_PATTERN,
+                "",
+                Validators.pattern(),
+                "Pattern of types",
+                "Regular expression that is found in the entity type; empty for any. Not together with " + TYPES + ".");
+        declare.text(
+                ID_PATTERN,
+                ANY_ID,
+                Validators.pattern(),
+                "Pattern of ids",
+                "Regular expression that is found in the entity id. Only with tasks.max=1: several tasks divide the ids"
+                        + " among them by their last sign.");
+        declare.list(
+                ALTERATION_TYPES,
+                "",
+                Validators.names(Pattern.compile(String.join("|", ALTERATIONS)), String.join(", ", ALTERATIONS)),
+                "Alterations",
+                "What is told, of " + String.join(", ", ALTERATIONS)
+                        + "; empty for created and changed. A deletion becomes a"
+                        + " record without a value. Needs Orion 3.7 or later.");
+    }
+
+    private static void defineContent(OptionGroup declare) {
+        declare.list(
+                ATTRS,
+                "*,dateModified",
+                Validators.names(Pattern.compile("\\S+"), "attributes"),
+                "Attributes",
+                "Attributes in a notification; * for all of the entity's own. " + ALTERATION
+                        + " is added where deletions are"
+                        + " told. Keep dateModified, it is the time of an event whose entity has none.");
+        declare.choice(ATTRS_FORMAT, FORMATS, "Format", "Form of the entities in a notification.");
+        declare.flag(
+                ONLY_CHANGED,
+                false,
+                "Only changed",
+                "Whether a notification holds only the attributes that changed. What is repaired holds all of them.");
+    }
+
+    private static void definePace(OptionGroup declare) {
+        declare.number(
+                THROTTLING,
+                0,
+                Range.between(0, 86_400),
+                "Throttling (s)",
+                "Least seconds between two notifications of a subscription. What changes meanwhile is never told, by no repair"
+                        + " either. Leave it at 0 unless only samples are wanted.");
+        declare.number(
+                EXPIRY,
+                0,
+                Range.atLeast(0),
+                "Expiry (ms)",
+                "Milliseconds that a subscription lives; it is renewed when half of them are gone, so that it ends some time"
+                        + " after the source does. 0 for one that never ends. At least 60000 makes sense.");
+        declare.number(
+                MAX_FAILS,
+                0,
+                Range.between(0, 1_000_000),
+                "Failures",
+                "Failures in a row after which the context broker stops a subscription, which spares it what a source that is"
+                        + " away would not take; the source starts it again. 0 for never.");
+        declare.number(
+                CHECK_INTERVAL,
+                10_000,
+                Range.between(100, 600_000),
+                "Looks (ms)",
+                "Milliseconds between two looks at a subscription: how fast one that was changed, removed or stopped is put"
+                        + " right, and a gap is found.");
+    }
+
+    boolean enabled() {
+        return config.getBoolean(ENABLED)
+                && !config.getString(BrokerOptions.URL).isEmpty();
+    }
+
+    /** @param connector its name */
+    String description(String connector) {
+        String own = config.getString(DESCRIPTION);
+        return own.isEmpty() ? "furrow " + connector : own;
+    }
+
+    /** In lower case, the empty text for the tenant without a name. */
+    List<String> tenants() {
+        return config.getList(TENANTS).stream()
+                .map(tenant -> tenant.equals(SecurityOptions.NO_TENANT) ? "" : tenant.toLowerCase(Locale.ROOT))
+                .distinct()
+                .toList();
+    }
+
+    List<String> servicePaths() {
+        return config.getList(SERVICE_PATHS).stream().distinct().toList();
+    }
+
+    /** @throws ConfigException if ids are chosen by a pattern, which several tasks cannot divide */
+    void requireAnyId() {
+        if (!config.getString(ID_PATTERN).equals(ANY_ID)) {
+            throw new ConfigException(
+                    ID_PATTERN,
+                    config.getString(ID_PATTERN),
+                    "several tasks divide the ids by their last sign; set tasks.max=1 or leave it at " + ANY_ID);
+        }
+    }
+
+    /** @throws ConfigException if nobody could send to where the source listens, and no other address is given */
+    void requireAddress(String host) {
+        if (config.getString(PUBLIC_URL).isEmpty()
+                && Set.of("0.0.0.0", "::", "[::]").contains(host)) {
+            throw new ConfigException(
+                    PUBLIC_URL,
+                    "",
+                    "the source listens on all addresses (" + host + "); say which one the context broker shall use");
+        }
+    }
+
+    /** @param share the pattern of a task's part of the ids, which counts where there is more than one */
+    Subject subject(Optional<String> share) {
+        return new Subject(
+                share.orElse(config.getString(ID_PATTERN)),
+                config.getList(TYPES),
+                Optional.of(config.getString(TYPE_PATTERN)).filter(pattern -> !pattern.isEmpty()),
+                config.getList(ALTERATION_TYPES));
+    }
+
+    Content content() {
+        List<String> attrs = new java.util.ArrayList<>(config.getList(ATTRS));
+        if (config.getList(ALTERATION_TYPES).contains(DELETED) && !attrs.contains(ALTERATION)) {
+            if (attrs.isEmpty()) {
+                attrs.add("*");
+            }
+            attrs.add(ALTERATION);
+        }
+        return new Content(attrs, config.getString(ATTRS_FORMAT), config.getBoolean(ONLY_CHANGED));
+    }
+
+    Pace pace() {
+        return new Pace(
+                Duration.ofSeconds(config.getLong(THROTTLING)),
+                Optional.of(Duration.ofMillis(config.getLong(EXPIRY))).filter(life -> !life.isZero()));
+    }
+
+    Optional<Integer> maxFails() {
+        return Optional.of(config.getLong(MAX_FAILS).intValue()).filter(limit -> limit > 0);
+    }
+
+    Duration checkInterval() {
+        return Duration.ofMillis(config.getLong(CHECK_INTERVAL));
+    }
+
+    /** @param http how the source listens, {@code http} or {@code https} */
+    String url(String http, String host, int port) {
+        String own = config.getString(PUBLIC_URL);
+        String url = own.isEmpty() ? http + "://" + host + ":{port}/v2/notify" : own;
+        return url.replace("{port}", Integer.toString(port));
+    }
+}

@@ -1,0 +1,28 @@
+package io.furrow.connect.subscription;
+
+import java.util.List;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * What a notification carries.
+ *
+ * @param attrs in this order, {@code *} and built-in ones among them
+ * @param format {@code normalized}, {@code keyValues}, {@code simplifiedNormalized} or {@code simplifiedKeyValues}
+ * @param onlyChanged only the attributes that changed
+ */
+public record Content(List<String> attrs, String format, boolean onlyChanged) {
+    public Content {
+        attrs = List.copyOf(attrs);
+    }
+
+    /** Whether a notification says which subscription it is of. */
+    public boolean namesItsSubscription() {
+        return !format.startsWith("simplified");
+    }
+
+    void writeTo(ObjectNode notification) {
+        attrs.forEach(notification.putArray("attrs")::add);
+        notification.put("attrsFormat", format).put("onlyChangedAttrs", onlyChanged);
+    }
+}

@@ -1,0 +1,201 @@
+package io.furrow.connect.source;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.ConnectRig;
+import io.furrow.connect.TopicReader;
+import io.furrow.connect.repair.Broker;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.simulators.fiware.FiwareSettings;
+import io.furrow.simulators.fiware.FiwareSettings.Connections;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** A real worker beside the context broker of the simulators, which connects anew for each notification. */
+class NgsiRepairIT {
+    private static final String NAME = "ngsi-source";
+    private static final int ENTITIES = 500;
+    private static final int UPDATES = 20_000;
+    private static final int BATCH = 100;
+    private static final int DELETED = 10;
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+
+    @TempDir
+    static Path directory;
+
+    private static ConnectRig rig;
+
+    private final Broker broker = new Broker(FiwareSettings.httpOnly().withConnections(Connections.TRANSIENT), "agri");
+
+    @BeforeAll
+    static void startWorker() {
+        rig = ConnectRig.start(directory);
+    }
+
+    @AfterAll
+    static void stopWorker() {
+        rig.close();
+    }
+
+    @AfterEach
+    void stopBroker() {
+        broker.close();
+    }
+
+    @Test
+    void bringsTheLatestStateOfAllEntitiesThatChangedWhileItWasDown() {
+        source("repaired", ConnectRig.freePort());
+        Map<String, Integer> state = new HashMap<>();
+        List<Integer> all =
+                java.util.stream.IntStream.range(0, ENTITIES).boxed().toList();
+        update(all.subList(0, ENTITIES / 2), 0, state);
+        update(all.subList(ENTITIES / 2, ENTITIES), 0, state);
+        try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "repaired")) {
+            await().atMost(PATIENCE).until(() -> latest(reader.atLeast(1)).equals(state));
+            await().atMost(PATIENCE).until(() -> broker.standIn().counters().notificationsQueued() == 0);
+            rig.stop(NAME);
+            changeWhileDown(state);
+            assertThat(subscription().path("status").asText()).isEqualTo("inactive");
+
+            long begin = System.nanoTime();
+            rig.resume(NAME);
+
+            List<ConsumerRecord<String, byte[]>> seen = new ArrayList<>();
+            await().atMost(PATIENCE).untilAsserted(() -> {
+                seen.clear();
+                seen.addAll(reader.atLeast(1));
+                assertThat(latest(seen)).isEqualTo(state);
+            });
+            System.out.printf(
+                    "the latest state of %d entities was on the topic %d ms after the source was told to resume%n",
+                    ENTITIES, Duration.ofNanos(System.nanoTime() - begin).toMillis());
+            Map<String, ConsumerRecord<String, byte[]>> last = new HashMap<>();
+            seen.forEach(record -> last.put(record.key(), record));
+            assertThat(last).hasSize(ENTITIES);
+            assertThat(last.values())
+                    .extracting(record -> header(record, "origin"))
+                    .containsOnly("repair");
+            assertThat(last.values())
+                    .filteredOn(record -> record.value() == null)
+                    .hasSize(DELETED)
+                    .extracting(record -> header(record, "ce_type"))
+                    .containsOnly("ngsi.entity.deleted");
+            await().until(() -> subscription().path("status").asText().equals("active"));
+
+            broker.put("/", "e77", "Probe", -1);
+            await().atMost(PATIENCE)
+                    .until(() -> reader.atLeast(1).stream()
+                            .anyMatch(record -> record.key().equals("e77") && value(record) == -1));
+        }
+    }
+
+    @Test
+    void hasOneSubscriptionThroughRestartsAndMovesAndMakesItAgainWhenItIsRemoved() {
+        source("kept", ConnectRig.freePort());
+        await().until(() -> broker.subscriptions().size() == 1);
+        String id = subscription().path("id").asText();
+
+        rig.restart(NAME);
+        int port = ConnectRig.freePort();
+        source("kept", port);
+
+        await().atMost(PATIENCE)
+                .until(() -> subscription()
+                        .at("/notification/http/url")
+                        .asText()
+                        .equals("http://127.0.0.1:" + port + "/v2/notify"));
+        assertThat(subscription().path("id").asText()).isEqualTo(id);
+        broker.send("DELETE", "/v2/subscriptions/" + id, "/#", "");
+        broker.put("/", "unnoticed", "Probe", 1);
+        await().atMost(PATIENCE).until(() -> broker.subscriptions().size() == 1);
+        try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "kept")) {
+            assertThat(reader.atLeast(1))
+                    .anySatisfy(record -> assertThat(record.key()).isEqualTo("unnoticed"));
+        }
+    }
+
+    private void source(String topic, int port) {
+        rig.create(
+                "ngsi-source-subscribing",
+                Map.of(
+                        "listen.port", Integer.toString(port),
+                        "topic", topic,
+                        "public.url", "",
+                        "context.broker.url", broker.uri().toString(),
+                        "subscription.tenants", "agri",
+                        "subscription.alteration.types", "entityCreate,entityChange,entityDelete",
+                        "subscription.max.fails", "5",
+                        "subscription.check.interval.ms", "3000"));
+        await().atMost(PATIENCE).until(() -> !broker.subscriptions().isEmpty());
+    }
+
+    private void changeWhileDown(Map<String, Integer> state) {
+        long seed = System.nanoTime();
+        Random random = new Random(seed);
+        System.out.println("changes of seed " + seed);
+        for (int done = 0; done < UPDATES; done += BATCH) {
+            int value = done;
+            List<Integer> some =
+                    random.ints(0, ENTITIES).distinct().limit(BATCH).boxed().toList();
+            update(some, value + 1, state);
+        }
+        for (int i = 0; i < DELETED; i++) {
+            broker.delete("/", "e" + i);
+            state.put("e" + i, null);
+        }
+    }
+
+    private void update(List<Integer> entities, int value, Map<String, Integer> state) {
+        StringBuilder body = new StringBuilder("{\"actionType\": \"append\", \"entities\": [");
+        for (int number : entities) {
+            body.append(body.toString().endsWith("[") ? "" : ",")
+                    .append("{\"id\": \"e" + number
+                            + "\", \"type\": \"Probe\", \"t\": {\"type\": \"Number\", \"value\": " + value + "}}");
+            state.put("e" + number, value);
+        }
+        assertThat(broker.send("POST", "/v2/op/update", "/", body + "]}").statusCode())
+                .isEqualTo(204);
+    }
+
+    private JsonNode subscription() {
+        assertThat(broker.subscriptions()).hasSize(1);
+        return broker.subscriptions().get(0);
+    }
+
+    private static Map<String, Integer> latest(List<ConsumerRecord<String, byte[]>> records) {
+        Map<String, Integer> latest = new HashMap<>();
+        records.forEach(record -> latest.put(record.key(), record.value() == null ? null : value(record)));
+        return latest;
+    }
+
+    private static int value(ConsumerRecord<String, byte[]> record) {
+        try {
+            return record.value() == null
+                    ? 0
+                    : Entity.parse(record.value()).value("t").orElseThrow().intValue();
+        } catch (UnreadableException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    private static String header(ConsumerRecord<String, byte[]> record, String name) {
+        return new String(record.headers().lastHeader(name).value(), StandardCharsets.UTF_8);
+    }
+}
