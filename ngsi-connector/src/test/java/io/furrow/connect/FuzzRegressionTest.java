@@ -38,7 +38,7 @@ class FuzzRegressionTest {
 
     @Test
     void readsAnyPayload() throws Exception {
-        run("bodies", FuzzRecords::fuzzerTestOneInput, 100);
+        run("records", FuzzRecords::fuzzerTestOneInput, 500);
     }
 
     @Test

@@ -49,11 +49,11 @@ final class RecordForm {
                 throw new IllegalArgumentException("a record of version " + version + "; this plugin knows " + VERSION);
             }
             Instant time = Instant.ofEpochMilli(in.readLong());
-            String topic = readText(in);
+            String topic = readPresentText(in);
             String key = readText(in);
             Map<String, String> headers = new LinkedHashMap<>();
             for (int left = in.readInt(); left > 0; left--) {
-                headers.put(readText(in), readText(in));
+                headers.put(readPresentText(in), readPresentText(in));
             }
             byte[] value = readBytes(in);
             if (in.available() > 0) {
@@ -74,6 +74,14 @@ final class RecordForm {
         if (bytes != null) {
             out.write(bytes);
         }
+    }
+
+    private static String readPresentText(DataInputStream in) throws IOException {
+        String text = readText(in);
+        if (text == null) {
+            throw new IllegalArgumentException("a topic or header that is null");
+        }
+        return text;
     }
 
     private static String readText(DataInputStream in) throws IOException {
