@@ -31,7 +31,8 @@ class CommandLineTest {
         "up --help, --orion",
         "bench --help, load",
         "bench load --help, --devices",
-        "bench notifications --help, --new-connections"
+        "bench notifications --help, --new-connections",
+        "bench sink --help, --stand-in"
     })
     void explainsItself(String words, String mentioned) {
         assertThat(furrow.execute(words.split(" "))).isZero();

@@ -7,8 +7,10 @@ import java.time.Instant;
 import java.time.ZoneOffset;
 import java.time.format.DateTimeFormatter;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 import java.util.Locale;
+import java.util.stream.LongStream;
 
 /**
  * A notification of one entity as Orion 4.7 sends it (normalized, the headers and the order of members recorded from it),
@@ -27,6 +29,8 @@ public final class NotificationRequest {
 
     private static final byte[] BEFORE = BEFORE_NUMBER.getBytes(StandardCharsets.US_ASCII);
     private static final int ID_DIGITS = 6;
+    private static final String DATA = "\"data\":[";
+    private static final String END_OF_DATA = "]}";
     private static final String ID_PREFIX = "urn:ngsi-ld:SoilProbe:";
     private static final int MOST_MEASURES = 8;
     private static final String NO_ID = "0".repeat(ID_DIGITS);
@@ -39,6 +43,7 @@ public final class NotificationRequest {
     private final byte[] bytes;
     private final ByteBuffer request;
     private final int entities;
+    private final int entityAt;
     private final int idAt;
     private final int numberAt;
     private final int[] timesAt;
@@ -49,6 +54,7 @@ public final class NotificationRequest {
         this.bytes = text.getBytes(StandardCharsets.US_ASCII);
         this.request = ByteBuffer.allocateDirect(bytes.length);
         this.entities = entities;
+        this.entityAt = text.indexOf(DATA) + DATA.length();
         this.idAt = text.indexOf(ID_PREFIX) + ID_PREFIX.length();
         this.numberAt = text.indexOf(BEFORE_NUMBER) + BEFORE_NUMBER.length();
         List<Integer> times = new ArrayList<>();
@@ -97,22 +103,41 @@ public final class NotificationRequest {
         return request.clear().put(bytes).flip();
     }
 
+    /** The entity of the request with this number alone, as a record holds it. */
+    public byte[] entityWith(long number, long epochMillis) {
+        with(number, epochMillis);
+        return Arrays.copyOfRange(bytes, entityAt, bytes.length - END_OF_DATA.length());
+    }
+
     /** The number in a record's value, or -1 if it holds none. */
     public static long numberIn(byte[] value) {
-        int at = indexOf(value, BEFORE) + BEFORE.length;
-        if (at < BEFORE.length || at + DIGITS > value.length) {
-            return -1;
+        return numbersIn(value).findFirst().orElse(-1);
+    }
+
+    /** The numbers in a text of several entities, in their order. */
+    public static LongStream numbersIn(byte[] text) {
+        LongStream.Builder numbers = LongStream.builder();
+        for (int at = indexOf(text, 0); at >= 0; at = indexOf(text, at)) {
+            at += BEFORE.length;
+            if (at + DIGITS <= text.length) {
+                numbers.add(number(text, at));
+            }
         }
+        return numbers.build();
+    }
+
+    private static long number(byte[] text, int at) {
         long number = 0;
         for (int i = at + 1; i < at + DIGITS; i++) {
-            number = number * 10 + value[i] - '0';
+            number = number * 10 + text[i] - '0';
         }
         return number;
     }
 
-    private static int indexOf(byte[] value, byte[] wanted) {
-        for (int at = 0; at <= value.length - wanted.length; at++) {
-            if (java.util.Arrays.mismatch(value, at, at + wanted.length, wanted, 0, wanted.length) < 0) {
+    /** Where the next number is announced, or -1. */
+    private static int indexOf(byte[] text, int from) {
+        for (int at = from; at <= text.length - BEFORE.length; at++) {
+            if (text[at] == '"' && Arrays.equals(text, at, at + BEFORE.length, BEFORE, 0, BEFORE.length)) {
                 return at;
             }
         }

@@ -1,0 +1,145 @@
+package io.furrow.bench.sink;
+
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.BitSet;
+import java.util.List;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicReference;
+import java.util.function.Consumer;
+import java.util.function.Supplier;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.OffsetAndMetadata;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.bench.http.BareServer;
+import io.furrow.bench.http.HttpLoad;
+import io.furrow.bench.http.HttpLoadPlan;
+import io.furrow.bench.http.NotificationRequest;
+import io.furrow.model.event.HeaderNames;
+
+/** Fills a topic, lets the sink empty it into a context broker, and tells how long that took. */
+public final class SinkMeasurement {
+    private static final int PARTITIONS = 4;
+    private static final short REPLICAS = 1;
+    private static final int ENTITIES_PER_REQUEST = 100;
+    private static final Duration PATIENCE = Duration.ofMinutes(3);
+    private static final long LOOK_MS = 100;
+    private static final int LOOKS_PER_SECOND = (int) (1000 / LOOK_MS);
+
+    private final Properties kafka;
+    private final Consumer<String> progress;
+
+    /** Starts the sink for a topic and a context broker, under a name of its own, and returns when it runs. */
+    public interface SinkStart {
+        void start(String name, String topic, URI contextBroker);
+    }
+
+    /** @param progress is told once a second how far it is */
+    public SinkMeasurement(Properties kafka, Consumer<String> progress) {
+        this.kafka = kafka;
+        this.progress = progress;
+    }
+
+    /** Into a receiver that only answers. */
+    public SinkRun run(String name, SinkPlan plan, SinkStart sink) throws InterruptedException, ExecutionException {
+        fill(name, plan);
+        try (AnsweringBroker broker = AnsweringBroker.start()) {
+            sink.start(name, name, broker.uri());
+            awaitCommitted(name, plan.records(), () -> broker.entities() + " entities written");
+            long missing = missing(plan, broker.numbers());
+            return new SinkRun(
+                    plan, broker.nanos(), broker.entities(), broker.requests(), missing, bareEntitiesPerSecond(plan));
+        }
+    }
+
+    /** Into a context broker that does not count: the time has the sink's start in it. */
+    public SinkRun runInto(URI contextBroker, String name, SinkPlan plan, SinkStart sink)
+            throws InterruptedException, ExecutionException {
+        fill(name, plan);
+        long start = System.nanoTime();
+        sink.start(name, name, contextBroker);
+        awaitCommitted(name, plan.records(), () -> "into " + contextBroker);
+        return new SinkRun(plan, System.nanoTime() - start, 0, 0, 0, Double.NaN);
+    }
+
+    private void fill(String topic, SinkPlan plan) throws InterruptedException, ExecutionException {
+        progress.accept(topic + ": filling the topic");
+        try (Admin admin = Admin.create(kafka)) {
+            admin.createTopics(List.of(new NewTopic(topic, PARTITIONS, REPLICAS)))
+                    .all()
+                    .get();
+        }
+        NotificationRequest entities = NotificationRequest.to(
+                InetSocketAddress.createUnresolved("127.0.0.1", 0), plan.payloadBytes(), plan.entities());
+        long firstMillis = System.currentTimeMillis() - plan.records();
+        Properties properties = new Properties();
+        properties.putAll(kafka);
+        // With more, the first batch to a partition that is just being made can be overtaken and is then refused for
+        // ever.
+        properties.setProperty("max.in.flight.requests.per.connection", "1");
+        AtomicReference<Exception> failed = new AtomicReference<>();
+        try (KafkaProducer<byte[], byte[]> producer =
+                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+            for (int number = 0; number < plan.records(); number++) {
+                long millis = firstMillis + number;
+                byte[] key = Integer.toString(number % plan.entities()).getBytes(StandardCharsets.US_ASCII);
+                ProducerRecord<byte[], byte[]> record =
+                        new ProducerRecord<>(topic, null, millis, key, entities.entityWith(number, millis));
+                record.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.US_ASCII));
+                record.headers().add(HeaderNames.SERVICE_PATH, "/".getBytes(StandardCharsets.US_ASCII));
+                producer.send(record, (metadata, failure) -> failed.compareAndSet(null, failure));
+            }
+        }
+        if (failed.get() != null) {
+            throw new IllegalStateException("topic " + topic + " could not be filled", failed.get());
+        }
+    }
+
+    private void awaitCommitted(String sink, long records, Supplier<String> state)
+            throws InterruptedException, ExecutionException {
+        long end = System.nanoTime() + PATIENCE.toNanos();
+        try (Admin admin = Admin.create(kafka)) {
+            for (int looks = 0; committed(admin, sink) < records; looks++) {
+                if (System.nanoTime() > end) {
+                    throw new IllegalStateException("the sink has not committed %d records within %d s"
+                            .formatted(records, PATIENCE.toSeconds()));
+                }
+                if (looks % LOOKS_PER_SECOND == 0) {
+                    progress.accept("%s: %d s, %s".formatted(sink, looks / LOOKS_PER_SECOND, state.get()));
+                }
+                TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+            }
+        }
+    }
+
+    private static long committed(Admin admin, String sink) throws InterruptedException, ExecutionException {
+        return admin.listConsumerGroupOffsets("connect-" + sink).partitionsToOffsetAndMetadata().get().values().stream()
+                .mapToLong(OffsetAndMetadata::offset)
+                .sum();
+    }
+
+    /** The newest record of each entity must have come; older ones may have been merged into it. */
+    static long missing(SinkPlan plan, BitSet arrived) {
+        BitSet newest = new BitSet();
+        newest.set(plan.records() - plan.entities(), plan.records());
+        newest.andNot(arrived);
+        return newest.cardinality();
+    }
+
+    private static double bareEntitiesPerSecond(SinkPlan plan) {
+        try (BareServer server = BareServer.start()) {
+            HttpLoadPlan load =
+                    new HttpLoadPlan(4, false, 0, ENTITIES_PER_REQUEST * plan.payloadBytes(), 1, Duration.ofSeconds(3));
+            return new HttpLoad(server.address(), load, 0).run().perSecond() * ENTITIES_PER_REQUEST;
+        }
+    }
+}
