@@ -87,20 +87,24 @@ final class Repair {
         Set<String> candidates = known.copy();
         Set<String> there = new HashSet<>();
         new KeysetReader(entities::createdFrom, reading.pageSize())
-                .readFrom(
-                        Instant.EPOCH,
-                        states -> states.stream()
-                                .filter(state ->
-                                        !reading.isExcluded(state.entity().type()))
-                                .forEach(state -> there.add(state.identity())));
-        candidates.removeAll(there);
-        for (String identity : there) {
-            known.add(identity);
+                .readFrom(Instant.EPOCH, states -> learn(states, there));
+        if (known.isOverfull()) {
+            return;
         }
+        candidates.removeAll(there);
         for (String identity : new java.util.TreeSet<>(candidates)) {
             checkGone(identity);
         }
         known.flush();
+    }
+
+    private void learn(List<EntityState> states, Set<String> there) throws IOException {
+        for (EntityState state : states) {
+            if (!known.isOverfull() && !reading.isExcluded(state.entity().type())) {
+                there.add(state.identity());
+                known.add(state.identity());
+            }
+        }
     }
 
     /** One that is there but was not read is none of ours any more. */

@@ -132,9 +132,11 @@ class NgsiRepairIT {
     }
 
     private void source(String topic, int port) {
+        // Each test has a context broker of its own, so what is known of another's entities must not be known here.
         rig.create(
                 "ngsi-source-subscribing",
                 Map.of(
+                        "journal.dir", directory.resolve("journal-" + topic).toString(),
                         "listen.port", Integer.toString(port),
                         "topic", topic,
                         "public.url", "",
