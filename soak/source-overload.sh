@@ -12,7 +12,7 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 
 seconds=120
 senders=400
-bytes=1048576
+bytes=1000000
 heap=96
 
 usage() {

@@ -194,6 +194,28 @@ class OverloadTest {
         }
     }
 
+    @Test
+    void letsFurtherConnectionsWaitUntilOneIsClosed() throws IOException {
+        try (ReceptionRig rig = new ReceptionRig("listen.max.connections", "1");
+                Socket second = new Socket()) {
+            try (Socket first = new Socket("127.0.0.1", rig.port())) {
+                first.getOutputStream().write(request("first"));
+                await().until(() -> rig.intake.taken.size() == 1);
+                second.connect(new java.net.InetSocketAddress("127.0.0.1", rig.port()));
+                second.getOutputStream().write(request("second"));
+
+                await().during(java.time.Duration.ofMillis(300)).until(() -> rig.intake.taken.size() == 1);
+            }
+
+            await().until(() -> rig.intake.taken.size() == 2);
+        }
+    }
+
+    private static byte[] request(String id) {
+        String body = "{\"id\": \"" + id + "\"}";
+        return ("POST / HTTP/1.1\r\nHost: a\r\nContent-Length: " + body.length() + "\r\n\r\n" + body).getBytes();
+    }
+
     /** Sends a byte every 50 ms until the connection is cut. */
     private static void trickle(Socket socket, String beginning) throws IOException {
         OutputStream out = socket.getOutputStream();
