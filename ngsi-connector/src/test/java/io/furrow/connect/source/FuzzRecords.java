@@ -6,6 +6,11 @@ import java.util.Arrays;
 public final class FuzzRecords {
     private FuzzRecords() {}
 
+    /** Called by the fuzzer first: loading classes takes long on a busy machine, and no input hangs because of it. */
+    public static void fuzzerInitialize() {
+        fuzzerTestOneInput(new byte[] {1});
+    }
+
     /** One payload; throws whatever is wrong. */
     public static void fuzzerTestOneInput(byte[] payload) {
         OutgoingRecord record;
