@@ -1,0 +1,158 @@
+#!/usr/bin/env bash
+# Runs the NGSI connector on a Kafka 3.9 broker and a Connect 3.9 worker: one record through source and sink.
+set -euo pipefail
+
+soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+home=$(dirname "$soak")
+java=${JAVA_HOME:+$JAVA_HOME/bin/}java
+# shellcheck source=parts/machine.sh
+. "$soak/parts/machine.sh"
+# shellcheck source=parts/kafka.sh
+. "$soak/parts/kafka.sh"
+
+version=3.9.2
+zip=
+
+usage() {
+    cat <<USAGE
+Usage: ./furrow soak connect-3.9 [OPTION VALUE]…
+Fetches Kafka and Connect once, some 60 MB, starts a broker and a distributed worker of that version with the packaged plugin, and
+sends a notification to the source; the sink must write its entity to a receiver.
+
+  --version V  Version of Kafka and Connect. Default: $version.
+  --zip FILE   The plugin. Default: the one that is built from here.
+USAGE
+}
+
+while (($# > 0)); do
+    case $1 in
+        -h | --help) usage && exit 0 ;;
+        --version) version=${2-} ;;
+        --zip) zip=${2-} ;;
+        *) fail "connect-3.9 knows no option $1. See: ./furrow soak connect-3.9 --help" ;;
+    esac
+    (($# > 1)) || fail "$1 needs a value. See: ./furrow soak connect-3.9 --help"
+    shift 2
+done
+[[ $version =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]] || fail "--version must be like 3.9.2, not '$version'."
+command -v curl >/dev/null || fail "No curl found, which talks to the worker. Install curl."
+
+run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-connect.XXXXXX")
+logs=$home/target/soak/connect-3.9
+libs=$home/target/soak/kafka-$version
+classes=$run/conf:$libs/*
+
+clean_up() {
+    local code=$?
+    trap - EXIT INT TERM
+    stop_own
+    rm -rf "$run"
+    case $code in
+        0) ;;
+        130 | 143) echo "connect-3.9: interrupted" ;;
+        *) printf 'connect-3.9: failed; logs: %s\n' "$logs" ;;
+    esac
+    exit "$code"
+}
+trap clean_up EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+rm -rf "$logs"
+mkdir -p "$logs" "$run/conf" "$run/plugins"
+
+fetch() {
+    [[ -f $libs/complete ]] && return
+    say "fetching Kafka and Connect $version"
+    cat >"$run/pom.xml" <<POM
+<project xmlns="http://maven.apache.org/POM/4.0.0"><modelVersion>4.0.0</modelVersion>
+  <groupId>io.furrow</groupId><artifactId>soak</artifactId><version>1</version><packaging>pom</packaging>
+  <dependencies>
+    <dependency><groupId>org.apache.kafka</groupId><artifactId>connect-runtime</artifactId><version>$version</version></dependency>
+    <dependency><groupId>org.apache.kafka</groupId><artifactId>kafka_2.13</artifactId><version>$version</version></dependency>
+    <dependency><groupId>org.slf4j</groupId><artifactId>slf4j-reload4j</artifactId><version>1.7.36</version></dependency>
+  </dependencies>
+</project>
+POM
+    (cd "$home" && ./mvnw -B -ntp -q -f "$run/pom.xml" org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies \
+        -DincludeScope=runtime -DoutputDirectory="$libs") >"$logs/fetch.log" 2>&1 || fail "Kafka $version could not be fetched: $logs/fetch.log"
+    touch "$libs/complete"
+}
+
+build() {
+    say "building the plugin"
+    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dspotless.check.skip -pl ngsi-connector -am) >"$logs/build.log" 2>&1 ||
+        { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }
+    zip=$(ls -t "$home"/ngsi-connector/target/furrow-ngsi-connector-*.zip | head -n 1)
+}
+
+start_worker() {
+    local port
+    free_port && rest=127.0.0.1:$port
+    cat >"$run/worker.properties" <<PROPERTIES
+bootstrap.servers=$bootstrap
+group.id=soak
+plugin.path=$run/plugins
+plugin.discovery=hybrid_fail
+listeners=http://$rest
+key.converter=org.apache.kafka.connect.storage.StringConverter
+value.converter=org.apache.kafka.connect.converters.ByteArrayConverter
+config.storage.topic=connect-configs
+config.storage.replication.factor=1
+offset.storage.topic=connect-offsets
+offset.storage.replication.factor=1
+offset.storage.partitions=1
+status.storage.topic=connect-status
+status.storage.replication.factor=1
+status.storage.partitions=1
+scheduled.rebalance.max.delay.ms=0
+exactly.once.source.support=enabled
+PROPERTIES
+    "$java" -Xmx512m -cp "$classes" org.apache.kafka.connect.cli.ConnectDistributed "$run/worker.properties" >"$logs/worker.log" 2>&1 &
+    own $!
+    until_true 120 "The Connect worker" curl -fsS "http://$rest/connectors"
+}
+
+runs() { curl -fsS "http://$rest/connectors/$1/status" | grep -q '"tasks":\[{"id":0,"state":"RUNNING"'; }
+
+create() {
+    curl -fsS -X PUT "http://$rest/connectors/$1/config" -H 'Content-Type: application/json' -d "$2" >>"$logs/rest.log" ||
+        fail "The worker refused the connector $1; logs: $logs"
+    until_true 60 "The task of $1" runs "$1"
+}
+
+cat >"$run/conf/log4j.properties" <<'PROPERTIES'
+log4j.rootLogger=WARN, out
+log4j.logger.io.furrow=INFO
+log4j.appender.out=org.apache.log4j.ConsoleAppender
+log4j.appender.out.layout=org.apache.log4j.PatternLayout
+log4j.appender.out.layout.ConversionPattern=%d %-5p %c %m%n
+PROPERTIES
+
+[[ -n $zip ]] || build
+[[ -f $zip ]] || fail "There is no file $zip."
+zip=$(cd "$(dirname "$zip")" && pwd)/$(basename "$zip")
+fetch
+(cd "$run/plugins" && "${java%java}jar" xf "$zip")
+say "starting Kafka $version"
+start_kafka
+say "starting Connect $version with $(basename "$zip")"
+start_worker
+curl -fsS "http://$rest/" | grep -q "\"version\":\"$version\"" || fail "The worker is not of version $version."
+
+free_port && listen=$port
+free_port && receive=$port
+"$java" "$soak/parts/Receiver.java" "$receive" >"$logs/received.log" 2>&1 &
+own $!
+until_true 30 "The receiver" open_port "$receive"
+create ngsi-source '{"connector.class": "io.furrow.connect.source.NgsiSourceConnector", "tasks.max": "1",
+    "listen.port": "'"$listen"'", "journal.dir": "'"$run"'/journal", "topic": "data.raw", "exactly.once.support": "required"}'
+create ngsi-sink '{"connector.class": "io.furrow.connect.sink.NgsiSinkConnector", "tasks.max": "1", "topics": "data.raw",
+    "context.broker.url": "http://127.0.0.1:'"$receive"'", "echo.sources": "", "consumer.override.metadata.max.age.ms": "500"}'
+say "both connectors run"
+curl -fsS -X POST "http://127.0.0.1:$listen/v2/notify" -H 'Content-Type: application/json' -d '{
+    "id": "urn:ngsi-ld:Thermometer:1", "type": "Thermometer", "Temperature": {"type": "Float", "value": 21.5}}' ||
+    fail "The source refused the notification; logs: $logs"
+until_true 60 "The entity at the receiver" grep -q '^POST /v2/op/update .*urn:ngsi-ld:Thermometer:1.*21.5' "$logs/received.log"
+say "the entity went through source and sink"
+runs ngsi-source && runs ngsi-sink || fail "A task has failed; logs: $logs"
+echo "connect-3.9: passed on Kafka and Connect $version"

@@ -1,0 +1,24 @@
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.nio.charset.StandardCharsets;
+
+import com.sun.net.httpserver.HttpServer;
+
+/** Takes what a context broker would be sent and prints it, a line each; a query finds nothing. Run: java Receiver.java PORT */
+class Receiver {
+    public static void main(String[] arguments) throws Exception {
+        InetSocketAddress address = new InetSocketAddress(InetAddress.getLoopbackAddress(), Integer.parseInt(arguments[0]));
+        HttpServer server = HttpServer.create(address, 0);
+        server.createContext("/", exchange -> {
+            String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+            System.out.println(exchange.getRequestMethod() + " " + exchange.getRequestURI() + " " + body);
+            byte[] answer = exchange.getRequestURI().getPath().endsWith("/query") ? "[]".getBytes(StandardCharsets.UTF_8) : null;
+            exchange.sendResponseHeaders(answer == null ? 204 : 200, answer == null ? -1 : answer.length);
+            if (answer != null) {
+                exchange.getResponseBody().write(answer);
+            }
+            exchange.close();
+        });
+        server.start();
+    }
+}
