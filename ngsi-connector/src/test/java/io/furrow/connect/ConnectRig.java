@@ -5,15 +5,17 @@ import java.io.InputStream;
 import java.io.UncheckedIOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
+import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.nio.file.DirectoryStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.Comparator;
 import java.util.Map;
+import java.util.stream.Stream;
 import java.util.zip.ZipEntry;
 import java.util.zip.ZipInputStream;
 
@@ -42,7 +44,9 @@ public final class ConnectRig implements AutoCloseable {
     private ConnectRig(Path directory) {
         this.directory = directory;
         startKafka();
-        worker = EmbeddedConnect.start(bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, Map.of());
+        // Refuses to start where a connector is not declared in META-INF/services.
+        Map<String, String> strict = Map.of("plugin.discovery", "hybrid_fail");
+        worker = EmbeddedConnect.start(bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, strict);
     }
 
     public static ConnectRig start(Path directory) {
@@ -107,13 +111,28 @@ public final class ConnectRig implements AutoCloseable {
         awaitRunning(name);
     }
 
+    /** The worker's REST API. */
+    public URI rest() {
+        return worker.uri();
+    }
+
+    /** The worker's answer to {@code PUT path}. */
+    public JsonNode put(String path, JsonNode body) {
+        return json(send(HttpRequest.newBuilder(worker.uri().resolve(path))
+                        .header("Content-Type", "application/json")
+                        .PUT(BodyPublishers.ofString(body.toString())))
+                .body()
+                .getBytes());
+    }
+
     /** The worker's answer to {@code GET path}. */
     public JsonNode get(String path) {
         return json(
                 send(HttpRequest.newBuilder(worker.uri().resolve(path))).body().getBytes());
     }
 
-    private void awaitRunning(String name) {
+    /** Returns when the first task of the connector runs. */
+    public void awaitRunning(String name) {
         await().atMost(PATIENCE).untilAsserted(() -> {
             JsonNode status = get("/connectors/" + name + "/status");
             assertThat(status.path("tasks").path(0).path("state").asText())
@@ -142,10 +161,19 @@ public final class ConnectRig implements AutoCloseable {
         }
     }
 
+    /** The zip that was built last: those of earlier versions may still be there. */
+    static Path packagedPlugin() {
+        try (Stream<Path> files = Files.list(Path.of("target"))) {
+            return files.filter(file -> file.toString().endsWith(".zip"))
+                    .max(Comparator.comparingLong(file -> file.toFile().lastModified()))
+                    .orElseThrow();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
     private static Path unpackedPlugin(Path into) {
-        try (DirectoryStream<Path> zips = Files.newDirectoryStream(Path.of("target"), "*-plugin.zip");
-                ZipInputStream zip =
-                        new ZipInputStream(Files.newInputStream(zips.iterator().next()))) {
+        try (ZipInputStream zip = new ZipInputStream(Files.newInputStream(packagedPlugin()))) {
             for (ZipEntry entry = zip.getNextEntry(); entry != null; entry = zip.getNextEntry()) {
                 Path file = into.resolve(entry.getName());
                 if (entry.isDirectory()) {

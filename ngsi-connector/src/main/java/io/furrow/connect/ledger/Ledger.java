@@ -30,7 +30,7 @@ import com.fasterxml.jackson.databind.JsonNode;
  * skipped, when the worker tells it; the repair repaired, once what it emitted is durable (what is not, it tries again and
  * counts once), and repeated.
  */
-public final class Ledger {
+public final class Ledger implements Numbers {
     private final List<Counter> counters = new ArrayList<>();
     private final List<Gauge> gauges = new CopyOnWriteArrayList<>();
     private final Map<String, Supplier<JsonNode>> details = Collections.synchronizedMap(new LinkedHashMap<>());
@@ -102,11 +102,13 @@ public final class Ledger {
     }
 
     /** In a fixed order. */
+    @Override
     public List<Counter> counters() {
         return List.copyOf(counters);
     }
 
     /** In the order in which they were added. */
+    @Override
     public List<Gauge> gauges() {
         return List.copyOf(gauges);
     }

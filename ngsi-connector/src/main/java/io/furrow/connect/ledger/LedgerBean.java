@@ -21,8 +21,8 @@ import javax.management.MBeanServer;
 import javax.management.ObjectName;
 
 /**
- * The ledger over JMX, while it is open: {@code furrow.connect:type=ngsi-source,connector=…,task=0} with the attributes
- * {@code received-total} and so on, gauges without {@code -total}.
+ * The numbers of a task over JMX, while it is open: {@code furrow.connect:type=ngsi-source,connector=…,task=0}, or
+ * {@code type=ngsi-sink}, with the attributes {@code received-total} and so on, gauges without {@code -total}.
  */
 public final class LedgerBean implements AutoCloseable {
     private static final Pattern NEEDS_NO_QUOTES = Pattern.compile("[\\w-%. ]+");
@@ -34,14 +34,19 @@ public final class LedgerBean implements AutoCloseable {
         this.name = name;
     }
 
-    /** Shows a ledger, in the place of one that was left under the same name. */
+    /** Shows a source's ledger, in the place of one that was left under the same name. */
     public static LedgerBean show(Ledger ledger, String connector, int task) {
+        return show(ledger, "ngsi-source", connector, task);
+    }
+
+    /** Shows the numbers of a task of this type, in the place of those that were left under the same name. */
+    public static LedgerBean show(Numbers numbers, String type, String connector, int task) {
         String plain = NEEDS_NO_QUOTES.matcher(connector).matches() ? connector : ObjectName.quote(connector);
         try {
             LedgerBean bean = new LedgerBean(
-                    new ObjectName("furrow.connect:type=ngsi-source,connector=" + plain + ",task=" + task));
+                    new ObjectName("furrow.connect:type=" + type + ",connector=" + plain + ",task=" + task));
             bean.close();
-            bean.server.registerMBean(new Numbers(ledger), bean.name);
+            bean.server.registerMBean(new Shown(numbers), bean.name);
             return bean;
         } catch (InstanceAlreadyExistsException e) {
             throw new IllegalStateException("two tasks show themselves under one name at the same moment", e);
@@ -63,12 +68,12 @@ public final class LedgerBean implements AutoCloseable {
     }
 
     /** All as attributes to read; nothing to set, nothing to call. */
-    private record Numbers(Ledger ledger) implements DynamicMBean {
-        private static final String DESCRIPTION = "What a task of the NGSI source has counted since its start.";
+    private record Shown(Numbers of) implements DynamicMBean {
+        private static final String DESCRIPTION = "What a task has counted since its start.";
 
         @Override
         public Object getAttribute(String attribute) throws AttributeNotFoundException {
-            LongSupplier number = numbers().get(attribute);
+            LongSupplier number = all().get(attribute);
             if (number == null) {
                 throw new AttributeNotFoundException(attribute);
             }
@@ -77,7 +82,7 @@ public final class LedgerBean implements AutoCloseable {
 
         @Override
         public AttributeList getAttributes(String[] names) {
-            Map<String, LongSupplier> numbers = numbers();
+            Map<String, LongSupplier> numbers = all();
             AttributeList found = new AttributeList();
             for (String name : names) {
                 if (numbers.containsKey(name)) {
@@ -87,19 +92,19 @@ public final class LedgerBean implements AutoCloseable {
             return found;
         }
 
-        private Map<String, LongSupplier> numbers() {
+        private Map<String, LongSupplier> all() {
             Map<String, LongSupplier> numbers = new TreeMap<>();
-            ledger.counters().forEach(counter -> numbers.put(kebabCase(counter.name()) + "-total", counter::sum));
-            ledger.gauges().forEach(gauge -> numbers.put(kebabCase(gauge.name()), gauge.now()));
+            of.counters().forEach(counter -> numbers.put(kebabCase(counter.name()) + "-total", counter::sum));
+            of.gauges().forEach(gauge -> numbers.put(kebabCase(gauge.name()), gauge.now()));
             return numbers;
         }
 
         @Override
         public MBeanInfo getMBeanInfo() {
             List<MBeanAttributeInfo> attributes = new ArrayList<>();
-            ledger.counters()
+            of.counters()
                     .forEach(counter -> attributes.add(readable(kebabCase(counter.name()) + "-total", counter.help())));
-            ledger.gauges().forEach(gauge -> attributes.add(readable(kebabCase(gauge.name()), gauge.help())));
+            of.gauges().forEach(gauge -> attributes.add(readable(kebabCase(gauge.name()), gauge.help())));
             MBeanAttributeInfo[] all = attributes.toArray(MBeanAttributeInfo[]::new);
             return new MBeanInfo(Ledger.class.getName(), DESCRIPTION, all, null, null, null);
         }

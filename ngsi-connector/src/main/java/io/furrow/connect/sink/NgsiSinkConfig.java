@@ -12,6 +12,9 @@ import io.furrow.connect.broker.BrokerOptions;
 
 /** The options of the sink, a group each; throws {@link ConfigException} naming the option where one cannot be used. */
 public class NgsiSinkConfig extends AbstractConfig {
+    /** Set by the connector for each task, not by people. */
+    static final String TASK_INDEX = "task.index";
+
     private final BrokerOptions broker;
     private final ApiOptions api;
     private final SinkEntityOptions entities;
@@ -32,6 +35,14 @@ public class NgsiSinkConfig extends AbstractConfig {
         SinkEntityOptions.define(options);
         DeliveryOptions.define(options);
         return options;
+    }
+
+    String name() {
+        return originalsStrings().getOrDefault("name", "ngsi-sink");
+    }
+
+    int taskIndex() {
+        return Integer.parseInt(originalsStrings().getOrDefault(TASK_INDEX, "0"));
     }
 
     BrokerOptions broker() {

@@ -1,13 +1,16 @@
 package io.furrow.connect.sink;
 
-import java.util.Collections;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.IntStream;
 
+import org.apache.kafka.common.config.Config;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.connect.connector.Task;
 import org.apache.kafka.connect.sink.SinkConnector;
 
+import io.furrow.connect.CheckedTogether;
 import io.furrow.connect.PluginVersion;
 
 /** Writes the entities of topics into a context broker. Tasks share the partitions. */
@@ -28,6 +31,11 @@ public class NgsiSinkConnector extends SinkConnector {
     }
 
     @Override
+    public Config validate(Map<String, String> options) {
+        return CheckedTogether.with(super.validate(options), () -> new NgsiSinkConfig(options));
+    }
+
+    @Override
     public Class<? extends Task> taskClass() {
         return NgsiSinkTask.class;
     }
@@ -40,7 +48,13 @@ public class NgsiSinkConnector extends SinkConnector {
 
     @Override
     public List<Map<String, String>> taskConfigs(int maxTasks) {
-        return Collections.nCopies(maxTasks, properties);
+        return IntStream.range(0, maxTasks).mapToObj(this::task).toList();
+    }
+
+    private Map<String, String> task(int index) {
+        Map<String, String> task = new HashMap<>(properties);
+        task.put(NgsiSinkConfig.TASK_INDEX, Integer.toString(index));
+        return task;
     }
 
     @Override

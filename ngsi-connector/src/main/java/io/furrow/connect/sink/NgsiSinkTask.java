@@ -15,6 +15,7 @@ import org.apache.kafka.connect.sink.SinkTask;
 
 import io.furrow.connect.PluginVersion;
 import io.furrow.connect.broker.BrokerOptions;
+import io.furrow.connect.ledger.LedgerBean;
 import io.furrow.connect.sink.ContextWriter.Fates;
 import io.furrow.connect.sink.ContextWriter.RefusedChange;
 import io.furrow.model.event.HeaderNames;
@@ -33,6 +34,7 @@ public class NgsiSinkTask extends SinkTask {
     private ChangeReader reader;
     private ContextWriter writer;
     private Backoff backoff;
+    private LedgerBean bean;
 
     /** Made by the worker. */
     public NgsiSinkTask() {}
@@ -49,6 +51,7 @@ public class NgsiSinkTask extends SinkTask {
         reader = new ChangeReader(entities.scope(), entities.defaultType());
         writer = config.writer();
         backoff = config.delivery().backoff();
+        bean = LedgerBean.show(ledger, "ngsi-sink", config.name(), config.taskIndex());
     }
 
     /** Other tasks may have written what this one remembers. */
@@ -139,6 +142,9 @@ public class NgsiSinkTask extends SinkTask {
     public void stop() {
         if (writer != null) {
             writer.close();
+        }
+        if (bean != null) {
+            bean.close();
         }
     }
 }

@@ -4,6 +4,8 @@ import java.util.ArrayList;
 import java.util.List;
 
 import io.furrow.connect.ledger.Counter;
+import io.furrow.connect.ledger.Gauge;
+import io.furrow.connect.ledger.Numbers;
 
 /**
  * What one task has counted since its start, once per record, when the delivery that it is in is through:
@@ -12,7 +14,7 @@ import io.furrow.connect.ledger.Counter;
  * received = written + coalesced + stale + deleted + refused + unreadable + echo + ignored
  * </pre>
  */
-final class SinkLedger {
+final class SinkLedger implements Numbers {
     private final List<Counter> counters = new ArrayList<>();
 
     final Counter received = counter("received", "Records taken from the topics, each counted once");
@@ -33,7 +35,13 @@ final class SinkLedger {
         return counter;
     }
 
-    List<Counter> counters() {
+    @Override
+    public List<Counter> counters() {
         return List.copyOf(counters);
+    }
+
+    @Override
+    public List<Gauge> gauges() {
+        return List.of();
     }
 }

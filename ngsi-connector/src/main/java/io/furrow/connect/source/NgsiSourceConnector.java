@@ -5,11 +5,13 @@ import java.util.List;
 import java.util.Map;
 import java.util.stream.IntStream;
 
+import org.apache.kafka.common.config.Config;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.connect.connector.Task;
 import org.apache.kafka.connect.source.ExactlyOnceSupport;
 import org.apache.kafka.connect.source.SourceConnector;
 
+import io.furrow.connect.CheckedTogether;
 import io.furrow.connect.PluginVersion;
 
 /**
@@ -30,6 +32,11 @@ public class NgsiSourceConnector extends SourceConnector {
     @Override
     public ConfigDef config() {
         return NgsiSourceConfig.definition();
+    }
+
+    @Override
+    public Config validate(Map<String, String> options) {
+        return CheckedTogether.with(super.validate(options), () -> new NgsiSourceConfig(options));
     }
 
     @Override

@@ -10,6 +10,8 @@ import org.apache.kafka.common.config.ConfigDef.Type;
 import org.apache.kafka.common.config.ConfigDef.ValidString;
 import org.apache.kafka.common.config.ConfigDef.Width;
 
+import io.furrow.connect.Recommendations;
+
 /** What a sender sees when there is no room for its notification, and how much memory senders may take. */
 record OverloadOptions(AbstractConfig config) {
     static final String ANSWER = "overload.answer";
@@ -34,7 +36,8 @@ record OverloadOptions(AbstractConfig config) {
                 group,
                 1,
                 Width.SHORT,
-                "Answer");
+                "Answer",
+                Recommendations.values(RESET, UNAVAILABLE));
         options.define(
                 HOLD,
                 Type.LONG,

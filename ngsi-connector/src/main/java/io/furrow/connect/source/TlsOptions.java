@@ -2,6 +2,7 @@ package io.furrow.connect.source;
 
 import java.nio.file.Path;
 import java.util.Optional;
+import java.util.function.Predicate;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
@@ -12,6 +13,8 @@ import org.apache.kafka.common.config.ConfigDef.ValidString;
 import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.types.Password;
+
+import io.furrow.connect.Recommendations;
 
 /** Whether notifications come over TLS, and with which keys. */
 record TlsOptions(AbstractConfig config) {
@@ -24,6 +27,7 @@ record TlsOptions(AbstractConfig config) {
     static final String CLIENT_AUTH = "tls.client.auth";
 
     private static final String GROUP = "TLS";
+    private static final Predicate<String> IN_USE = path -> !path.isEmpty();
 
     /** A file of keys or certificates. */
     record Store(Path location, String type, Password password) {}
@@ -61,7 +65,8 @@ record TlsOptions(AbstractConfig config) {
                 GROUP,
                 7,
                 Width.SHORT,
-                "Client certificates");
+                "Client certificates",
+                Recommendations.shownIf(KEYSTORE, IN_USE, "none", "requested", "required"));
     }
 
     private static void location(ConfigDef options, String name, int order, String documentation) {
@@ -75,7 +80,8 @@ record TlsOptions(AbstractConfig config) {
                 GROUP,
                 order,
                 Width.LONG,
-                name.equals(KEYSTORE) ? "Key store" : "Trust store");
+                name.equals(KEYSTORE) ? "Key store" : "Trust store",
+                name.equals(KEYSTORE) ? Recommendations.values() : Recommendations.shownIf(KEYSTORE, IN_USE));
     }
 
     private static void type(ConfigDef options, String name, int order, String documentation) {
@@ -89,7 +95,9 @@ record TlsOptions(AbstractConfig config) {
                 GROUP,
                 order,
                 Width.SHORT,
-                name.equals(KEYSTORE_TYPE) ? "Key store type" : "Trust store type");
+                name.equals(KEYSTORE_TYPE) ? "Key store type" : "Trust store type",
+                Recommendations.shownIf(
+                        name.equals(KEYSTORE_TYPE) ? KEYSTORE : TRUSTSTORE, IN_USE, "PKCS12", "JKS", "PEM"));
     }
 
     private static void password(ConfigDef options, String name, int order, String documentation) {
@@ -103,7 +111,8 @@ record TlsOptions(AbstractConfig config) {
                 GROUP,
                 order,
                 Width.MEDIUM,
-                name.equals(KEYSTORE_PASSWORD) ? "Key store password" : "Trust store password");
+                name.equals(KEYSTORE_PASSWORD) ? "Key store password" : "Trust store password",
+                Recommendations.shownIf(name.equals(KEYSTORE_PASSWORD) ? KEYSTORE : TRUSTSTORE, IN_USE));
     }
 
     /** Empty where notifications come in plain text. */

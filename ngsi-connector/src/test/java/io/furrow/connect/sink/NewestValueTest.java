@@ -195,6 +195,37 @@ class NewestValueTest {
     }
 
     @Test
+    void countsEveryRecordOnceOverJmx() throws Exception {
+        SinkRecord echo = record("a", "x", 1, 10);
+        echo.headers().addString("ce_source", "/ngsi/1");
+        SinkRecord unreadable = new SinkRecord("t", 0, null, "a", null, "no json", 0, 1L, TimestampType.CREATE_TIME);
+        broker.behaviour = update -> update.body().toString().contains("\"bad\"")
+                ? new FakeContextBroker.Reply(400, "no")
+                : FakeContextBroker.Reply.WRITTEN;
+        task.put(
+                List.of(record("a", "x", 1, 10), record("a", "y", 1, 10), record("b", "bad", 1, 10), echo, unreadable));
+        task.put(List.of(record("a", "x", 0, 5), deletion("c", 5)));
+
+        assertThat(counted("received")).isEqualTo(7);
+        assertThat(List.of(
+                        counted("written"),
+                        counted("coalesced"),
+                        counted("stale"),
+                        counted("deleted"),
+                        counted("refused"),
+                        counted("unreadable"),
+                        counted("echo")))
+                .containsOnly(1L);
+    }
+
+    private static long counted(String name) throws javax.management.JMException {
+        return (Long) java.lang.management.ManagementFactory.getPlatformMBeanServer()
+                .getAttribute(
+                        new javax.management.ObjectName("furrow.connect:type=ngsi-sink,connector=ngsi-sink,task=0"),
+                        name + "-total");
+    }
+
+    @Test
     void keepsEntitiesOfOneIdAndTwoTypesApart() {
         task.put(List.of(
                 record("a", "x", 1, 10),
