@@ -12,6 +12,7 @@ import java.util.Comparator;
 import java.util.HexFormat;
 import java.util.List;
 import java.util.Optional;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import org.slf4j.Logger;
@@ -23,6 +24,7 @@ import org.slf4j.LoggerFactory;
  */
 public final class JournalFolders {
     private static final Logger LOG = LoggerFactory.getLogger(JournalFolders.class);
+    private static final Pattern NAME = Pattern.compile("\\d+-[0-9a-f]{16}");
     private static final SecureRandom RANDOM = new SecureRandom();
 
     /**
@@ -73,6 +75,9 @@ public final class JournalFolders {
     public List<Journal> adopt() {
         List<Journal> adopted = new ArrayList<>();
         for (Path folder : foldersOf(own)) {
+            if (!NAME.matcher(folder.getFileName().toString()).matches()) {
+                continue;
+            }
             try {
                 Journal.open(folder, settings).ifPresent(adopted::add);
             } catch (UncheckedIOException e) {

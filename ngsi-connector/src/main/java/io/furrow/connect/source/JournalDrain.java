@@ -91,7 +91,8 @@ final class JournalDrain implements AutoCloseable {
         journal.delete();
     }
 
-    private void closeReader() {
+    /** Ends reading; the journal stays open. */
+    void closeReader() {
         try {
             synchronized (reader) {
                 closed = true;

@@ -10,10 +10,13 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /** Asks from time to time what Kafka has, so that journals shrink, and whether journals were left by other tasks. */
-final class JournalKeeper implements AutoCloseable {
+final class JournalKeeper {
     private static final Logger LOG = LoggerFactory.getLogger(JournalKeeper.class);
 
-    private static final Duration RELEASE_EVERY = Duration.ofSeconds(2);
+    private static final Duration RELEASE_EVERY = Duration.ofSeconds(1);
+    /** A worker that does not find Kafka waits longer before it stops a task. */
+    private static final Duration AWAY_AFTER = Duration.ofMillis(2500);
+
     private static final Duration ADOPT_EVERY = Duration.ofSeconds(10);
     private static final Duration FIRST_ADOPTION_BESIDE_OTHERS = Duration.ofSeconds(5);
     private static final Duration STOP_WITHIN = Duration.ofSeconds(5);
@@ -24,12 +27,17 @@ final class JournalKeeper implements AutoCloseable {
         return made;
     });
 
+    private volatile long lastAnswer = System.nanoTime();
+
     private JournalKeeper() {}
 
     /** @param beside whether there are other tasks, which first take the journals that are theirs */
     static JournalKeeper start(TaskJournals journals, boolean beside) {
         JournalKeeper keeper = new JournalKeeper();
-        keeper.every(RELEASE_EVERY, RELEASE_EVERY, journals::release);
+        keeper.every(RELEASE_EVERY, RELEASE_EVERY, () -> {
+            journals.release();
+            keeper.lastAnswer = System.nanoTime();
+        });
         keeper.every(beside ? FIRST_ADOPTION_BESIDE_OTHERS : Duration.ZERO, ADOPT_EVERY, journals::adopt);
         return keeper;
     }
@@ -47,8 +55,9 @@ final class JournalKeeper implements AutoCloseable {
         thread.scheduleWithFixedDelay(safe, first.toMillis(), period.toMillis(), TimeUnit.MILLISECONDS);
     }
 
-    @Override
-    public void close() {
+    /** Ends; whether Kafka has not answered lately. */
+    boolean close() {
+        boolean away = System.nanoTime() - lastAnswer > AWAY_AFTER.toNanos();
         thread.shutdownNow();
         try {
             if (!thread.awaitTermination(STOP_WITHIN.toMillis(), TimeUnit.MILLISECONDS)) {
@@ -57,5 +66,6 @@ final class JournalKeeper implements AutoCloseable {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
+        return away;
     }
 }

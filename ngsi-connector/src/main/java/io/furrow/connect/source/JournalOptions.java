@@ -2,6 +2,7 @@ package io.furrow.connect.source;
 
 import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
+import java.time.Duration;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
@@ -19,6 +20,7 @@ record JournalOptions(AbstractConfig config) {
     static final String DIR = "journal.dir";
     static final String MAX_BYTES = "journal.max.bytes";
     static final String MIN_FREE_BYTES = "journal.min.free.bytes";
+    static final String STANDBY = "journal.standby.ms";
 
     private static final long MIB = 1024 * 1024;
 
@@ -60,6 +62,19 @@ record JournalOptions(AbstractConfig config) {
                 3,
                 Width.MEDIUM,
                 "Free (bytes)");
+        options.define(
+                STANDBY,
+                Type.LONG,
+                Duration.ofMinutes(10).toMillis(),
+                Range.between(0, Duration.ofDays(1).toMillis()),
+                Importance.MEDIUM,
+                "Milliseconds that notifications are still taken when a worker that does not find Kafka has stopped the task,"
+                        + " which it does after heartbeat.interval.ms. It starts the task again when Kafka is back. 0 stops"
+                        + " listening with the task.",
+                group,
+                4,
+                Width.MEDIUM,
+                "Stand-by (ms)");
     }
 
     private static void requireAbsolutePath(String name, Object value) {
@@ -83,6 +98,10 @@ record JournalOptions(AbstractConfig config) {
 
     long maxBytes() {
         return config.getLong(MAX_BYTES);
+    }
+
+    Duration standby() {
+        return Duration.ofMillis(config.getLong(STANDBY));
     }
 
     long minFreeBytes() {

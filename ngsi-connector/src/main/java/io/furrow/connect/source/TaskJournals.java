@@ -35,9 +35,9 @@ final class TaskJournals implements AutoCloseable {
     record Turn(String journal, List<JournalRecord> records) {}
 
     private final JournalFolders folders;
-    private final Committed committed;
     private final Ledger ledger;
-    private final JournalDrain own;
+    private volatile Committed committed;
+    private volatile JournalDrain own;
     private final List<JournalDrain> adopted = new CopyOnWriteArrayList<>();
     private final AtomicLong inFlight = new AtomicLong();
     private volatile List<Orphan> orphans = List.of();
@@ -73,6 +73,27 @@ final class TaskJournals implements AutoCloseable {
             journal.close();
             throw e;
         }
+    }
+
+    /**
+     * Begins again where Kafka left off, for another task. What was handed on and not acknowledged is handed on again, and then
+     * counts as recovered.
+     */
+    void resume(Committed nowCommitted) {
+        committed = nowCommitted;
+        long before = pending();
+        own = again(own);
+        adopted.replaceAll(this::again);
+        inFlight.set(0);
+        long more = pending() - before;
+        (more > 0 ? ledger.recovered : ledger.produced).add(Math.abs(more));
+    }
+
+    private JournalDrain again(JournalDrain drain) {
+        JournalDrain fresh =
+                new JournalDrain(drain.journal(), committed.of(drain.journal().id()));
+        drain.closeReader();
+        return fresh;
     }
 
     private JournalDrain opened(Journal journal, OptionalLong known) {

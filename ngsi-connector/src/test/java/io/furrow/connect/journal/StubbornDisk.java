@@ -16,6 +16,7 @@ final class StubbornDisk implements Disk {
     private volatile CountDownLatch held = new CountDownLatch(0);
     private volatile CountDownLatch arrived = new CountDownLatch(0);
     private volatile long usable = Long.MAX_VALUE;
+    private volatile long usableNext = -1;
     private volatile String failWrites;
     private volatile String failSyncs;
     private volatile String failCreation;
@@ -39,6 +40,12 @@ final class StubbornDisk implements Disk {
 
     void usable(long bytes) {
         usable = bytes;
+    }
+
+    /** Plenty is reported once more. */
+    void usableAfterTheNextQuestion(long bytes) {
+        usable = Long.MAX_VALUE;
+        usableNext = bytes;
     }
 
     /** @param message null to let them succeed */
@@ -94,6 +101,11 @@ final class StubbornDisk implements Disk {
 
     @Override
     public long usable(Path folder) throws IOException {
-        return Math.min(usable, real.usable(folder));
+        long now = Math.min(usable, real.usable(folder));
+        if (usableNext >= 0) {
+            usable = usableNext;
+            usableNext = -1;
+        }
+        return now;
     }
 }

@@ -1,0 +1,86 @@
+package io.furrow.connect.source;
+
+import java.io.UncheckedIOException;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import org.apache.kafka.connect.errors.ConnectException;
+
+import io.furrow.connect.journal.JournalFolders;
+import io.furrow.connect.journal.JournalSettings;
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.ledger.LedgerBean;
+
+/** What takes notifications into a journal; it does not need Kafka, and can go from one task to the next. */
+record RunningSource(
+        Map<String, String> properties,
+        TaskJournals journals,
+        OwnSubscriptions subscriptions,
+        Reception reception,
+        LedgerBean bean)
+        implements AutoCloseable {
+    /** @throws ConnectException naming the option if the folder or the address cannot be used */
+    static RunningSource open(NgsiSourceConfig config, TaskJournals.Committed committed) {
+        Ledger ledger = new Ledger();
+        TaskJournals journals = openJournals(config, committed, ledger);
+        try {
+            String journal = journals.own().id();
+            ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
+            ledger.detail("orphans", () -> orphans(journals));
+            OwnSubscriptions subscriptions = OwnSubscriptions.of(config, ledger);
+            Intake intake = new JournaledIntake(journals.own(), ledger);
+            Reception reception = Reception.open(config, subscriptions.watched(intake), ledger, subscriptions::arrived);
+            LedgerBean bean = LedgerBean.show(ledger, config.name(), config.taskIndex());
+            RunningSource source =
+                    new RunningSource(config.originalsStrings(), journals, subscriptions, reception, bean);
+            source.subscribe(intake);
+            return source;
+        } catch (RuntimeException e) {
+            journals.close();
+            throw e;
+        }
+    }
+
+    private void subscribe(Intake intake) {
+        try {
+            subscriptions.start(reception.port(), intake);
+        } catch (RuntimeException e) {
+            close();
+            throw e;
+        }
+    }
+
+    private static TaskJournals openJournals(NgsiSourceConfig config, TaskJournals.Committed committed, Ledger ledger) {
+        JournalSettings settings = JournalSettings.of(
+                config.journal().maxBytes(),
+                config.pending().maxBytes(),
+                config.journal().minFreeBytes());
+        JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), settings);
+        try {
+            return new TaskJournals(folders, config.taskIndex(), committed, ledger);
+        } catch (UncheckedIOException e) {
+            String cause = e.getMessage() + " (" + e.getCause() + ")";
+            throw new ConnectException(cause + "; change " + JournalOptions.DIR + " or make the folder writable", e);
+        }
+    }
+
+    private static JsonNode orphans(TaskJournals journals) {
+        ArrayNode orphans = JsonNodeFactory.instance.arrayNode();
+        journals.orphans()
+                .forEach(orphan -> orphans.addObject()
+                        .put("connector", orphan.owner())
+                        .put("folder", orphan.folder().toString())
+                        .put("bytes", orphan.bytes()));
+        return orphans;
+    }
+
+    @Override
+    public void close() {
+        subscriptions.close();
+        reception.close();
+        bean.close();
+        journals.close();
+    }
+}
