@@ -3,7 +3,9 @@ package io.furrow.connect.sink;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
 import java.util.Map;
+import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -78,12 +80,22 @@ class NgsiSinkIT {
     @Test
     void triesAgainWhenTheContextBrokerIsOverloaded() {
         AtomicInteger refusals = new AtomicInteger(3);
-        broker.behaviour = update -> refusals.getAndDecrement() > 0 ? new Reply(503, "overloaded") : Reply.WRITTEN;
+        List<Long> tries = new CopyOnWriteArrayList<>();
+        broker.behaviour = update -> {
+            tries.add(System.nanoTime());
+            int left = refusals.getAndDecrement();
+            return left > 1
+                    ? new Reply(503, "overloaded")
+                    : left == 1 ? new Reply(429, "not so fast", "2") : Reply.WRITTEN;
+        };
         produce("retried", 5);
 
         write("retried");
 
         await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 5);
+        assertThat(Duration.ofNanos(tries.get(3) - tries.get(2)))
+                .as("what Retry-After asked for")
+                .isBetween(Duration.ofMillis(1_900), Duration.ofSeconds(30));
         assertThat(broker.requests)
                 .hasSizeGreaterThan(3)
                 .extracting(Update::path)
