@@ -1,0 +1,154 @@
+package io.furrow.connect.source;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Map;
+import java.util.OptionalLong;
+import java.util.concurrent.ConcurrentHashMap;
+
+import org.apache.kafka.connect.errors.ConnectException;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.journal.JournalFolders;
+import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.journal.JournalSettings;
+import io.furrow.connect.ledger.Ledger;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatCode;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class TaskJournalsTest {
+    private final Map<String, Long> offsets = new ConcurrentHashMap<>();
+    private final Ledger ledger = new Ledger();
+
+    @TempDir
+    private Path root;
+
+    @Test
+    void goesOnWhereTheOffsetSaysAndFromTheOldestAfterAReset() throws Exception {
+        String id;
+        try (TaskJournals journals = open(0)) {
+            id = journals.own().id();
+            take(journals, 5);
+            assertThat(numbers(journals)).containsExactly(0L, 1L, 2L, 3L, 4L);
+        }
+        offsets.put(id, 3L);
+        try (TaskJournals journals = open(0)) {
+            assertThat(numbers(journals)).containsExactly(3L, 4L);
+        }
+        offsets.remove(id);
+        try (TaskJournals journals = open(0)) {
+            assertThat(numbers(journals)).containsExactly(0L, 1L, 2L, 3L, 4L);
+        }
+        offsets.put(id, 1000L);
+        try (TaskJournals journals = open(0)) {
+            assertThat(numbers(journals)).isEmpty();
+            take(journals, 1);
+            assertThat(numbers(journals)).containsExactly(1000L);
+        }
+    }
+
+    @Test
+    void drainsTheJournalOfAnotherTaskAndDeletesItWhenKafkaHasIt() throws Exception {
+        Path left;
+        String id;
+        try (TaskJournals gone = open(1)) {
+            take(gone, 3);
+            left = gone.own().folder();
+            id = gone.own().id();
+        }
+        try (TaskJournals journals = open(0)) {
+            journals.adopt();
+            assertThat(ledger.recovered.sum()).isEqualTo(3);
+            assertThat(numbers(journals)).containsExactly(0L, 1L, 2L);
+            journals.release();
+            assertThat(left).as("Kafka does not have it yet").exists();
+            offsets.put(id, 3L);
+            journals.release();
+            assertThat(left).doesNotExist();
+        }
+    }
+
+    @Test
+    void freesWhatWasSkippedBehindWhatKafkaHas() throws Exception {
+        try (TaskJournals gone = open(1)) {
+            take(gone, 3);
+            offsets.put(gone.own().id(), 1L);
+        }
+        try (TaskJournals journals = open(0)) {
+            journals.adopt();
+            Path left = root.resolve("farm").resolve(offsets.keySet().iterator().next());
+            numbers(journals);
+            journals.skipped(left.getFileName().toString(), 2);
+            journals.release();
+            assertThat(left).exists();
+            journals.skipped(left.getFileName().toString(), 1);
+            journals.release();
+            assertThat(left).doesNotExist();
+        }
+    }
+
+    @Test
+    void handsOnAgainWhatKafkaMissedWhenAnotherTaskResumesIt() throws Exception {
+        try (TaskJournals journals = open(0)) {
+            take(journals, 4);
+            numbers(journals);
+            journals.resume(journal -> OptionalLong.of(2));
+            assertThat(numbers(journals)).containsExactly(2L, 3L);
+        }
+    }
+
+    @Test
+    void takesOffsetsOfItsShapeOnly() {
+        NgsiSourceConnector connector = new NgsiSourceConnector();
+        Map<String, ?> partition = Map.of("journal", "0-0123456789abcdef");
+        assertThat(connector.alterOffsets(Map.of(), Map.of(partition, Map.of("record", 7))))
+                .isTrue();
+        Map<Map<String, ?>, Map<String, ?>> reset = new java.util.HashMap<>();
+        reset.put(partition, null);
+        assertThatCode(() -> connector.alterOffsets(Map.of(), reset)).doesNotThrowAnyException();
+
+        for (Map<String, ?> wrong : List.of(Map.of("record", -1), Map.of("record", "7"), Map.of("position", 7))) {
+            assertThatThrownBy(() -> connector.alterOffsets(Map.of(), Map.of(partition, wrong)))
+                    .isInstanceOf(ConnectException.class)
+                    .hasMessageContaining("{\"record\": n}");
+        }
+        assertThatThrownBy(() -> connector.alterOffsets(Map.of(), Map.of(Map.of("file", "a"), Map.of("record", 7))))
+                .isInstanceOf(ConnectException.class)
+                .hasMessageContaining("{\"journal\": \"<id>\"}");
+    }
+
+    private TaskJournals open(int slot) {
+        JournalSettings settings = JournalSettings.of(64 * 1024 * 1024, 1024 * 1024, 0);
+        return new TaskJournals(new JournalFolders(root, "farm", settings), slot, this::committed, ledger);
+    }
+
+    private OptionalLong committed(String journal) {
+        Long offset = offsets.get(journal);
+        return offset == null ? OptionalLong.empty() : OptionalLong.of(offset);
+    }
+
+    private void take(TaskJournals journals, int records) {
+        OutgoingRecord record = new OutgoingRecord("raw", "key", new byte[10], Instant.EPOCH, Map.of());
+        for (int i = 0; i < records; i++) {
+            new JournaledIntake(journals.own(), ledger)
+                    .take(List.of(record))
+                    .orElseThrow()
+                    .join();
+        }
+    }
+
+    private static List<Long> numbers(TaskJournals journals) throws InterruptedException {
+        List<Long> numbers = new java.util.ArrayList<>();
+        for (int turn = 0; turn < 4; turn++) {
+            journals.next(100, Duration.ZERO).records().stream()
+                    .map(JournalRecord::sequence)
+                    .forEach(numbers::add);
+        }
+        return numbers;
+    }
+}
