@@ -31,7 +31,7 @@ class PluginZipIT {
                         folder + "/doc/README.md",
                         folder + "/doc/LICENSE",
                         folder + "/doc/licenses.md",
-                        folder + "/doc/configuration.md",
+                        folder + "/doc/docs/configuration.md",
                         folder + "/etc/ngsi-source.json",
                         folder + "/etc/ngsi-sink.json",
                         folder + "/assets/furrow.png");

@@ -136,7 +136,7 @@ class SecurityTest {
         public synchronized void append(LogEvent event) {
             boolean library = event.getLoggerName().matches("(jdk|org\\.eclipse\\.jetty)\\..*");
             if (library && event.getLevel().isLessSpecificThan(Level.DEBUG)) {
-                return; // Jetty's own debugging shows every header; the README says so.
+                return; // Jetty's own debugging shows every header; docs/source.md says so.
             }
             log += event.getLoggerName() + " " + event.getThreadName() + " "
                     + event.getMessage().getFormattedMessage() + " " + event.getThrown() + "\n";
