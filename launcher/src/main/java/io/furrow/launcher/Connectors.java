@@ -1,5 +1,7 @@
 package io.furrow.launcher;
 
+import java.io.UncheckedIOException;
+import java.net.ConnectException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -26,11 +28,12 @@ final class Connectors {
     }
 
     /**
-     * Creates or changes the source that listens for notifications; returns when it does.
+     * Creates or changes the source; returns when it listens for notifications and has subscribed to every change.
      *
      * @param journal folder for what Kafka does not have yet
+     * @throws SuiteNotStartedException if the context broker is away or refuses
      */
-    void source(int port, Path journal) {
+    void source(int port, Path journal, URI contextBroker, String service) {
         put(
                 "ngsi-source",
                 Map.of(
@@ -41,7 +44,43 @@ final class Connectors {
                         "listen.port",
                         Integer.toString(port),
                         "journal.dir",
-                        journal.toAbsolutePath().toString()));
+                        journal.toAbsolutePath().toString(),
+                        "context.broker.url",
+                        contextBroker.toString(),
+                        "subscription.tenants",
+                        service.isEmpty() ? "-" : service));
+        awaitSubscribed(URI.create("http://127.0.0.1:" + port + "/health"), contextBroker);
+    }
+
+    private void awaitSubscribed(URI health, URI contextBroker) {
+        Instant end = Instant.now().plus(PATIENCE);
+        while (Instant.now().isBefore(end)) {
+            JsonNode seen = lookAt(health);
+            if (seen.path("subscriptionsKept").asInt() > 0) {
+                return;
+            }
+            if (seen.path("subscriptionsUnkept").asInt() > 0) {
+                throw new SuiteNotStartedException("The context broker at %s cannot be subscribed to: %s"
+                        .formatted(
+                                contextBroker,
+                                seen.at("/subscriptions/0/problem").asText()));
+            }
+            Pause.of(BETWEEN_LOOKS);
+        }
+        throw new SuiteNotStartedException("The source did not subscribe at %s within %d s; see furrow.log"
+                .formatted(contextBroker, PATIENCE.toSeconds()));
+    }
+
+    /** Nothing while nobody listens: of a kept suite the worker still shows the task of before as running. */
+    private JsonNode lookAt(URI health) {
+        try {
+            return rest.get(health, Map.of()).body();
+        } catch (UncheckedIOException e) {
+            if (e.getCause() instanceof ConnectException) {
+                return NgsiJson.mapper().missingNode();
+            }
+            throw e;
+        }
     }
 
     /** Creates or changes the sink that writes results into the context broker. */

@@ -163,9 +163,8 @@ public final class Suite implements AutoCloseable {
         listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
         Connectors connectors = new Connectors(connect.uri());
         progress.step("NGSI source and sink", () -> {
-            connectors.source(port, directory.resolve("journal"));
+            connectors.source(port, directory.resolve("journal"), contextBroker, settings.fiwareService());
             connectors.sink(contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION));
-            new Subscription(contextBroker, settings.fiwareService()).ensure(listener);
             return listener;
         });
     }
