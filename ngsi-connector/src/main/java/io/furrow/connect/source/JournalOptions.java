@@ -1,5 +1,6 @@
 package io.furrow.connect.source;
 
+import java.net.URI;
 import java.nio.file.InvalidPathException;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -91,9 +92,13 @@ record JournalOptions(AbstractConfig config) {
         return Path.of(config.getString(DIR));
     }
 
-    /** Where the repair keeps what outlives a restart: beside the journals of a connector, not among them. */
-    Path repairFolder(String connector) {
-        return dir().resolve(JournalFolders.folderName(connector) + ".repair");
+    /**
+     * Where the repair keeps what outlives a restart: beside the journals of a connector, not among them. Each context broker
+     * has its own, or every entity of the former would be told as deleted when the connector is pointed to another.
+     */
+    Path repairFolder(String connector, URI contextBroker) {
+        return dir().resolve(JournalFolders.folderName(connector) + ".repair")
+                .resolve(JournalFolders.folderName(contextBroker.toString()));
     }
 
     long maxBytes() {

@@ -93,7 +93,8 @@ final class OwnSubscriptions implements AutoCloseable {
                 commissions.add(new Commission(new FiwareScope(tenant, path), wanted(path, port)));
             }
         }
-        Path folder = config.journal().repairFolder(config.name());
+        Path folder = config.journal()
+                .repairFolder(config.name(), config.broker().url().orElseThrow());
         try {
             caretakers = Caretakers.start(
                     new BrokerClient(config.broker().settings())::send,

@@ -1,5 +1,7 @@
 package io.furrow.connect.source;
 
+import java.net.URI;
+import java.nio.file.Path;
 import java.util.HashMap;
 import java.util.Map;
 
@@ -34,6 +36,17 @@ class NgsiSourceConfigTest {
                 .isEqualTo(16777216 - 16 * 1024);
         assertThat(config(Map.of("max.record.bytes", "500000")).sizes().maxRecordBytes())
                 .isEqualTo(500_000);
+    }
+
+    @Test
+    void keepsWhatItKnowsOfOneContextBrokerApartFromAnother() {
+        JournalOptions journal = config(Map.of()).journal();
+
+        Path one = journal.repairFolder("ngsi", URI.create("http://one:1026"));
+
+        assertThat(journal.repairFolder("ngsi", URI.create("http://one:1026"))).isEqualTo(one);
+        assertThat(journal.repairFolder("ngsi", URI.create("http://two:1026"))).isNotEqualTo(one);
+        assertThat(journal.repairFolder("other", URI.create("http://one:1026"))).isNotEqualTo(one);
     }
 
     @ParameterizedTest
