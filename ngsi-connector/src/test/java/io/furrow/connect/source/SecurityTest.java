@@ -10,9 +10,11 @@ import java.util.concurrent.CompletableFuture;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.logging.log4j.Level;
 import org.apache.logging.log4j.LogManager;
+import org.apache.logging.log4j.core.Appender;
 import org.apache.logging.log4j.core.LogEvent;
 import org.apache.logging.log4j.core.LoggerContext;
 import org.apache.logging.log4j.core.appender.AbstractAppender;
+import org.apache.logging.log4j.core.config.LoggerConfig;
 import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.Test;
 
@@ -76,10 +78,13 @@ class SecurityTest {
     void writesNoSecretAnywhere() {
         LoggerContext logging = (LoggerContext) LogManager.getContext(false);
         Recorder recorder = new Recorder();
-        Level level = logging.getConfiguration().getRootLogger().getLevel();
+        LoggerConfig root = logging.getConfiguration().getRootLogger();
+        Level level = root.getLevel();
+        Map<String, Appender> usual = Map.copyOf(root.getAppenders());
         recorder.start();
-        logging.getConfiguration().getRootLogger().addAppender(recorder, Level.TRACE, null);
-        logging.getConfiguration().getRootLogger().setLevel(Level.TRACE);
+        usual.keySet().forEach(root::removeAppender);
+        root.addAppender(recorder, Level.TRACE, null);
+        root.setLevel(Level.TRACE);
         logging.updateLoggers();
         StringBuilder seen = new StringBuilder();
         try (ReceptionRig rig =
@@ -94,8 +99,9 @@ class SecurityTest {
             rig.intake.taken.forEach(records ->
                     records.forEach(record -> seen.append(record.headers()).append(new String(record.value()))));
         } finally {
-            logging.getConfiguration().getRootLogger().removeAppender("recorder");
-            logging.getConfiguration().getRootLogger().setLevel(level);
+            root.removeAppender("recorder");
+            usual.values().forEach(appender -> root.addAppender(appender, null, null));
+            root.setLevel(level);
             logging.updateLoggers();
         }
         seen.append(new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal", "secret", NEW, "secret.previous", OLD))
