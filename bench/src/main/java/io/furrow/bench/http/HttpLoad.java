@@ -55,7 +55,7 @@ public final class HttpLoad {
         return answered;
     }
 
-    /** Sends for the time of the plan and waits for the answers; once. */
+    /** Sends what is due in the time of the plan and waits for the answers; what could not be sent then is broken. Once. */
     public HttpLoadResult run() {
         try (Selector selector = Selector.open()) {
             List<Exchange> all = new ArrayList<>();
@@ -71,10 +71,14 @@ public final class HttpLoad {
                 sendDue(now);
                 await(selector, now, end);
             }
-            for (long now = end; openExchanges(all) > 0 && now < end + LAST_ANSWERS_NANOS; now = System.nanoTime()) {
-                await(selector, now, end + LAST_ANSWERS_NANOS);
+            long last = end + LAST_ANSWERS_NANOS;
+            for (long now = end; (isOwing() || openExchanges(all) > 0) && now < last; now = System.nanoTime()) {
+                if (isOwing()) {
+                    sendDue(now);
+                }
+                await(selector, now, last);
             }
-            broken += openExchanges(all);
+            broken += openExchanges(all) + (isOwing() ? planned() - sent : 0);
             all.forEach(Exchange::close);
             long nanos = Math.max(1, lastAnswerNanos - startNanos);
             return new HttpLoadResult(firstNumber, acknowledged, refused, broken, latency, nanos);
@@ -83,13 +87,22 @@ public final class HttpLoad {
         }
     }
 
+    /** Whether requests that were due within the time of the plan are still to be sent. */
+    private boolean isOwing() {
+        return plan.rate() > 0 && sent < planned();
+    }
+
+    private long planned() {
+        return plan.rate() == 0 ? Long.MAX_VALUE : plan.duration().toNanos() * plan.rate() / SECOND;
+    }
+
     private int openExchanges(List<Exchange> all) {
         return all.size() - idle.size() - failed.size();
     }
 
     private void sendDue(long now) {
         long due = dueNanos(now);
-        while (!idle.isEmpty() && due <= now) {
+        while (!idle.isEmpty() && due <= now && sent < planned()) {
             Exchange exchange = idle.poll();
             long number = firstNumber + sent;
             sent = sent + 1;

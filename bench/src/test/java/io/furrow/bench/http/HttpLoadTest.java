@@ -52,10 +52,9 @@ class HttpLoadTest {
 
             HttpLoadResult result = new HttpLoad(address(listening), plan(1, false, 100, 1000), 0).run();
 
-            assertThat(result.answered()).isGreaterThanOrEqualTo(99);
+            assertThat(result.answered()).isEqualTo(100);
             // 80 were due while the one connection waited, the k-th of them for 800 - 10 k ms: half of all for over 300
-            // ms
-            assertThat(result.millis(50)).isBetween(250.0, 500.0);
+            assertThat(result.millis(50)).isGreaterThan(250);
             assertThat(result.millis(99)).isGreaterThan(700);
         }
     }
@@ -67,7 +66,7 @@ class HttpLoadTest {
 
             HttpLoadResult result = new HttpLoad(address(listening), plan(1, false, 100, 200), 0).run();
 
-            assertThat(result.refused()).isGreaterThanOrEqualTo(19);
+            assertThat(result.refused()).isEqualTo(20);
             assertThat(result.answered()).isZero();
             assertThat(result.acknowledged().isEmpty()).isTrue();
         }
@@ -83,7 +82,7 @@ class HttpLoadTest {
 
         HttpLoadResult result = load.run();
 
-        assertThat(result.broken()).isEqualTo(load.sent()).isGreaterThan(10);
+        assertThat(result.broken()).isEqualTo(20);
         assertThat(result.answered()).isZero();
     }
 
