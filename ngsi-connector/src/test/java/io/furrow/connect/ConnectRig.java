@@ -5,6 +5,7 @@ import java.io.InputStream;
 import java.io.UncheckedIOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
+import java.net.Socket;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -14,6 +15,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Comparator;
+import java.util.HashMap;
 import java.util.Map;
 import java.util.stream.Stream;
 import java.util.zip.ZipEntry;
@@ -41,16 +43,22 @@ public final class ConnectRig implements AutoCloseable {
     private EmbeddedKafka kafka;
     private final EmbeddedConnect worker;
 
-    private ConnectRig(Path directory) {
+    private ConnectRig(Path directory, Map<String, String> workerSettings) {
         this.directory = directory;
         startKafka();
         // Refuses to start where a connector is not declared in META-INF/services.
-        Map<String, String> strict = Map.of("plugin.discovery", "hybrid_fail");
-        worker = EmbeddedConnect.start(bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, strict);
+        Map<String, String> settings = new HashMap<>(Map.of("plugin.discovery", "hybrid_fail"));
+        settings.putAll(workerSettings);
+        worker = EmbeddedConnect.start(bootstrapServers(), unpackedPlugin(directory.resolve("plugins")), 0, settings);
     }
 
     public static ConnectRig start(Path directory) {
-        return new ConnectRig(directory);
+        return start(directory, Map.of());
+    }
+
+    /** @param workerSettings come before those of the rig */
+    public static ConnectRig start(Path directory, Map<String, String> workerSettings) {
+        return new ConnectRig(directory, workerSettings);
     }
 
     public String bootstrapServers() {
@@ -69,18 +77,44 @@ public final class ConnectRig implements AutoCloseable {
     /** A connector from its example in {@code config/} with other options; returns when its task runs. */
     public void create(String example, Map<String, String> options) {
         JsonNode shipped = json(read(Path.of("config", example + ".json")));
+        create(shipped.path("name").textValue(), example, options);
+    }
+
+    /** A connector with another name than its example, or a change of it. */
+    public void create(String name, String example, Map<String, String> options) {
+        configure(name, example, options);
+        awaitRunning(name);
+    }
+
+    /** As {@link #create}, for a connector that need not run now. */
+    public void configure(String name, String example, Map<String, String> options) {
+        JsonNode shipped = json(read(Path.of("config", example + ".json")));
         ObjectNode config = shipped.path("config").deepCopy();
         if (config.has("journal.dir")) {
-            config.put("journal.dir", directory.resolve("journal").toString());
+            config.put("journal.dir", journals().toString());
         }
         options.forEach(config::put);
-        String name = shipped.path("name").textValue();
-        HttpResponse<String> created =
-                send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/config"))
-                        .header("Content-Type", "application/json")
-                        .PUT(BodyPublishers.ofString(config.toString())));
+        HttpResponse<String> created = ask("PUT", "/connectors/" + name + "/config", config.toString());
         assertThat(created.statusCode()).as(created.body()).isBetween(200, 201);
-        awaitRunning(name);
+    }
+
+    /** Where the journals of the connectors are. */
+    public Path journals() {
+        return directory.resolve("journal");
+    }
+
+    /** The worker's answer to any request, whatever its status; an empty body is none. */
+    public HttpResponse<String> ask(String method, String path, String body) {
+        return send(HttpRequest.newBuilder(worker.uri().resolve(path))
+                .header("Content-Type", "application/json")
+                .method(method, body.isEmpty() ? BodyPublishers.noBody() : BodyPublishers.ofString(body)));
+    }
+
+    /** Lets the tasks of a connector be, without an end of them; returns when its first task says so. */
+    public void pause(String name) {
+        assertThat(ask("PUT", "/connectors/" + name + "/pause", "").statusCode())
+                .isEqualTo(202);
+        awaitState(name, "PAUSED");
     }
 
     public void restart(String name) {
@@ -133,11 +167,15 @@ public final class ConnectRig implements AutoCloseable {
 
     /** Returns when the first task of the connector runs. */
     public void awaitRunning(String name) {
+        awaitState(name, "RUNNING");
+    }
+
+    private void awaitState(String name, String state) {
         await().atMost(PATIENCE).untilAsserted(() -> {
             JsonNode status = get("/connectors/" + name + "/status");
             assertThat(status.path("tasks").path(0).path("state").asText())
                     .as(status.toString())
-                    .isEqualTo("RUNNING");
+                    .isEqualTo(state);
         });
     }
 
@@ -158,6 +196,23 @@ public final class ConnectRig implements AutoCloseable {
             return socket.getLocalPort();
         } catch (IOException e) {
             throw new UncheckedIOException(e);
+        }
+    }
+
+    public static boolean isFree(int port) {
+        try (ServerSocket socket = new ServerSocket(port, 1, InetAddress.getLoopbackAddress())) {
+            return socket.isBound();
+        } catch (IOException e) {
+            return false;
+        }
+    }
+
+    /** Whether somebody accepts connections there. */
+    public static boolean isOpen(int port) {
+        try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), port)) {
+            return socket.isConnected();
+        } catch (IOException e) {
+            return false;
         }
     }
 

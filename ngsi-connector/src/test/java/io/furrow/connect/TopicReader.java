@@ -4,15 +4,17 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 
 import static org.awaitility.Awaitility.await;
 
-/** Reads whole topics from their beginning. */
+/** Reads whole topics from their beginning, as far as they are committed. */
 public final class TopicReader implements AutoCloseable {
     private final KafkaConsumer<String, byte[]> consumer;
     private final List<ConsumerRecord<String, byte[]>> seen = new ArrayList<>();
@@ -23,6 +25,8 @@ public final class TopicReader implements AutoCloseable {
                 bootstrapServers,
                 "group.id",
                 "reader-" + System.nanoTime(),
+                "isolation.level",
+                "read_committed",
                 "auto.offset.reset",
                 "earliest",
                 "metadata.max.age.ms",
@@ -38,6 +42,18 @@ public final class TopicReader implements AutoCloseable {
         await().atMost(Duration.ofSeconds(60)).until(() -> {
             consumer.poll(Duration.ofMillis(200)).forEach(seen::add);
             return seen.size() >= count;
+        });
+        return List.copyOf(seen);
+    }
+
+    /** All records up to the end that the topics have now; waits for a topic that is not there yet. */
+    public List<ConsumerRecord<String, byte[]>> toTheEnd() {
+        await().atMost(Duration.ofSeconds(60)).until(() -> {
+            consumer.poll(Duration.ofMillis(200)).forEach(seen::add);
+            Set<TopicPartition> partitions = consumer.assignment();
+            return !partitions.isEmpty()
+                    && consumer.endOffsets(partitions).entrySet().stream()
+                            .allMatch(end -> consumer.position(end.getKey()) >= end.getValue());
         });
         return List.copyOf(seen);
     }

@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.concurrent.Executors;
 import java.util.concurrent.ScheduledExecutorService;
 import java.util.concurrent.TimeUnit;
+import java.util.function.LongSupplier;
 
 import org.apache.kafka.connect.errors.ConnectException;
 import org.slf4j.Logger;
@@ -27,16 +28,24 @@ final class JournalKeeper {
         return made;
     });
 
-    private volatile long lastAnswer = System.nanoTime();
+    private final LongSupplier nanoTime;
+    private volatile long lastAnswer;
 
-    private JournalKeeper() {}
+    private JournalKeeper(LongSupplier nanoTime) {
+        this.nanoTime = nanoTime;
+        this.lastAnswer = nanoTime.getAsLong();
+    }
 
     /** @param beside whether there are other tasks, which first take the journals that are theirs */
     static JournalKeeper start(TaskJournals journals, boolean beside) {
-        JournalKeeper keeper = new JournalKeeper();
+        return start(journals, beside, System::nanoTime);
+    }
+
+    static JournalKeeper start(TaskJournals journals, boolean beside, LongSupplier nanoTime) {
+        JournalKeeper keeper = new JournalKeeper(nanoTime);
         keeper.every(RELEASE_EVERY, RELEASE_EVERY, () -> {
             journals.release();
-            keeper.lastAnswer = System.nanoTime();
+            keeper.lastAnswer = nanoTime.getAsLong();
         });
         keeper.every(beside ? FIRST_ADOPTION_BESIDE_OTHERS : Duration.ZERO, ADOPT_EVERY, journals::adopt);
         return keeper;
@@ -57,7 +66,7 @@ final class JournalKeeper {
 
     /** Ends; whether Kafka has not answered lately. */
     boolean close() {
-        boolean away = System.nanoTime() - lastAnswer > AWAY_AFTER.toNanos();
+        boolean away = nanoTime.getAsLong() - lastAnswer > AWAY_AFTER.toNanos();
         thread.shutdownNow();
         try {
             if (!thread.awaitTermination(STOP_WITHIN.toMillis(), TimeUnit.MILLISECONDS)) {
