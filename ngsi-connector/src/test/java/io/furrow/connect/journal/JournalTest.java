@@ -250,15 +250,6 @@ class JournalTest {
     }
 
     @Test
-    void isOpenOnceOnly() throws Exception {
-        try (Journal journal = open(SMALL)) {
-            assertThat(Journal.open(folder, SMALL)).isEmpty();
-            append(journal, "a");
-        }
-        open(SMALL).close();
-    }
-
-    @Test
     void takesNothingAfterItWasClosed() throws Exception {
         Journal journal = open(SMALL);
         CompletableFuture<Void> last = journal.append(payloads("last")).orElseThrow();

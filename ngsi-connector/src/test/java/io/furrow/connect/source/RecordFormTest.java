@@ -59,4 +59,16 @@ class RecordFormTest {
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("too many");
     }
+
+    @Test
+    void refusesAHeaderWithoutANameOrAValue() {
+        OutgoingRecord record = new OutgoingRecord("t", null, null, Instant.EPOCH, Map.of("", ""));
+        for (int fromEnd : new int[] {12, 8}) {
+            byte[] bytes = RecordForm.write(record);
+            Arrays.fill(bytes, bytes.length - fromEnd, bytes.length - fromEnd + 4, (byte) -1);
+            assertThatThrownBy(() -> RecordForm.read(bytes))
+                    .isInstanceOf(IllegalArgumentException.class)
+                    .hasMessageContaining("null");
+        }
+    }
 }

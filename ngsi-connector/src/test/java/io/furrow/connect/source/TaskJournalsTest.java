@@ -98,7 +98,32 @@ class TaskJournalsTest {
             take(journals, 4);
             numbers(journals);
             journals.resume(journal -> OptionalLong.of(2));
+            assertThat(ledger.produced.sum()).isEqualTo(2);
+            assertThat(ledger.recovered.sum()).isZero();
             assertThat(numbers(journals)).containsExactly(2L, 3L);
+        }
+    }
+
+    @Test
+    void keepsWhatKafkaIsNotKnownToHave() throws Exception {
+        String id;
+        try (TaskJournals journals = open(0)) {
+            id = journals.own().id();
+            OutgoingRecord large = new OutgoingRecord("raw", "key", new byte[3_000_000], Instant.EPOCH, Map.of());
+            for (int i = 0; i < 4; i++) {
+                new JournaledIntake(journals.own(), ledger)
+                        .take(List.of(large))
+                        .orElseThrow()
+                        .join();
+            }
+            assertThat(numbers(journals)).hasSize(4);
+            long bytes = journals.own().bytes();
+            journals.release();
+            assertThat(journals.own().bytes()).isEqualTo(bytes);
+            assertThat(journals.own().begin()).isZero();
+            offsets.put(id, 3L);
+            journals.release();
+            assertThat(journals.own().begin()).isBetween(1L, 3L);
         }
     }
 

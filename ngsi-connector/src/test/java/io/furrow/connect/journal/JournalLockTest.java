@@ -1,0 +1,41 @@
+package io.furrow.connect.journal;
+
+import java.nio.file.Path;
+import java.util.List;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class JournalLockTest {
+    private static final JournalSettings SMALL = new JournalSettings(64 * 1024, 4 * 1024, 8 * 1024, 0);
+
+    @TempDir
+    private Path folder;
+
+    /** To close a file drops the process's lock on it, so that a failed try here could let another process in. */
+    @Test
+    void isOpenInOneProcessOnlyAlsoAfterAnotherTryInThisOne() throws Exception {
+        try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
+            assertThat(Journal.open(folder, SMALL)).isEmpty();
+            assertThat(anotherProcess()).isEqualTo("opened false");
+            assertThat(journal.end()).isZero();
+        }
+        assertThat(anotherProcess()).isEqualTo("opened true");
+    }
+
+    private String anotherProcess() throws Exception {
+        Process process = new ProcessBuilder(
+                        Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                        "-cp",
+                        System.getProperty("java.class.path"),
+                        JournalOpener.class.getName(),
+                        folder.toString())
+                .redirectError(ProcessBuilder.Redirect.INHERIT)
+                .start();
+        List<String> lines =
+                new String(process.getInputStream().readAllBytes()).lines().toList();
+        return lines.get(lines.size() - 1);
+    }
+}
