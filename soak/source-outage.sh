@@ -18,7 +18,8 @@ usage() {
 Usage: ./furrow soak source-outage [OPTION VALUE]…
 Runs the NGSI source in a distributed Connect worker with the worker's default timeouts, beside a Kafka broker, both started
 for this. While notifications come in, the broker is stopped and started again. Every notification must be answered 200 and be
-on data.raw, and the source must have caught up in less time than the outage took. Shows the worker's memory on Linux.
+on data.raw, and the source must have caught up in less time than the outage took. The worker's heap is 384 MiB; on Linux
+its resident memory is shown and must stay below 700 MiB.
 
   --rate N      Notifications of 1 kB per second. Default: $rate.
   --seconds N   How long the broker is stopped. Default: $seconds.

@@ -12,6 +12,8 @@ import io.furrow.embedded.EmbeddedKafka;
 public final class SourceKill {
     private static final Duration SHORTEST = Duration.ofSeconds(1);
     private static final int SPREAD_MS = 4000;
+    /** A killed worker keeps its tasks until the group misses it. */
+    private static final String[] SOON_MISSED = {"session.timeout.ms=6000", "heartbeat.interval.ms=2000"};
 
     /**
      * All rounds added up.
@@ -49,7 +51,7 @@ public final class SourceKill {
         BitSet acknowledged = new BitSet();
         int next = 0;
         try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"));
-                SourceWorker worker = new SourceWorker(folder, kafka.bootstrapServers(), exactlyOnce)) {
+                SourceWorker worker = new SourceWorker(folder, kafka.bootstrapServers(), exactlyOnce, SOON_MISSED)) {
             worker.start();
             worker.createSource();
             Outcome outcome = new Outcome(0, 0, 0, 0);

@@ -12,6 +12,8 @@ import io.furrow.embedded.FreePort;
 public final class SourceOutage {
     private static final Duration WARM_UP = Duration.ofSeconds(15);
     private static final Duration BETWEEN_LOOKS = Duration.ofSeconds(10);
+    /** The worker has a heap of 384 MiB; threads, classes, code and network buffers come beside it. */
+    private static final long RESIDENT_MIB_AT_MOST = 700;
 
     private SourceOutage() {}
 
@@ -41,7 +43,9 @@ public final class SourceOutage {
             good = compare(kafka.bootstrapServers(), acknowledged, senders.next());
             System.out.printf(
                     "sent during the outage %d; drained %.1f s after Kafka was back%n", sentDuring, drained / 1e9);
-            good &= drained < outage.toNanos();
+            long peak = worker.peakResidentMib();
+            System.out.printf("resident at most %d MiB; allowed are %d%n", peak, RESIDENT_MIB_AT_MOST);
+            good &= drained < outage.toNanos() && peak <= RESIDENT_MIB_AT_MOST;
         } finally {
             kafka.close();
         }

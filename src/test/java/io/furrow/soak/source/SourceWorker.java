@@ -26,14 +26,19 @@ final class SourceWorker implements AutoCloseable {
     private final Path folder;
     private final String bootstrapServers;
     private final boolean exactlyOnce;
+    private final List<String> settings;
     private final int restPort = FreePort.orFree(0);
     private final int port = FreePort.orFree(0);
     private final HttpClient client =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private Process process;
 
-    /** @param folder for its log and the journals */
-    SourceWorker(Path folder, String bootstrapServers, boolean exactlyOnce) {
+    /**
+     * @param folder for its log and the journals
+     * @param settings of the worker, {@code name=value}, other than Connect's own
+     */
+    SourceWorker(Path folder, String bootstrapServers, boolean exactlyOnce, String... settings) {
+        this.settings = List.of(settings);
         this.folder = folder;
         this.bootstrapServers = bootstrapServers;
         this.exactlyOnce = exactlyOnce;
@@ -54,9 +59,7 @@ final class SourceWorker implements AutoCloseable {
         if (exactlyOnce) {
             command.add("exactly.once.source.support=enabled");
         }
-        // A killed worker keeps its tasks until the group misses it.
-        command.add("session.timeout.ms=6000");
-        command.add("heartbeat.interval.ms=2000");
+        command.addAll(settings);
         process = new ProcessBuilder(command)
                 .redirectErrorStream(true)
                 .redirectOutput(ProcessBuilder.Redirect.appendTo(
@@ -131,10 +134,23 @@ final class SourceWorker implements AutoCloseable {
         return port;
     }
 
-    /** Resident memory in MiB, from Linux' proc. */
+    /** Resident memory in MiB, from Linux' proc; 0 elsewhere. */
     long residentMib() throws IOException {
-        return Files.readAllLines(Path.of("/proc/" + process.pid() + "/status")).stream()
-                .filter(line -> line.startsWith("VmRSS:"))
+        return statusMib("VmRSS:");
+    }
+
+    /** The most that was resident at any time, in MiB, from Linux' proc; 0 elsewhere. */
+    long peakResidentMib() throws IOException {
+        return statusMib("VmHWM:");
+    }
+
+    private long statusMib(String name) throws IOException {
+        Path status = Path.of("/proc/" + process.pid() + "/status");
+        if (Files.notExists(status)) {
+            return 0;
+        }
+        return Files.readAllLines(status).stream()
+                .filter(line -> line.startsWith(name))
                 .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) / 1024)
                 .findFirst()
                 .orElse(0);
