@@ -4,7 +4,6 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.JobCommandLine;
-import io.furrow.ingest.route.IngestOptions;
 
 /** The command line of the ingest jar: {@code flink run furrow-ingest-….jar ingest --help}. */
 @Command(

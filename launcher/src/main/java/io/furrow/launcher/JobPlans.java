@@ -19,8 +19,8 @@ import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobOptions;
-import io.furrow.ingest.route.IngestJob;
-import io.furrow.ingest.route.IngestOptions;
+import io.furrow.ingest.IngestJob;
+import io.furrow.ingest.IngestOptions;
 import io.furrow.simulators.device.Scenario;
 
 /** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */

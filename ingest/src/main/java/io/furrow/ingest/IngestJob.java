@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.ingest;
 
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
@@ -9,6 +9,11 @@ import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.route.ApplyDefaults;
+import io.furrow.ingest.route.RecognizeEvents;
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.ingest.route.RouteEvents;
+import io.furrow.ingest.route.StampIngest;
 
 /** Brings each event once to the topics of its domain and its mission; what is no event becomes a dead letter. */
 public final class IngestJob {
@@ -30,23 +35,32 @@ public final class IngestJob {
         return env;
     }
 
-    /** The pipeline: everything to be written, each record naming its topic. */
+    /** The pipeline: everything to be written to Kafka, each record naming its topic; other branches end in their own sinks. */
     static DataStream<TopicRecord> define(DataStream<TopicRecord> records, IngestOptions options) {
-        SingleOutputStreamOperator<ReportedEvent> events =
+        SingleOutputStreamOperator<ReportedEvent> recognized =
                 records.process(new RecognizeEvents()).uid("recognize-events").name("Recognize events");
 
-        SingleOutputStreamOperator<ReportedEvent> once = events.keyBy(ReportedEvent::identity)
+        SingleOutputStreamOperator<ReportedEvent> once = recognized
+                .keyBy(ReportedEvent::identity)
                 .process(new PassOnce<>(options.repeatWindow(), ReportedEvent::id))
                 .returns(ReportedEvent.class)
                 .uid("pass-once")
                 .name("Pass each event once");
 
-        SingleOutputStreamOperator<TopicRecord> routed = once.flatMap(new RouteEvents(
+        SingleOutputStreamOperator<ReportedEvent> assigned = once.map(new ApplyDefaults(
                         options.defaultDomain().orElse(""),
                         options.defaultMission().orElse("")))
-                .uid("route-events")
-                .name("Route by domain and mission");
+                .uid("assign-domain-and-mission")
+                .name("Assign domain and mission");
 
-        return routed.union(events.getSideOutput(DeadLetters.TAG));
+        // Images are moved here: what follows sees the event with a reference in their place.
+        SingleOutputStreamOperator<ReportedEvent> events =
+                assigned.map(new StampIngest()).uid("stamp-ingest").name("Stamp the time of ingest");
+
+        // The branches: each sees every event once, with domain, mission and stamps.
+        SingleOutputStreamOperator<TopicRecord> routed =
+                events.flatMap(new RouteEvents()).uid("route-events").name("Route by domain and mission");
+
+        return routed.union(recognized.getSideOutput(DeadLetters.TAG));
     }
 }

@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.ingest;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Arrays;

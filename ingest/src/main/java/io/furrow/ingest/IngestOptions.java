@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.ingest;
 
 import java.time.Duration;
 import java.util.Optional;
