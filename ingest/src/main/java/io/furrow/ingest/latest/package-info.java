@@ -1,2 +1,0 @@
-/** The state of the world: the newest value of every attribute of every entity, on {@code data.latest}. */
-package io.furrow.ingest.latest;
