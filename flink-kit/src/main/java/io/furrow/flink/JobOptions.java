@@ -11,6 +11,7 @@ import java.util.Optional;
 import java.util.Properties;
 import java.util.TreeMap;
 
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
@@ -92,6 +93,9 @@ public abstract class JobOptions {
             description = "Subtasks per operator. Default: as the cluster says.")
     private Integer parallelism;
 
+    @Mixin
+    private final FaultOptions faults = new FaultOptions();
+
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
@@ -148,6 +152,11 @@ public abstract class JobOptions {
             throw refused("--checkpoint-interval is below 10ms; write for instance 1s", null);
         }
         return checkpointInterval;
+    }
+
+    /** How checkpoints are taken and what follows a failure. */
+    public FaultOptions faults() {
+        return faults;
     }
 
     public Optional<String> checkpointDir() {

@@ -1,24 +1,42 @@
 package io.furrow.ingest;
 
+import java.util.Set;
+
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
+import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.KafkaOutput;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicRecord;
-import io.furrow.ingest.image.ImageStage;
-import io.furrow.ingest.route.ApplyDefaults;
+import io.furrow.ingest.latest.MergeLatest;
+import io.furrow.ingest.route.AssignMission;
+import io.furrow.ingest.route.DeviceChange;
+import io.furrow.ingest.route.DevicesAtStart;
+import io.furrow.ingest.route.DevicesTopic;
+import io.furrow.ingest.route.ReadDevices;
 import io.furrow.ingest.route.RecognizeEvents;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.RouteEvents;
 import io.furrow.ingest.route.StampIngest;
+import io.furrow.model.topic.Topics;
 
-/** Brings each event once to the topics of its domain and its mission; what is no event becomes a dead letter. */
+/** Brings each event once to everything that is made of events; what is no event becomes a dead letter. */
 public final class IngestJob {
+    /**
+     * What comes in.
+     *
+     * @param records reported events, as on {@code data.raw}
+     * @param devices the records of {@code service.devices}
+     * @param devicesAtStart those that are known before the first event
+     */
+    record Inputs(DataStream<TopicRecord> records, DataStream<TopicRecord> devices, DevicesAtStart devicesAtStart) {}
+
     private IngestJob() {}
 
     /** The whole job on Kafka, ready to be executed. */
@@ -29,48 +47,79 @@ public final class IngestJob {
                         KafkaEnds.source(options), KafkaEnds.watermarks(options), "Read reported events")
                 .uid("read-events");
 
-        define(records, options)
-                .sinkTo(KafkaEnds.sink(options))
-                .uid("write-routes")
-                .name("Write to domains and missions");
+        DataStream<TopicRecord> devices = env.fromSource(
+                        KafkaEnds.wholeTopic(options, options.devices()), KafkaEnds.noHindrance(), "Read devices")
+                .uid("read-devices")
+                .setParallelism(1);
+
+        define(
+                new Inputs(records, devices, new DevicesTopic(options, options.devices())),
+                KafkaOutput.of(options, options.topics().settings(Set.of(Topics.LATEST))),
+                options);
 
         return env;
     }
 
-    /** The pipeline: everything to be written to Kafka, each record naming its topic; other branches end in their own sinks. */
-    static DataStream<TopicRecord> define(DataStream<TopicRecord> records, IngestOptions options) {
-        SingleOutputStreamOperator<ReportedEvent> recognized =
-                records.process(new RecognizeEvents()).uid("recognize-events").name("Recognize events");
+    /** The pipeline; what goes to Kafka names its topic, other branches have sinks of their own. */
+    static void define(Inputs in, KafkaOutput kafka, IngestOptions options) {
+        SingleOutputStreamOperator<ReportedEvent> recognized = in.records()
+                .process(new RecognizeEvents())
+                .uid("recognize-events")
+                .name("Recognize events");
 
-        SingleOutputStreamOperator<ReportedEvent> once = recognized
+        SingleOutputStreamOperator<DeviceChange> devices = in.devices()
+                .process(new ReadDevices())
+                .setParallelism(1) // a device's versions stay in order
+                .uid("recognize-devices")
+                .name("Recognize devices");
+
+        SingleOutputStreamOperator<ReportedEvent> assigned = recognized
                 .keyBy(ReportedEvent::identity)
-                .process(new PassOnce<>(options.repeatWindow(), ReportedEvent::id))
+                .connect(devices.broadcast(AssignMission.DEVICES))
+                .process(new AssignMission(in.devicesAtStart(), options.assignment()))
+                .uid("assign-domain-and-mission")
+                .name("Assign domain and mission");
+
+        SingleOutputStreamOperator<ReportedEvent> once = keyed(assigned)
+                .process(new PassOnce<>(
+                        options.repeatWindow(), ReportedEvent::id, ReportedEvent::domain, ReportedEvent::mission))
                 .returns(ReportedEvent.class)
                 .uid("pass-once")
                 .name("Pass each event once");
 
-        SingleOutputStreamOperator<ReportedEvent> assigned = once.map(new ApplyDefaults(
-                        options.defaultDomain().orElse(""),
-                        options.defaultMission().orElse("")))
-                .uid("assign-domain-and-mission")
-                .name("Assign domain and mission");
-
-        // What follows sees an event with a reference in the place of its image. Events stay where their key put them.
-        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(
-                        DataStreamUtils.reinterpretAsKeyedStream(assigned, ReportedEvent::identity), options.images())
-                .uid("move-images")
-                .name("Move images to files");
-
+        // Images are moved here: what follows sees the event with a reference in their place.
         SingleOutputStreamOperator<ReportedEvent> events =
-                moved.map(new StampIngest()).uid("stamp-ingest").name("Stamp the time of ingest");
+                once.map(new StampIngest()).uid("stamp-ingest").name("Stamp the time of ingest");
 
         // The branches: each sees every event once, with domain, mission and stamps.
-        SingleOutputStreamOperator<TopicRecord> routed =
-                events.flatMap(new RouteEvents()).uid("route-events").name("Route by domain and mission");
+        route(events, kafka, options);
+        keepLatest(events, kafka, options);
+        kafka.write(
+                "dead-letters",
+                recognized.getSideOutput(DeadLetters.TAG).union(devices.getSideOutput(DeadLetters.TAG)));
+    }
 
-        return routed.union(
-                recognized.getSideOutput(DeadLetters.TAG),
-                moved.getSideOutput(ImageStage.MANIFEST),
-                moved.getSideOutput(DeadLetters.TAG));
+    private static void route(DataStream<ReportedEvent> events, KafkaOutput kafka, IngestOptions options) {
+        SingleOutputStreamOperator<TopicRecord> routed = events.process(new RouteEvents(options.writesRoutes()))
+                .uid("route-events")
+                .name("Route by domain and mission");
+
+        kafka.write("routes", routed);
+    }
+
+    private static void keepLatest(DataStream<ReportedEvent> events, KafkaOutput kafka, IngestOptions options) {
+        if (options.writesLatest()) {
+            SingleOutputStreamOperator<TopicRecord> latest = keyed(events)
+                    .process(new MergeLatest(options.repeatWindow(), options.latestKey()))
+                    .uid("merge-latest")
+                    .name("Merge the newest of each entity");
+
+            kafka.write("latest", latest);
+        }
+    }
+
+    /** They are at the subtask of their key already: nothing is sent again. */
+    private static KeyedStream<ReportedEvent, String> keyed(DataStream<ReportedEvent> events) {
+        return DataStreamUtils.reinterpretAsKeyedStream(events, ReportedEvent::identity);
     }
 }

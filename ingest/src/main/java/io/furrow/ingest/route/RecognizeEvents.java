@@ -4,9 +4,11 @@ import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Set;
 
+import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.DeadCounters;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.EntityDeletion;
@@ -27,11 +29,19 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
     private static final String STAGE = "ingest";
     private static final Set<String> ROUTE = Set.of("Domain", "Mission");
 
+    private transient DeadCounters dead;
+
+    @Override
+    public void open(OpenContext context) {
+        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+    }
+
     @Override
     public void processElement(TopicRecord record, Context context, Collector<ReportedEvent> out) {
         try {
             out.collect(recognize(record));
         } catch (UnreadableException e) {
+            dead.count(e.reason());
             context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
         }
     }
