@@ -14,6 +14,7 @@ import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.KafkaOutput;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.DeviceChange;
@@ -87,16 +88,23 @@ public final class IngestJob {
                 .uid("pass-once")
                 .name("Pass each event once");
 
-        // Images are moved here: what follows sees the event with a reference in their place.
+        // What follows sees an event with a reference in the place of its image.
+        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(keyed(once), options.images())
+                .uid("move-images")
+                .name("Move images to files");
+
         SingleOutputStreamOperator<ReportedEvent> events =
-                once.map(new StampIngest()).uid("stamp-ingest").name("Stamp the time of ingest");
+                moved.map(new StampIngest()).uid("stamp-ingest").name("Stamp the time of ingest");
 
         // The branches: each sees every event once, with domain, mission and stamps.
         route(events, kafka, options);
         keepLatest(events, kafka, options);
+        listImages(moved, kafka, options);
         kafka.write(
                 "dead-letters",
-                recognized.getSideOutput(DeadLetters.TAG).union(devices.getSideOutput(DeadLetters.TAG)));
+                recognized
+                        .getSideOutput(DeadLetters.TAG)
+                        .union(devices.getSideOutput(DeadLetters.TAG), moved.getSideOutput(DeadLetters.TAG)));
     }
 
     private static void route(DataStream<ReportedEvent> events, KafkaOutput kafka, IngestOptions options) {
@@ -115,6 +123,13 @@ public final class IngestJob {
                     .name("Merge the newest of each entity");
 
             kafka.write("latest", latest);
+        }
+    }
+
+    private static void listImages(
+            SingleOutputStreamOperator<ReportedEvent> moved, KafkaOutput kafka, IngestOptions options) {
+        if (options.images().areMoved()) {
+            kafka.write("images", moved.getSideOutput(ImageStage.MANIFEST));
         }
     }
 

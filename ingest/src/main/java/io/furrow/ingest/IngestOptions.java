@@ -10,6 +10,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.flink.JobOptions;
 import io.furrow.flink.TopicOptions;
+import io.furrow.ingest.image.ImageOptions;
 import io.furrow.ingest.latest.LatestKey;
 import io.furrow.ingest.route.AssignMission;
 
@@ -22,6 +23,9 @@ import io.furrow.ingest.route.AssignMission;
 public final class IngestOptions extends JobOptions implements Callable<Integer> {
     @Mixin
     private final TopicOptions topics = new TopicOptions();
+
+    @Mixin
+    private final ImageOptions images = new ImageOptions();
 
     @Option(
             names = "--default-domain",
@@ -115,6 +119,10 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     public LatestKey latestKey() {
         return latestKey;
+    }
+
+    ImageOptions images() {
+        return images;
     }
 
     @Override

@@ -11,7 +11,7 @@ class IngestUidsTest {
     @Test
     void keepsTheUidsThatSavepointsKnow() {
         IngestOptions options = new IngestOptions();
-        JobCommandLine.of(options).parseArgs();
+        JobCommandLine.of(options).parseArgs("--images", "file:///images");
 
         assertThat(JobUids.of(IngestJob.assemble(options))).isEqualTo(JobUids.checkedIn("ingest"));
     }

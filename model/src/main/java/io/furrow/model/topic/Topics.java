@@ -19,6 +19,9 @@ public final class Topics {
     public static final String COLLISION = "data.collision";
     public static final String COLLISION_LATE = "data.collision.late";
 
+    /** Where each stored image is. */
+    public static final String IMAGES = "data.images";
+
     private static final String DEAD = ".dead";
 
     private Topics() {}
