@@ -10,6 +10,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.TreeMap;
+import java.util.regex.Pattern;
 
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
@@ -23,6 +24,9 @@ import picocli.CommandLine.Spec;
  * without Flink on the class path.
  */
 public abstract class JobOptions {
+    /** User and password of a URI. */
+    private static final Pattern CREDENTIALS = Pattern.compile("://[^/@]*@");
+
     @Spec
     private CommandSpec spec;
 
@@ -172,14 +176,19 @@ public abstract class JobOptions {
         return Optional.ofNullable(parallelism);
     }
 
-    /** Every option with the value in force, as one would write it; the web UI shows it as the job's configuration. */
+    /**
+     * Every option with the value in force, as one would write it, less passwords in addresses; the web UI shows it as the
+     * job's configuration.
+     */
     public Map<String, String> effective() {
         Map<String, String> values = new TreeMap<>();
         for (OptionSpec option : spec.options()) {
             if (!option.usageHelp() && option.getValue() != null) {
                 List<String> given = option.originalStringValues();
-                values.put(
-                        option.longestName(), given.isEmpty() ? option.defaultValueString() : String.join(",", given));
+                String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
+                if (text != null) { // null: an option that may be repeated and was not given
+                    values.put(option.longestName(), CREDENTIALS.matcher(text).replaceAll("://***@"));
+                }
             }
         }
         return values;
