@@ -57,23 +57,31 @@ public final class KafkaEnds {
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> sink(JobOptions options) {
-        return sinkOf(options, "furrow-" + options.jobName());
+        return sinkOf(options, "furrow-" + options.jobName(), guarantee(options));
     }
 
     /** The same for one of several sinks of a job, told apart by name: their transactions are. */
     static KafkaSink<TopicRecord> sink(JobOptions options, String name) {
-        return sinkOf(options, "furrow-" + options.jobName() + "-" + name);
+        return sinkOf(options, "furrow-" + options.jobName() + "-" + name, guarantee(options));
     }
 
-    private static KafkaSink<TopicRecord> sinkOf(JobOptions options, String transactions) {
+    /** The same without transactions, for the dead letters of a sink: a writer of it can work inside another sink's. */
+    public static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
+        return sinkOf(options, "furrow-" + options.jobName(), DeliveryGuarantee.AT_LEAST_ONCE);
+    }
+
+    private static DeliveryGuarantee guarantee(JobOptions options) {
+        return switch (options.delivery()) {
+            case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
+            case EXACTLY_ONCE -> DeliveryGuarantee.EXACTLY_ONCE;
+        };
+    }
+
+    private static KafkaSink<TopicRecord> sinkOf(JobOptions options, String transactions, DeliveryGuarantee guarantee) {
         return KafkaSink.<TopicRecord>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setKafkaProducerConfig(producerProperties(options))
-                .setDeliveryGuarantee(
-                        switch (options.delivery()) {
-                            case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
-                            case EXACTLY_ONCE -> DeliveryGuarantee.EXACTLY_ONCE;
-                        })
+                .setDeliveryGuarantee(guarantee)
                 .setTransactionalIdPrefix(transactions)
                 .setRecordSerializer(new TopicRecordFormat())
                 .build();

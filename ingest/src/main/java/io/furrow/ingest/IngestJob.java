@@ -16,6 +16,8 @@ import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
+import io.furrow.ingest.mission.MissionEvent;
+import io.furrow.ingest.mission.MissionStage;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.DeviceChange;
 import io.furrow.ingest.route.DevicesAtStart;
@@ -100,11 +102,10 @@ public final class IngestJob {
         route(events, kafka, options);
         keepLatest(events, kafka, options);
         listImages(moved, kafka, options);
-        kafka.write(
-                "dead-letters",
-                recognized
-                        .getSideOutput(DeadLetters.TAG)
-                        .union(devices.getSideOutput(DeadLetters.TAG), moved.getSideOutput(DeadLetters.TAG)));
+        DataStream<TopicRecord> dead = recognized
+                .getSideOutput(DeadLetters.TAG)
+                .union(devices.getSideOutput(DeadLetters.TAG), moved.getSideOutput(DeadLetters.TAG));
+        kafka.write("dead-letters", options.missions().isOn() ? dead.union(keepMissions(events, options)) : dead);
     }
 
     private static void route(DataStream<ReportedEvent> events, KafkaOutput kafka, IngestOptions options) {
@@ -131,6 +132,16 @@ public final class IngestJob {
         if (options.images().areMoved()) {
             kafka.write("images", moved.getSideOutput(ImageStage.MANIFEST));
         }
+    }
+
+    /** Gives back the dead letters of what no document can hold. */
+    private static DataStream<TopicRecord> keepMissions(DataStream<ReportedEvent> events, IngestOptions options) {
+        DataStream<MissionEvent> ofMissions = events.map(event -> new MissionEvent(event.mission(), event.record()))
+                .returns(MissionEvent.class)
+                .uid("name-missions")
+                .name("Name the mission");
+
+        return MissionStage.keep(ofMissions, options.missions(), KafkaEnds.atLeastOnceSink(options));
     }
 
     /** They are at the subtask of their key already: nothing is sent again. */

@@ -12,6 +12,7 @@ import io.furrow.flink.JobOptions;
 import io.furrow.flink.TopicOptions;
 import io.furrow.ingest.image.ImageOptions;
 import io.furrow.ingest.latest.LatestKey;
+import io.furrow.ingest.mission.MissionOptions;
 import io.furrow.ingest.route.AssignMission;
 
 /** The options of the job {@code ingest}; those of a branch are a group of their own. */
@@ -26,6 +27,9 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     @Mixin
     private final ImageOptions images = new ImageOptions();
+
+    @Mixin
+    private final MissionOptions missions = new MissionOptions();
 
     @Option(
             names = "--default-domain",
@@ -85,6 +89,11 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
     /** How topics are made. */
     public TopicOptions topics() {
         return topics;
+    }
+
+    /** Whether and how missions are kept in MongoDB. */
+    public MissionOptions missions() {
+        return missions;
     }
 
     public Optional<String> defaultDomain() {

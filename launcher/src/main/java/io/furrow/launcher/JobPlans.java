@@ -29,11 +29,13 @@ final class JobPlans {
 
     private final SuiteSettings settings;
     private final KafkaAccess kafka;
+    private final String mongo;
     private final RunDirectory directory;
 
-    JobPlans(SuiteSettings settings, KafkaAccess kafka, RunDirectory directory) {
+    JobPlans(SuiteSettings settings, KafkaAccess kafka, String mongo, RunDirectory directory) {
         this.settings = settings;
         this.kafka = kafka;
+        this.mongo = mongo;
         this.directory = directory;
     }
 
@@ -52,7 +54,7 @@ final class JobPlans {
 
     private Map<String, StreamExecutionEnvironment> assembled() throws IOException {
         Map<String, StreamExecutionEnvironment> plans = new LinkedHashMap<>();
-        plans.put("ingest", IngestJob.assemble(parsed("ingest", new IngestOptions())));
+        plans.put("ingest", IngestJob.assemble(parsed("ingest", new IngestOptions(), "--mongo", mongo)));
         plans.put(
                 "temperature",
                 TemperatureJob.assemble(parsed(

@@ -80,7 +80,7 @@ class CommandLineTest {
 
     private static String[] upOnFreePorts(Path data) {
         return ("up --kafka-port 0 --connect-port 0 --flink-port 0 --notify-port 0 --mqtt-port 0 --orion-port 0 "
-                        + "--iot-agent-port 0 --data " + data)
+                        + "--iot-agent-port 0 --mongo-port 0 --data " + data)
                 .split(" ");
     }
 }
