@@ -14,6 +14,7 @@ import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.KafkaOutput;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
 import io.furrow.ingest.mission.MissionEvent;
@@ -57,7 +58,7 @@ public final class IngestJob {
 
         define(
                 new Inputs(records, devices, new DevicesTopic(options, options.devices())),
-                KafkaOutput.of(options, options.topics().settings(Set.of(Topics.LATEST))),
+                KafkaOutput.of(options, options.topics().settings(Set.of(Topics.LATEST, Topics.CATALOG))),
                 options);
 
         return env;
@@ -90,10 +91,7 @@ public final class IngestJob {
                 .uid("pass-once")
                 .name("Pass each event once");
 
-        // What follows sees an event with a reference in the place of its image.
-        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(keyed(once), options.images())
-                .uid("move-images")
-                .name("Move images to files");
+        SingleOutputStreamOperator<ReportedEvent> moved = moveImages(once, options);
 
         SingleOutputStreamOperator<ReportedEvent> events =
                 moved.map(new StampIngest()).uid("stamp-ingest").name("Stamp the time of ingest");
@@ -102,10 +100,19 @@ public final class IngestJob {
         route(events, kafka, options);
         keepLatest(events, kafka, options);
         listImages(moved, kafka, options);
+        keepCatalog(events, kafka, options);
         DataStream<TopicRecord> dead = recognized
                 .getSideOutput(DeadLetters.TAG)
                 .union(devices.getSideOutput(DeadLetters.TAG), moved.getSideOutput(DeadLetters.TAG));
         kafka.write("dead-letters", options.missions().isOn() ? dead.union(keepMissions(events, options)) : dead);
+    }
+
+    /** What follows sees an event with a reference in the place of its image. */
+    private static SingleOutputStreamOperator<ReportedEvent> moveImages(
+            DataStream<ReportedEvent> events, IngestOptions options) {
+        return ImageStage.move(keyed(events), options.images())
+                .uid("move-images")
+                .name("Move images to files");
     }
 
     private static void route(DataStream<ReportedEvent> events, KafkaOutput kafka, IngestOptions options) {
@@ -142,6 +149,12 @@ public final class IngestJob {
                 .name("Name the mission");
 
         return MissionStage.keep(ofMissions, options.missions(), KafkaEnds.atLeastOnceSink(options));
+    }
+
+    private static void keepCatalog(DataStream<ReportedEvent> events, KafkaOutput kafka, IngestOptions options) {
+        if (options.writesCatalog()) {
+            kafka.write("catalog", CatalogStage.keep(keyed(events), options.catalogInterval()));
+        }
     }
 
     /** They are at the subtask of their key already: nothing is sent again. */

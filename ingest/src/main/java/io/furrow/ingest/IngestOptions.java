@@ -76,6 +76,17 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
     @Option(names = "--no-latest", description = "Do not write to data.latest.")
     private boolean noLatest;
 
+    @Option(names = "--no-catalog", description = "Do not write to data.catalog.")
+    private boolean noCatalog;
+
+    @Option(
+            names = "--catalog-interval",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description = "An entry of the catalogue is written at most once per this event time. Default: "
+                    + "${DEFAULT-VALUE}.")
+    private Duration catalogInterval;
+
     @Option(
             names = "--latest-key",
             paramLabel = "KEY",
@@ -124,6 +135,14 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     public boolean writesLatest() {
         return !noLatest;
+    }
+
+    public boolean writesCatalog() {
+        return !noCatalog;
+    }
+
+    public Duration catalogInterval() {
+        return catalogInterval;
     }
 
     public LatestKey latestKey() {

@@ -121,6 +121,30 @@ class ImageStageJobTest {
     }
 
     @Test
+    void keepsACatalogueOfWhatPassed() throws Exception {
+        List<TopicRecord> records = new ArrayList<>();
+        byte[] image = png();
+        for (int i = 0; i < 60; i++) {
+            records.add(camera("c" + i % 20, i * 1_000, image));
+        }
+
+        IngestOptions options = new IngestOptions();
+        JobCommandLine.of(options).parseArgs("--images", folder.toString(), "--no-latest", "--catalog-interval", "5s");
+        List<TopicRecord> written = run(options, records.toArray(TopicRecord[]::new));
+
+        List<TopicRecord> catalog = written.stream()
+                .filter(record -> record.topic().equals("data.catalog"))
+                .toList();
+        var last = NgsiJson.read(catalog.get(catalog.size() - 1).value());
+        assertThat(last.path("entities").asInt()).isEqualTo(20);
+        assertThat(last.path("events").asInt()).isEqualTo(60);
+        assertThat(last.path("images").asInt()).isEqualTo(60);
+        assertThat(last.path("imageBytes").asInt()).isEqualTo(60 * image.length);
+        assertThat(last.path("attributes").path("Image").path("kind").textValue())
+                .isEqualTo("image");
+    }
+
+    @Test
     void refusesToStartWhereFlinkHasNoFileSystem() {
         IngestOptions options = options("--images", "nowhere://x/y");
 
@@ -164,8 +188,8 @@ class ImageStageJobTest {
     private static IngestOptions options(String... args) {
         IngestOptions options = new IngestOptions();
         JobCommandLine.of(options)
-                .parseArgs(
-                        Stream.concat(Stream.of("--no-latest"), Stream.of(args)).toArray(String[]::new));
+                .parseArgs(Stream.concat(Stream.of("--no-latest", "--no-catalog"), Stream.of(args))
+                        .toArray(String[]::new));
         return options;
     }
 

@@ -5,6 +5,7 @@ import java.util.Arrays;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Stream;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
@@ -255,7 +256,7 @@ class IngestJobTest {
     private static IngestOptions options(String... args) {
         IngestOptions options = new IngestOptions();
         CommandLine line = JobCommandLine.of(options);
-        line.parseArgs(args);
+        line.parseArgs(Stream.concat(Stream.of("--no-catalog"), Stream.of(args)).toArray(String[]::new));
         return options;
     }
 

@@ -22,6 +22,9 @@ public final class Topics {
     /** Where each stored image is. */
     public static final String IMAGES = "data.images";
 
+    /** What there is: types, attributes, missions, sizes. */
+    public static final String CATALOG = "data.catalog";
+
     private static final String DEAD = ".dead";
 
     private Topics() {}
