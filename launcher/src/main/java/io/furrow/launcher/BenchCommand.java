@@ -19,7 +19,11 @@ import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.simulators.load.LoadPlan;
 
 /** {@code ./furrow bench}. */
-@Command(name = "bench", description = "Measures the suite on this machine.", synopsisSubcommandLabel = "COMMAND")
+@Command(
+        name = "bench",
+        description = "Measures the suite on this machine.",
+        synopsisSubcommandLabel = "COMMAND",
+        subcommands = ImageBench.class)
 final class BenchCommand {
     private static final String DOMAIN = "bench";
     /** A cold JVM cannot take what a warm one takes: it gets a quarter of the load, a half, then all of it. */

@@ -54,7 +54,15 @@ final class JobPlans {
 
     private Map<String, StreamExecutionEnvironment> assembled() throws IOException {
         Map<String, StreamExecutionEnvironment> plans = new LinkedHashMap<>();
-        plans.put("ingest", IngestJob.assemble(parsed("ingest", new IngestOptions(), "--mongo", mongo)));
+        plans.put(
+                "ingest",
+                IngestJob.assemble(parsed(
+                        "ingest",
+                        new IngestOptions(),
+                        "--images",
+                        directory.resolve("images").toString(),
+                        "--mongo",
+                        mongo)));
         plans.put(
                 "temperature",
                 TemperatureJob.assemble(parsed(

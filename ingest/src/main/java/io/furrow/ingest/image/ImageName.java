@@ -39,6 +39,11 @@ record ImageName(String folder, String file) {
         return folder + "/" + file + "-" + sha256 + "." + format.extension();
     }
 
+    /** The time in a file's name. */
+    static Instant time(String digits) {
+        return TIME.parse(digits, Instant::from);
+    }
+
     static String part(String name) {
         if (name.isEmpty()) {
             return "~none";

@@ -1,0 +1,2 @@
+/** Images on file systems that other machines keep. */
+package io.furrow.stores;
