@@ -103,7 +103,7 @@ public final class ImageMeasurement {
 
     /** A JPEG of noise, whose size grows with its pixels. */
     private static byte[] jpegOf(int bytes, int seed) throws IOException {
-        int side = Math.max(8, (int) Math.sqrt(bytes * 1.05));
+        int side = Math.max(8, (int) Math.sqrt(bytes * 1.6));
         BufferedImage noise = new BufferedImage(side, side, BufferedImage.TYPE_INT_RGB);
         Random random = new Random(seed);
         for (int i = 0; i < side * side; i++) {

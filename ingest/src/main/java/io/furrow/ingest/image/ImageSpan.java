@@ -94,9 +94,11 @@ record ImageSpan(String attribute, int from, int to, boolean escaped) {
     private static ImageSpan at(byte[] entity, String name, int quote) throws UnreadableException {
         boolean escaped = false;
         int i = quote + 1;
-        while (i < entity.length && entity[i] != '"') {
-            escaped |= entity[i] == '\\';
-            i += entity[i] == '\\' ? 2 : 1;
+        for (; i < entity.length && entity[i] != '"'; i++) {
+            if (entity[i] == '\\') {
+                escaped = true;
+                i++;
+            }
         }
         if (i >= entity.length) {
             throw new UnreadableException(Reason.NOT_JSON, "a text has no end");

@@ -1,5 +1,6 @@
 package io.furrow.ingest.image;
 
+import java.nio.ByteBuffer;
 import java.nio.charset.StandardCharsets;
 import java.util.Arrays;
 import java.util.Base64;
@@ -22,6 +23,30 @@ final class ImageText {
 
     /** @param text ASCII or UTF-8; unharmed */
     static byte[] decode(byte[] text) throws UnreadableException {
+        try {
+            return decodePlain(text);
+        } catch (IllegalArgumentException e) { // a sign that is not in the alphabet: one of the other forms, or none
+            return decodeAnyForm(text);
+        }
+    }
+
+    /** What nearly all images are, several times faster than sign by sign: one line, padded with {@code =} or {@code %3D}. */
+    private static byte[] decodePlain(byte[] text) {
+        int length = text.length;
+        for (int padding = 0; padding < 2 && length >= 3 && isEscapedPadding(text, length - 3); padding++) {
+            length -= 3;
+        }
+        ByteBuffer decoded = Base64.getDecoder().decode(ByteBuffer.wrap(text, 0, length));
+        return decoded.remaining() == decoded.array().length
+                ? decoded.array()
+                : Arrays.copyOf(decoded.array(), decoded.remaining());
+    }
+
+    private static boolean isEscapedPadding(byte[] text, int at) {
+        return text[at] == '%' && text[at + 1] == '3' && (text[at + 2] == 'D' || text[at + 2] == 'd');
+    }
+
+    private static byte[] decodeAnyForm(byte[] text) throws UnreadableException {
         byte[] base64 = isDataUri(text) ? behindTheComma(percentDecoded(text)) : text;
         byte[] plain = new byte[base64.length];
         int length = 0;

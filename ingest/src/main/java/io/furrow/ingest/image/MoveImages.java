@@ -11,6 +11,7 @@ import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
+import java.util.concurrent.RejectedExecutionException;
 
 import org.apache.flink.api.common.operators.MailboxExecutor;
 import org.apache.flink.api.common.state.ListState;
@@ -25,6 +26,7 @@ import org.apache.flink.streaming.api.operators.StreamOperatorParameters;
 import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.runtime.watermarkstatus.WatermarkStatus;
+import org.apache.flink.util.function.ThrowingRunnable;
 
 import io.furrow.flink.DeadLetters;
 import io.furrow.ingest.route.ReportedEvent;
@@ -75,7 +77,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         counts = new ImageCounts(getMetricGroup(), () -> bytes);
         if (settings != null) {
             mover = new ImageMover(settings, ImageFiles.in(settings.root()));
-            threads = Executors.newFixedThreadPool(settings.threads(), task -> new Thread(task, "images"));
+            threads = Executors.newFixedThreadPool(settings.threads(), MoveImages::thread);
         }
         byEntity = new HashMap<>();
         inOrder = new ArrayDeque<>();
@@ -90,6 +92,12 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
                 add(event);
             }
         }
+    }
+
+    private static Thread thread(Runnable task) {
+        Thread thread = new Thread(task, "images");
+        thread.setDaemon(true); // a store that hangs must not keep the process from ending
+        return thread;
     }
 
     @Override
@@ -133,16 +141,25 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         threads.execute(() -> {
             try {
                 Moved moved = attempts.move(event);
-                mailbox.execute(() -> goOn(waiting, moved), "pass an event whose images are stored");
-            } catch (IOException | RuntimeException e) {
-                mailbox.execute(() -> fail(event, e), "fail because of an image");
+                send(() -> goOn(waiting, moved));
+            } catch (IOException | RuntimeException | LinkageError e) { // the last: a store's client lacks a class
+                send(() -> fail(event, e));
             } catch (InterruptedException e) {
                 Thread.currentThread().interrupt(); // the task is being closed
             }
         });
     }
 
-    private void fail(ReportedEvent event, Exception cause) throws IOException {
+    /** Has the task's own thread do something. */
+    private void send(ThrowingRunnable<Exception> mail) {
+        try {
+            mailbox.execute(mail, "go on after storing an image");
+        } catch (RejectedExecutionException e) {
+            LOG.debug("The task was closed while an image was stored", e);
+        }
+    }
+
+    private void fail(ReportedEvent event, Throwable cause) throws IOException {
         throw new IOException(
                 "the image of " + event.identity() + " at " + event.record().position() + " could not be stored below "
                         + settings.root() + "; the job is restarted",

@@ -23,7 +23,7 @@ import io.furrow.model.topic.Topics;
 
 /** The topic {@code data.catalog}, read to its end. */
 public final class Catalog {
-    private static final Duration PATIENCE = Duration.ofSeconds(20);
+    private static final Duration PATIENCE = Duration.ofSeconds(10);
 
     private Catalog() {}
 
