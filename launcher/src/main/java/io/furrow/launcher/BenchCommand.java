@@ -41,9 +41,8 @@ final class BenchCommand {
     @Command(
             name = "mongo",
             abbreviateSynopsis = true,
-            description =
-                    "Writes events of a mission into MongoDB as the job ingest does, and in a bare loop around MongoDB's "
-                            + "driver, by turns, and prints documents per second of both.")
+            description = "Writes events of a mission into MongoDB as the job ingest does, and in a bare loop around"
+                    + " MongoDB's driver, by turns, and prints documents per second of both.")
     int mongo(
             @Option(
                             names = "--documents",
@@ -67,7 +66,8 @@ final class BenchCommand {
                             names = "--mongo",
                             paramLabel = "URI",
                             description =
-                                    "MongoDB, whose database persistence is EMPTIED. Default: an embedded server.")
+                                    "MongoDB, whose database persistence is EMPTIED. Default: an embedded server in"
+                                            + " memory.")
                     String uri,
             @Option(
                             names = {"-h", "--help"},
@@ -76,8 +76,7 @@ final class BenchCommand {
                     boolean wantsHelp)
             throws Exception {
         PrintWriter out = spec.commandLine().getOut();
-        try (RunDirectory directory = RunDirectory.open(null);
-                EmbeddedMongo embedded = uri == null ? EmbeddedMongo.start(directory.resolve("mongo")) : null) {
+        try (EmbeddedMongo embedded = uri == null ? EmbeddedMongo.inMemory() : null) {
             List<MongoMeasurement.Turn> all = new MongoMeasurement(
                             uri == null ? embedded.uri() : uri, documents, payload)
                     .run(turns, turn -> {
@@ -104,8 +103,8 @@ final class BenchCommand {
             name = "load",
             abbreviateSynopsis = true,
             description =
-                    "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and how "
-                            + "long each hop took.")
+                    "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and"
+                            + " how long each hop took.")
     int load(
             @Option(
                             names = "--devices",

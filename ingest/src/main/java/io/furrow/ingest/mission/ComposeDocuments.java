@@ -2,9 +2,11 @@ package io.furrow.ingest.mission;
 
 import java.nio.charset.StandardCharsets;
 
+import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.DeadCounters;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.HeaderNames;
@@ -18,6 +20,13 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
     /** In dead letters. */
     static final String STAGE = "missions";
 
+    private transient DeadCounters dead;
+
+    @Override
+    public void open(OpenContext context) {
+        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+    }
+
     @Override
     public void processElement(MissionEvent event, Context context, Collector<MissionDocument> out) {
         if (event.mission().isEmpty()) {
@@ -26,6 +35,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
         try {
             out.collect(compose(event));
         } catch (UnreadableException e) {
+            dead.count(e.reason());
             context.output(DeadLetters.TAG, DeadLetters.of(event.record(), e, STAGE));
         }
     }

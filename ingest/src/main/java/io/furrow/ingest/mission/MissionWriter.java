@@ -10,9 +10,9 @@ import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
 
 import org.apache.flink.api.connector.sink2.SinkWriter;
-import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.groups.SinkWriterMetricGroup;
 
+import io.furrow.flink.DeadCounters;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Reason;
@@ -31,7 +31,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private final SinkWriter<TopicRecord> deadLetters;
     private final AutoCloseable connection;
     private final ExecutorService thread = Executors.newSingleThreadExecutor(MissionWriter::named);
-    private final Counter refused;
+    private final DeadCounters dead;
     private final SinkWriterMetricGroup metrics;
 
     private List<MissionDocument> gathered = new ArrayList<>();
@@ -48,7 +48,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         this.deadLetters = deadLetters;
         this.connection = connection;
         this.metrics = metrics;
-        this.refused = metrics.counter("refused");
+        this.dead = new DeadCounters(metrics);
     }
 
     @Override
@@ -85,7 +85,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         underWay = CompletableFuture.completedFuture(List.of());
         try {
             for (BulkSender.Refusal refusal : sent.get()) {
-                refused.inc();
+                dead.count(Reason.REFUSED);
                 UnreadableException why = new UnreadableException(Reason.REFUSED, refusal.reason());
                 deadLetters.write(DeadLetters.of(refusal.document().record(), why, ComposeDocuments.STAGE), NO_CONTEXT);
             }

@@ -50,7 +50,7 @@ class ComposeDocumentsTest {
                 arguments("[]", "not-an-entity", ""));
     }
 
-    @ParameterizedTest
+    @ParameterizedTest(name = "{1} {2}") // the JSON may have megabytes
     @MethodSource("whatNoDocumentCanHold")
     void setsAsideWhatNoDocumentCanHold(String json, String reason, String message) throws Exception {
         harness.processElement(Events.event("m", "bad", Events.TIME, json), Events.TIME);
