@@ -42,6 +42,11 @@ class ImagesOnHdfsIT {
     }
 
     @Test
+    void bringsAMissionBackFromItsArchive() throws Exception {
+        ArchivedMission.comesBackFrom(hdfs.getURI() + "/archive");
+    }
+
+    @Test
     void keepsEachImageOnceUnderTheAddressThatItsEventCarries() throws Exception {
         String root = hdfs.getURI() + "/images";
 

@@ -82,6 +82,11 @@ class ImagesOnS3IT {
     }
 
     @Test
+    void bringsAMissionBackFromItsArchive() throws Exception {
+        ArchivedMission.comesBackFrom("s3://farm/archive");
+    }
+
+    @Test
     void keepsEachImageOnceUnderTheAddressThatItsEventCarries() throws Exception {
         String root = "s3://farm/images";
 

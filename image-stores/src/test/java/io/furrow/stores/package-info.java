@@ -1,2 +1,2 @@
-/** Images on file systems that other machines keep. */
+/** Images, and archives of missions, on file systems that other machines keep. */
 package io.furrow.stores;

@@ -1,5 +1,7 @@
 package io.furrow.ingest.mission;
 
+import java.io.BufferedOutputStream;
+import java.io.FilterOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.OutputStream;
@@ -15,6 +17,7 @@ import org.apache.flink.core.fs.FileStatus;
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
 import org.apache.flink.core.fs.RecoverableFsDataOutputStream;
+import org.apache.flink.util.IOUtils;
 
 /**
  * Files of lines on any of Flink's file systems, compressed where the name ends in {@code .gz}. A file appears under its name
@@ -80,9 +83,9 @@ public final class MissionFiles {
     static long write(Path file, Content content) throws IOException {
         RecoverableFsDataOutputStream out =
                 file.getFileSystem().createRecoverableWriter().open(file);
-        long count;
-        try (out) {
-            OutputStream kept = new java.io.FilterOutputStream(out) {
+        boolean whole = false;
+        try {
+            OutputStream kept = new FilterOutputStream(out) {
                 @Override
                 public void write(byte[] bytes, int from, int length) throws IOException {
                     out.write(bytes, from, length);
@@ -93,13 +96,19 @@ public final class MissionFiles {
                     // closed by the commit below
                 }
             };
+            long count;
             try (OutputStream lines =
-                    isCompressed(file) ? new GZIPOutputStream(kept, BUFFER) : new java.io.BufferedOutputStream(kept)) {
+                    isCompressed(file) ? new GZIPOutputStream(kept, BUFFER) : new BufferedOutputStream(kept)) {
                 count = content.writeTo(lines);
             }
             out.closeForCommit().commit();
+            whole = true;
+            return count;
+        } finally {
+            if (!whole) {
+                IOUtils.closeQuietly(out); // once committed, S3 takes a second close for a fault
+            }
         }
-        return count;
     }
 
     private static boolean isCompressed(Path file) {
