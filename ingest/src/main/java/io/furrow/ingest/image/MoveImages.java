@@ -1,6 +1,7 @@
 package io.furrow.ingest.image;
 
 import java.io.IOException;
+import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Deque;
@@ -44,8 +45,8 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     private static final String STATE = "in-flight";
     /** What an event takes beside its value, roughly. */
     private static final int OVERHEAD_BYTES = 512;
-    /** So many times its patience after an image was begun, a store that neither takes nor refuses it fails the job. */
-    private static final int HANGING = 2;
+    /** So much longer than its patience a store may leave an attempt without an answer; then the job fails. */
+    private static final Duration HANGING = Duration.ofMinutes(1);
 
     private final ImageSettings settings;
     private final TypeInformation<ReportedEvent> type;
@@ -132,11 +133,10 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
             mailbox.execute(() -> goOn(waiting, Moved.unchanged(event.record())), "pass an event");
             return;
         }
+        long deadline = getProcessingTimeService().getCurrentProcessingTime()
+                + settings.patience().plus(HANGING).toMillis();
         waiting.until(getProcessingTimeService()
-                .registerTimer(
-                        getProcessingTimeService().getCurrentProcessingTime()
-                                + HANGING * settings.patience().toMillis(),
-                        time -> fail(event, new IOException("the store does not answer"))));
+                .registerTimer(deadline, time -> fail(event, new IOException("the store does not answer"))));
         StoreAttempts attempts = new StoreAttempts(mover, settings.patience(), counts::retried);
         threads.execute(() -> {
             try {
