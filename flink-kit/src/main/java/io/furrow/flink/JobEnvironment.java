@@ -39,6 +39,9 @@ public final class JobEnvironment {
             settings.set(CheckpointingOptions.ENABLE_UNALIGNED, true);
         }
         options.faults().stateBackend().ifPresent(name -> settings.set(StateBackendOptions.STATE_BACKEND, name));
+        if (options.faults().stateBackend().filter("rocksdb"::equals).isPresent()) {
+            settings.set(CheckpointingOptions.INCREMENTAL_CHECKPOINTS, true);
+        }
         setRestarts(settings, options.faults());
 
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
