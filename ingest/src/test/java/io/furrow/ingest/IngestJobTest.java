@@ -1,24 +1,18 @@
 package io.furrow.ingest;
 
 import java.nio.charset.StandardCharsets;
-import java.util.Arrays;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.Stream;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine;
 
 import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.DeadLetter;
@@ -131,7 +125,7 @@ class IngestJobTest {
         TopicRecord before = record("a", Entity.builder("robot", "ROBOT"));
         TopicRecord after = at(TIME + 1, record("b", Entity.builder("robot", "ROBOT")));
 
-        assertThat(run(options("--no-latest"), devices, before, after))
+        assertThat(IngestRun.of(options("--no-latest"), devices, before, after))
                 .extracting(record -> record.headers().get(HeaderNames.CE_ID) + " " + record.topic())
                 .containsExactly(
                         "a data.farm.realtime",
@@ -144,10 +138,10 @@ class IngestJobTest {
     void letsAnEntitysOwnWordGoBeforeWhatIsKnownOfIt() throws Exception {
         KnownDevices devices = KnownDevices.of(new DeviceVersion("t", "", "/", "north", "weeding", 0, null, 1, null));
 
-        assertThat(run(options("--no-latest"), devices, record("a", thermometer("t", "farm", "mowing"))))
+        assertThat(IngestRun.of(options("--no-latest"), devices, record("a", thermometer("t", "farm", "mowing"))))
                 .extracting(TopicRecord::topic)
                 .containsExactly("data.farm.realtime", "data.farm.realtime.mowing");
-        assertThat(run(options("--no-latest"), devices, record("a", thermometer("t", "farm", ""))))
+        assertThat(IngestRun.of(options("--no-latest"), devices, record("a", thermometer("t", "farm", ""))))
                 .as("the mission that is known is not one of this domain")
                 .extracting(TopicRecord::topic)
                 .containsExactly("data.farm.realtime");
@@ -158,7 +152,7 @@ class IngestJobTest {
         TopicRecord reported = record("a", thermometer("t", "farm", "weeding"));
         TopicRecord deleted = deletion("b", "t", TIME + 1);
 
-        List<TopicRecord> written = run(options(), KnownDevices.of(), reported, deleted, deleted);
+        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), reported, deleted, deleted);
 
         assertThat(written)
                 .filteredOn(record -> record.value() == null)
@@ -184,7 +178,7 @@ class IngestJobTest {
                                 .number("Temperature", 2)
                                 .bool("Status", true)));
 
-        List<TopicRecord> written = run(options(), KnownDevices.of(), place, warm, coldBefore);
+        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), place, warm, coldBefore);
 
         assertThat(written)
                 .extracting(TopicRecord::topic)
@@ -204,9 +198,9 @@ class IngestJobTest {
     void leavesOutTheBranchesThatAreSwitchedOff() throws Exception {
         TopicRecord reported = record("a", thermometer("t", "farm", "weeding"));
 
-        assertThat(run(options("--no-latest", "--no-routes"), KnownDevices.of(), reported))
+        assertThat(IngestRun.of(options("--no-latest", "--no-routes"), KnownDevices.of(), reported))
                 .isEmpty();
-        assertThat(run(options("--no-routes"), KnownDevices.of(), reported))
+        assertThat(IngestRun.of(options("--no-routes"), KnownDevices.of(), reported))
                 .extracting(TopicRecord::topic)
                 .containsExactly("data.latest");
     }
@@ -224,33 +218,9 @@ class IngestJobTest {
 
     /** What goes to the topics of domains and missions, and to dead letters. */
     private static List<TopicRecord> run(IngestOptions options, TopicRecord... records) throws Exception {
-        return run(options, KnownDevices.of(), records).stream()
+        return IngestRun.of(options, KnownDevices.of(), records).stream()
                 .filter(record -> !record.topic().equals(Topics.LATEST))
                 .toList();
-    }
-
-    private static List<TopicRecord> run(IngestOptions options, KnownDevices devices, TopicRecord... records)
-            throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        env.setParallelism(2);
-        DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
-                        .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .uid("timestamps")
-                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
-        DataStream<TopicRecord> deviceRecords = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
-                .setParallelism(1)
-                .uid("devices")
-                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
-                .uid("no-hindrance")
-                .setParallelism(1);
-
-        CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestJob.Inputs(source, deviceRecords, devices), out, options);
-        return out.run();
     }
 
     private static IngestOptions options(String... args) {
