@@ -21,6 +21,8 @@ import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobOptions;
 import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
+import io.furrow.ingest.normalise.NormaliseJob;
+import io.furrow.ingest.normalise.NormaliseOptions;
 import io.furrow.simulators.device.Scenario;
 
 /** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */
@@ -63,6 +65,7 @@ final class JobPlans {
                         directory.resolve("images").toString(),
                         "--mongo",
                         mongo)));
+        plans.put("normalise", NormaliseJob.assemble(parsed("normalise", new NormaliseOptions())));
         plans.put(
                 "temperature",
                 TemperatureJob.assemble(parsed(

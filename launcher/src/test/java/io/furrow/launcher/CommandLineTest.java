@@ -30,7 +30,8 @@ class CommandLineTest {
         "demo --help, --kafka-port",
         "up --help, --orion",
         "bench --help, load",
-        "bench load --help, --devices"
+        "bench load --help, --devices",
+        "dead-letters refeed --help, --dry-run"
     })
     void explainsItself(String words, String mentioned) {
         assertThat(furrow.execute(words.split(" "))).isZero();
