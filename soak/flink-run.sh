@@ -9,6 +9,8 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 . "$soak/parts/machine.sh"
 # shellcheck source=parts/kafka.sh
 . "$soak/parts/kafka.sh"
+# shellcheck source=parts/build.sh
+. "$soak/parts/build.sh"
 # shellcheck source=parts/flink.sh
 . "$soak/parts/flink.sh"
 
@@ -75,15 +77,6 @@ trap 'exit 143' TERM
 rm -rf "$logs"
 mkdir -p "$logs"
 
-build() {
-    local built=$home/launcher/target/soak-built
-    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src "$home/src" -newer "$built" -print -quit) ]] && return
-    say "building the job jars"
-    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dspotless.check.skip -pl ingest,analytics,launcher -am) \
-        >"$logs/build.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }
-    touch "$built" "$home/launcher/target/furrow/built"
-}
-
 jar_of() {
     local module=analytics
     [[ $1 == ingest ]] && module=ingest
@@ -121,7 +114,7 @@ stop_job() {
 show_jobs() { "$java" -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.ClusterJobs "$rest" "${ids[@]}"; }
 writing() { grep -q '^writing' "$logs/events.out"; }
 
-build
+build_soaks launcher
 check_help
 say "--help of all jobs works without Flink"
 provide_flink

@@ -16,6 +16,7 @@ import com.tngtech.archunit.library.dependencies.SlicesRuleDefinition;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import static com.tngtech.archunit.core.domain.JavaClass.Predicates.resideInAnyPackage;
 import static com.tngtech.archunit.lang.syntax.ArchRuleDefinition.noClasses;
@@ -51,12 +52,31 @@ class ArchitectureTest {
     }
 
     @ParameterizedTest
-    @CsvSource({"io.furrow.analytics.(*)..", "io.furrow.ingest.(*).."})
+    @ValueSource(strings = "io.furrow.analytics.(*)..")
     void keepsJobsApart(String jobs) {
         SlicesRuleDefinition.slices()
                 .matching(jobs)
                 .should()
                 .notDependOnEachOther()
+                .check(CLASSES);
+    }
+
+    /** The page of ingest joins its branches; they know the events of {@code route} and nothing of each other. */
+    @Test
+    void keepsTheBranchesOfIngestApart() {
+        SlicesRuleDefinition.slices()
+                .matching("io.furrow.ingest.(*)..")
+                .should()
+                .notDependOnEachOther()
+                .ignoreDependency(
+                        resideInAnyPackage("io.furrow.ingest.."), resideInAnyPackage("io.furrow.ingest.route"))
+                .check(CLASSES);
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.ingest.route")
+                .should()
+                .dependOnClassesThat(resideInAnyPackage("io.furrow.ingest..")
+                        .and(DescribedPredicate.not(resideInAnyPackage("io.furrow.ingest.route"))))
                 .check(CLASSES);
     }
 

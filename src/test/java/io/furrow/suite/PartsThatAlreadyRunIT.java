@@ -7,6 +7,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.launcher.SuiteSettings;
 import io.furrow.simulators.fiware.FiwareSettings;
 import io.furrow.simulators.fiware.FiwareStandIn;
@@ -20,9 +21,13 @@ class PartsThatAlreadyRunIT {
     @TempDir
     Path directory;
 
+    @TempDir
+    Path documents;
+
     @Test
-    void usesTheContextBrokerAndTheKafkaThatItIsGiven() throws Exception {
+    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
+                EmbeddedMongo mongo = EmbeddedMongo.start(documents);
                 FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());
                 RunningSuite running = RunningSuite.start(
                         null,
@@ -33,8 +38,10 @@ class PartsThatAlreadyRunIT {
                                 null,
                                 SuiteSettings.Ports.free(),
                                 orion.contextBroker(),
-                                kafka.bootstrapServers()))) {
+                                kafka.bootstrapServers(),
+                                mongo.uri()))) {
             assertThat(running.suite().hasStandIn()).isFalse();
+            assertThat(running.suite().mongo()).isEqualTo(mongo.uri());
             assertThat(running.suite().kafka().bootstrapServers()).isEqualTo(kafka.bootstrapServers());
 
             running.ngsi()

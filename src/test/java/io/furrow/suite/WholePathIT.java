@@ -1,5 +1,6 @@
 package io.furrow.suite;
 
+import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 
@@ -8,6 +9,7 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.simulators.device.Fleet;
@@ -82,6 +84,24 @@ class WholePathIT {
                         .containsEntry(HeaderNames.ORIGIN, "notification")
                         .containsEntry(HeaderNames.TS_DEVICE, Long.toString(record.timestamp()))
                         .containsEntry(HeaderNames.SERVICE, "farm");
+            });
+        }
+    }
+
+    @Test
+    void keepsEveryEventOfAMissionInMongo() {
+        try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
+                StoredMissions missions = StoredMissions.open(running.suite().mongo())) {
+            await().atMost(PATIENCE)
+                    .untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
+            await().atMost(PATIENCE).untilAsserted(() -> {
+                ByteArrayOutputStream lines = new ByteArrayOutputStream();
+                missions.export("weeding", lines, ignored -> {});
+                String kept = lines.toString(StandardCharsets.UTF_8);
+                assertThat(weeding.records().subList(0, 10))
+                        .allSatisfy(record -> assertThat(kept)
+                                .contains(TopicLog.headers(record).get(HeaderNames.CE_ID))
+                                .contains("\"entity\":" + new String(record.value(), StandardCharsets.UTF_8)));
             });
         }
     }

@@ -29,6 +29,7 @@ public final class JobCommandLine {
                 .setUsageHelpLongOptionsMaxWidth(36)
                 .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(Delivery.class, JobCommandLine::delivery)
+                .registerConverter(FaultOptions.Restart.class, JobCommandLine::restart)
                 .setParameterExceptionHandler(JobCommandLine::explain)
                 .setExecutionExceptionHandler((failure, refusing, parsed) -> {
                     if (failure instanceof ParameterException refused) {
@@ -44,6 +45,17 @@ public final class JobCommandLine {
             case "exactly-once" -> Delivery.EXACTLY_ONCE;
             default ->
                 throw new TypeConversionException("'" + text + "' is no delivery; write at-least-once or exactly-once");
+        };
+    }
+
+    private static FaultOptions.Restart restart(String text) {
+        return switch (text.toLowerCase(Locale.ROOT)) {
+            case "exponential-delay" -> FaultOptions.Restart.EXPONENTIAL_DELAY;
+            case "fixed-delay" -> FaultOptions.Restart.FIXED_DELAY;
+            case "none" -> FaultOptions.Restart.NONE;
+            default ->
+                throw new TypeConversionException(
+                        "'" + text + "' is no way to restart; write exponential-delay, fixed-delay or none");
         };
     }
 

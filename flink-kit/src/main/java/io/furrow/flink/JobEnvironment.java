@@ -10,6 +10,7 @@ import org.apache.flink.configuration.ExecutionOptions;
 import org.apache.flink.configuration.ExternalizedCheckpointRetention;
 import org.apache.flink.configuration.PipelineOptions;
 import org.apache.flink.configuration.RestartStrategyOptions;
+import org.apache.flink.configuration.StateBackendOptions;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 /** The one place that sets checkpointing, restarts, parallelism and type rules of a job. */
@@ -34,12 +35,42 @@ public final class JobEnvironment {
                 CheckpointingOptions.EXTERNALIZED_CHECKPOINT_RETENTION,
                 ExternalizedCheckpointRetention.RETAIN_ON_CANCELLATION);
         options.checkpointDir().ifPresent(dir -> settings.set(CheckpointingOptions.CHECKPOINTS_DIRECTORY, dir));
-        settings.set(RestartStrategyOptions.RESTART_STRATEGY, "exponential-delay");
+        if (options.faults().unalignedCheckpoints()) { // else as the cluster says
+            settings.set(CheckpointingOptions.ENABLE_UNALIGNED, true);
+        }
+        options.faults().stateBackend().ifPresent(name -> settings.set(StateBackendOptions.STATE_BACKEND, name));
+        if (options.faults().stateBackend().filter("rocksdb"::equals).isPresent()) {
+            settings.set(CheckpointingOptions.INCREMENTAL_CHECKPOINTS, true);
+        }
+        setRestarts(settings, options.faults());
 
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
         options.parallelism().ifPresent(env::setParallelism);
         env.getConfig().setGlobalJobParameters(new EffectiveOptions(options.effective()));
         return env;
+    }
+
+    private static void setRestarts(Configuration settings, FaultOptions faults) {
+        Duration delay = faults.restartDelay();
+        switch (faults.restart()) {
+            case EXPONENTIAL_DELAY -> {
+                settings.set(RestartStrategyOptions.RESTART_STRATEGY, "exponential-delay");
+                settings.set(RestartStrategyOptions.RESTART_STRATEGY_EXPONENTIAL_DELAY_INITIAL_BACKOFF, delay);
+                Duration longest = faults.restartDelayMax().compareTo(delay) < 0 ? delay : faults.restartDelayMax();
+                settings.set(RestartStrategyOptions.RESTART_STRATEGY_EXPONENTIAL_DELAY_MAX_BACKOFF, longest);
+                faults.restartAttempts()
+                        .ifPresent(attempts -> settings.set(
+                                RestartStrategyOptions.RESTART_STRATEGY_EXPONENTIAL_DELAY_ATTEMPTS, attempts));
+            }
+            case FIXED_DELAY -> {
+                settings.set(RestartStrategyOptions.RESTART_STRATEGY, "fixed-delay");
+                settings.set(RestartStrategyOptions.RESTART_STRATEGY_FIXED_DELAY_DELAY, delay);
+                settings.set(
+                        RestartStrategyOptions.RESTART_STRATEGY_FIXED_DELAY_ATTEMPTS,
+                        faults.restartAttempts().orElse(Integer.MAX_VALUE));
+            }
+            case NONE -> settings.set(RestartStrategyOptions.RESTART_STRATEGY, "none");
+        }
     }
 
     /** Shown by the web UI under the job's configuration. */

@@ -10,7 +10,9 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.TreeMap;
+import java.util.regex.Pattern;
 
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
@@ -22,6 +24,9 @@ import picocli.CommandLine.Spec;
  * without Flink on the class path.
  */
 public abstract class JobOptions {
+    /** User and password of a URI. */
+    private static final Pattern CREDENTIALS = Pattern.compile("://[^/@]*@");
+
     @Spec
     private CommandSpec spec;
 
@@ -92,6 +97,9 @@ public abstract class JobOptions {
             description = "Subtasks per operator. Default: as the cluster says.")
     private Integer parallelism;
 
+    @Mixin
+    private final FaultOptions faults = new FaultOptions();
+
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
@@ -150,6 +158,11 @@ public abstract class JobOptions {
         return checkpointInterval;
     }
 
+    /** How checkpoints are taken and what follows a failure. */
+    public FaultOptions faults() {
+        return faults;
+    }
+
     public Optional<String> checkpointDir() {
         return Optional.ofNullable(checkpointDir);
     }
@@ -163,14 +176,19 @@ public abstract class JobOptions {
         return Optional.ofNullable(parallelism);
     }
 
-    /** Every option with the value in force, as one would write it; the web UI shows it as the job's configuration. */
+    /**
+     * Every option with the value in force, as one would write it, less passwords in addresses; the web UI shows it as the
+     * job's configuration.
+     */
     public Map<String, String> effective() {
         Map<String, String> values = new TreeMap<>();
         for (OptionSpec option : spec.options()) {
             if (!option.usageHelp() && option.getValue() != null) {
                 List<String> given = option.originalStringValues();
-                values.put(
-                        option.longestName(), given.isEmpty() ? option.defaultValueString() : String.join(",", given));
+                String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
+                if (text != null) { // null: an option that may be repeated and was not given
+                    values.put(option.longestName(), CREDENTIALS.matcher(text).replaceAll("://***@"));
+                }
             }
         }
         return values;

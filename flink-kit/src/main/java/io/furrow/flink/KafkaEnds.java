@@ -2,17 +2,22 @@ package io.furrow.flink;
 
 import java.time.Duration;
 import java.util.Properties;
+import java.util.regex.Pattern;
 
+import org.apache.flink.api.common.eventtime.Watermark;
+import org.apache.flink.api.common.eventtime.WatermarkGenerator;
+import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.connector.base.DeliveryGuarantee;
 import org.apache.flink.connector.kafka.sink.KafkaSink;
 import org.apache.flink.connector.kafka.source.KafkaSource;
+import org.apache.flink.connector.kafka.source.KafkaSourceBuilder;
 import org.apache.flink.connector.kafka.source.enumerator.initializer.OffsetsInitializer;
 import org.apache.kafka.clients.consumer.OffsetResetStrategy;
 
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
 public final class KafkaEnds {
-    private static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
+    static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
     /** Below the broker's default limit of 15 min, above any checkpoint interval in use. */
     private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
 
@@ -24,31 +29,60 @@ public final class KafkaEnds {
      */
     @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
     public static KafkaSource<TopicRecord> source(JobOptions options) {
+        return source(options, "furrow-" + options.jobName())
+                .setTopics(options.input())
+                .setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
+                .build();
+    }
+
+    /** Reads a topic from its beginning and all that comes; a topic that is not there yet is awaited. */
+    public static KafkaSource<TopicRecord> wholeTopic(JobOptions options, String topic) {
+        return source(options, "furrow-" + options.jobName() + "-" + topic)
+                .setTopicPattern(Pattern.compile(Pattern.quote(topic)))
+                .setStartingOffsets(OffsetsInitializer.earliest())
+                .build();
+    }
+
+    private static KafkaSourceBuilder<TopicRecord> source(JobOptions options, String group) {
         Properties properties = options.kafkaProperties();
         properties.setProperty("isolation.level", "read_committed");
         properties.setProperty("partition.discovery.interval.ms", "10000");
         return KafkaSource.<TopicRecord>builder()
                 .setBootstrapServers(options.bootstrapServers())
-                .setTopics(options.input())
-                .setGroupId("furrow-" + options.jobName())
-                .setClientIdPrefix("furrow-" + options.jobName())
-                .setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
+                .setGroupId(group)
+                .setClientIdPrefix(group)
                 .setProperties(properties)
-                .setDeserializer(new TopicRecordFormat())
-                .build();
+                .setDeserializer(new TopicRecordFormat());
     }
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> sink(JobOptions options) {
+        return sinkOf(options, "furrow-" + options.jobName(), guarantee(options));
+    }
+
+    /** The same for one of several sinks of a job, told apart by name: their transactions are. */
+    static KafkaSink<TopicRecord> sink(JobOptions options, String name) {
+        return sinkOf(options, "furrow-" + options.jobName() + "-" + name, guarantee(options));
+    }
+
+    /** The same without transactions, for the dead letters of a sink: a writer of it can work inside another sink's. */
+    public static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
+        return sinkOf(options, "furrow-" + options.jobName(), DeliveryGuarantee.AT_LEAST_ONCE);
+    }
+
+    private static DeliveryGuarantee guarantee(JobOptions options) {
+        return switch (options.delivery()) {
+            case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
+            case EXACTLY_ONCE -> DeliveryGuarantee.EXACTLY_ONCE;
+        };
+    }
+
+    private static KafkaSink<TopicRecord> sinkOf(JobOptions options, String transactions, DeliveryGuarantee guarantee) {
         return KafkaSink.<TopicRecord>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setKafkaProducerConfig(producerProperties(options))
-                .setDeliveryGuarantee(
-                        switch (options.delivery()) {
-                            case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
-                            case EXACTLY_ONCE -> DeliveryGuarantee.EXACTLY_ONCE;
-                        })
-                .setTransactionalIdPrefix("furrow-" + options.jobName())
+                .setDeliveryGuarantee(guarantee)
+                .setTransactionalIdPrefix(transactions)
                 .setRecordSerializer(new TopicRecordFormat())
                 .build();
     }
@@ -59,8 +93,7 @@ public final class KafkaEnds {
         properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
         properties.putIfAbsent("batch.size", "131072");
         properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
-        // A mission's topic is made by its first record. Were two requests under way then, the broker could refuse the
-        // first
+        // A mission's topic may have been made just now. Were two requests under way, the broker could refuse the first
         // (the partition is not there yet) and take the second, and would refuse the first for ever: two minutes
         // without
         // any result until the producer gives up (KAFKA-15591).
@@ -72,5 +105,23 @@ public final class KafkaEnds {
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
         return WatermarkStrategy.<TopicRecord>forBoundedOutOfOrderness(options.outOfOrderness())
                 .withIdleness(options.idleTimeout());
+    }
+
+    /** For a stream beside the events that has no event time of its own: it never holds theirs up. */
+    public static WatermarkStrategy<TopicRecord> noHindrance() {
+        return WatermarkStrategy.forGenerator(context -> new AlwaysAtTheEnd());
+    }
+
+    private static final class AlwaysAtTheEnd implements WatermarkGenerator<TopicRecord> {
+        @Override
+        public void onEvent(TopicRecord event, long timestamp, WatermarkOutput output) {
+            onPeriodicEmit(output);
+        }
+
+        /** One less than what Flink takes for the end of the stream. */
+        @Override
+        public void onPeriodicEmit(WatermarkOutput output) {
+            output.emitWatermark(new Watermark(Long.MAX_VALUE - 1));
+        }
     }
 }

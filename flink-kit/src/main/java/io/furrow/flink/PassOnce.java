@@ -11,6 +11,7 @@ import org.apache.flink.api.common.state.MapState;
 import org.apache.flink.api.common.state.MapStateDescriptor;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.metrics.Counter;
+import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
@@ -28,27 +29,42 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
     /** How an event's id is told; serializable because it travels with the job. */
     public interface IdOf<T> extends Function<T, String>, Serializable {}
 
+    /** To which domain and mission a repeat is counted; serializable because it travels with the job. */
+    public interface NameOf<T> extends Function<T, String>, Serializable {}
+
     private final IdOf<T> idOf;
+    private final NameOf<T> domainOf;
+    private final NameOf<T> missionOf;
     private final long windowMillis;
     private transient MapState<String, Long> forgetAt;
     private transient Counter repeated;
+    private transient PerMission<Counter> repeatedPerMission;
 
     public PassOnce(Duration window, IdOf<T> idOf) {
+        this(window, idOf, null, null);
+    }
+
+    /** Counts repeats per domain and mission too. */
+    public PassOnce(Duration window, IdOf<T> idOf, NameOf<T> domainOf, NameOf<T> missionOf) {
         this.idOf = idOf;
         this.windowMillis = window.toMillis();
+        this.domainOf = domainOf;
+        this.missionOf = missionOf;
     }
 
     @Override
     public void open(OpenContext context) {
         forgetAt = getRuntimeContext().getMapState(new MapStateDescriptor<>("forget-at", Types.STRING, Types.LONG));
-        repeated = getRuntimeContext().getMetricGroup().counter("repeated");
+        MetricGroup metrics = getRuntimeContext().getMetricGroup();
+        repeated = metrics.counter("repeated");
+        repeatedPerMission = new PerMission<>(metrics, PerMission.USUAL_LIMIT, group -> group.counter("repeated"));
     }
 
     @Override
     public void processElement(T event, Context context, Collector<T> out) throws Exception {
         String id = idOf.apply(event);
         if (forgetAt.contains(id)) {
-            repeated.inc();
+            count(event);
             return;
         }
         long from = Math.max(context.timestamp(), context.timerService().currentWatermark());
@@ -57,6 +73,13 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
         forgetAt.put(id, until);
         context.timerService().registerEventTimeTimer(until);
         out.collect(event);
+    }
+
+    private void count(T event) {
+        repeated.inc();
+        if (domainOf != null) {
+            repeatedPerMission.of(domainOf.apply(event), missionOf.apply(event)).inc();
+        }
     }
 
     @Override

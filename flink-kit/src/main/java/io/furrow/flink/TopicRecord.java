@@ -34,6 +34,11 @@ public record TopicRecord(
         return new TopicRecord(other, partition, offset, timestamp, key, value, headers);
     }
 
+    /** The same record with another value. */
+    public TopicRecord withValue(byte[] other) {
+        return new TopicRecord(topic, partition, offset, timestamp, key, other, headers);
+    }
+
     /** The same record with one header more. */
     public TopicRecord with(String header, String text) {
         return with(Map.of(header, text));

@@ -72,6 +72,13 @@ class JobOptionsTest {
     }
 
     @Test
+    void showNoPasswordOfAnAddress() {
+        JobOptions options = parsed("copy", "--checkpoint-dir", "s3://key:secret@store/checkpoints");
+
+        assertThat(options.effective()).containsEntry("--checkpoint-dir", "s3://***@store/checkpoints");
+    }
+
+    @Test
     void explainThemselves() {
         TestJob.Outcome outcome = TestJob.run(options -> {}, "copy", "--help");
 

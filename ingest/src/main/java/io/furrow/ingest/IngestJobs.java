@@ -4,13 +4,13 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.JobCommandLine;
-import io.furrow.ingest.route.IngestOptions;
+import io.furrow.ingest.normalise.NormaliseOptions;
 
 /** The command line of the ingest jar: {@code flink run furrow-ingest-….jar ingest --help}. */
 @Command(
         name = "furrow-ingest",
-        description = "Flink jobs that bring events to the topics of their domain and mission.",
-        subcommands = IngestOptions.class)
+        description = "Flink jobs that bring events to everything that is made of them.",
+        subcommands = {IngestOptions.class, NormaliseOptions.class})
 public final class IngestJobs {
     @Option(
             names = {"-h", "--help"},

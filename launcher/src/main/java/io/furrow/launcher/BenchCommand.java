@@ -4,6 +4,8 @@ import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Model.CommandSpec;
@@ -12,6 +14,8 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
+import io.furrow.bench.mongo.MongoMeasurement;
+import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.simulators.load.LoadPlan;
 
 /** {@code ./furrow bench}. */
@@ -19,7 +23,7 @@ import io.furrow.simulators.load.LoadPlan;
         name = "bench",
         description = "Measures the suite on this machine.",
         synopsisSubcommandLabel = "COMMAND",
-        subcommands = {NotificationBench.class, SinkBench.class})
+        subcommands = {NotificationBench.class, SinkBench.class, ImageBench.class})
 final class BenchCommand {
     private static final String DOMAIN = "bench";
     /** A cold JVM cannot take what a warm one takes: it gets a quarter of the load, a half, then all of it. */
@@ -35,11 +39,72 @@ final class BenchCommand {
     private boolean help;
 
     @Command(
+            name = "mongo",
+            abbreviateSynopsis = true,
+            description = "Writes events of a mission into MongoDB as the job ingest does, and in a bare loop around"
+                    + " MongoDB's driver, by turns, and prints documents per second of both.")
+    int mongo(
+            @Option(
+                            names = "--documents",
+                            paramLabel = "N",
+                            defaultValue = "50000",
+                            description = "Documents a turn. Default: ${DEFAULT-VALUE}.")
+                    int documents,
+            @Option(
+                            names = "--payload",
+                            paramLabel = "BYTES",
+                            defaultValue = "1000",
+                            description = "Length of an event's JSON. Default: ${DEFAULT-VALUE}.")
+                    int payload,
+            @Option(
+                            names = "--turns",
+                            paramLabel = "N",
+                            defaultValue = "5",
+                            description = "Turns that count. Default: ${DEFAULT-VALUE}.")
+                    int turns,
+            @Option(
+                            names = "--mongo",
+                            paramLabel = "URI",
+                            description =
+                                    "MongoDB, whose database persistence is EMPTIED. Default: an embedded server in"
+                                            + " memory.")
+                    String uri,
+            @Option(
+                            names = {"-h", "--help"},
+                            usageHelp = true,
+                            description = "Show this text.")
+                    boolean wantsHelp)
+            throws Exception {
+        PrintWriter out = spec.commandLine().getOut();
+        try (EmbeddedMongo embedded = uri == null ? EmbeddedMongo.inMemory() : null) {
+            List<MongoMeasurement.Turn> all = new MongoMeasurement(
+                            uri == null ? embedded.uri() : uri, documents, payload)
+                    .run(turns, turn -> {
+                        out.printf(
+                                Locale.ROOT,
+                                "  bare loop %,8.0f/s   sink writer %,8.0f/s   ratio %.2f%n",
+                                turn.bare(),
+                                turn.writer(),
+                                turn.writer() / turn.bare());
+                        out.flush();
+                    });
+            double ratio = all.stream()
+                    .mapToDouble(turn -> turn.writer() / turn.bare())
+                    .sorted()
+                    .skip(turns / 2)
+                    .findFirst()
+                    .orElse(0);
+            out.printf(Locale.ROOT, "median of the ratios: %.2f%n", ratio);
+        }
+        return 0;
+    }
+
+    @Command(
             name = "load",
             abbreviateSynopsis = true,
             description =
-                    "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and how "
-                            + "long each hop took.")
+                    "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and"
+                            + " how long each hop took.")
     int load(
             @Option(
                             names = "--devices",

@@ -11,7 +11,15 @@ import io.furrow.flink.JobCommandLine;
         name = "furrow",
         description = "Stream processing for FIWARE farms: from the context broker through Kafka and Flink and back.",
         synopsisSubcommandLabel = "COMMAND",
-        subcommands = {DemoCommand.class, UpCommand.class, BenchCommand.class})
+        subcommands = {
+            DemoCommand.class,
+            UpCommand.class,
+            MissionCommand.class,
+            ImagesCommand.class,
+            CatalogCommand.class,
+            DeadLettersCommand.class,
+            BenchCommand.class
+        })
 public final class Furrow {
     @Option(
             names = {"-h", "--help"},

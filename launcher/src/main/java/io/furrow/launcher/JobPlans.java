@@ -19,8 +19,10 @@ import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobOptions;
-import io.furrow.ingest.route.IngestJob;
-import io.furrow.ingest.route.IngestOptions;
+import io.furrow.ingest.IngestJob;
+import io.furrow.ingest.IngestOptions;
+import io.furrow.ingest.normalise.NormaliseJob;
+import io.furrow.ingest.normalise.NormaliseOptions;
 import io.furrow.simulators.device.Scenario;
 
 /** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */
@@ -29,11 +31,13 @@ final class JobPlans {
 
     private final SuiteSettings settings;
     private final KafkaAccess kafka;
+    private final String mongo;
     private final RunDirectory directory;
 
-    JobPlans(SuiteSettings settings, KafkaAccess kafka, RunDirectory directory) {
+    JobPlans(SuiteSettings settings, KafkaAccess kafka, String mongo, RunDirectory directory) {
         this.settings = settings;
         this.kafka = kafka;
+        this.mongo = mongo;
         this.directory = directory;
     }
 
@@ -52,7 +56,16 @@ final class JobPlans {
 
     private Map<String, StreamExecutionEnvironment> assembled() throws IOException {
         Map<String, StreamExecutionEnvironment> plans = new LinkedHashMap<>();
-        plans.put("ingest", IngestJob.assemble(parsed("ingest", new IngestOptions())));
+        plans.put(
+                "ingest",
+                IngestJob.assemble(parsed(
+                        "ingest",
+                        new IngestOptions(),
+                        "--images",
+                        directory.resolve("images").toString(),
+                        "--mongo",
+                        mongo)));
+        plans.put("normalise", NormaliseJob.assemble(parsed("normalise", new NormaliseOptions())));
         plans.put(
                 "temperature",
                 TemperatureJob.assemble(parsed(

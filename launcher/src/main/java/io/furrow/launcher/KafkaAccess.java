@@ -26,6 +26,7 @@ public final class KafkaAccess implements AutoCloseable {
     private static final List<String> TOPICS = List.of(
             Topics.RAW,
             Topics.dead(Topics.RAW),
+            Topics.NOTIFICATIONS,
             Topics.TEMPERATURE,
             Topics.TEMPERATURE_LATE,
             Topics.COLLISION,

@@ -10,6 +10,7 @@ import java.util.concurrent.CompletionException;
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.topic.Topics;
@@ -39,6 +40,7 @@ public final class Suite implements AutoCloseable {
     private Jobs jobs;
     private EmbeddedMqtt mqtt;
     private FiwareStandIn fiware;
+    private String mongo;
     private URI contextBroker;
     private URI listener;
 
@@ -86,6 +88,9 @@ public final class Suite implements AutoCloseable {
         PortCheck.free(ports.connect(), "Connect", "--connect-port");
         PortCheck.free(ports.flink(), "Flink's web UI", "--flink-port");
         PortCheck.free(ports.listener(), "the listener for notifications", "--notify-port");
+        if (settings.mongo() == null) {
+            PortCheck.free(ports.mongo(), "the server for missions", "--mongo-port");
+        }
         if (settings.orion() == null) {
             PortCheck.free(ports.mqtt(), "the MQTT broker", "--mqtt-port");
             PortCheck.free(ports.orion(), "the context broker", "--orion-port");
@@ -121,7 +126,22 @@ public final class Suite implements AutoCloseable {
                                 kafka.connectSettings())));
     }
 
+    private void startMongo() throws Exception {
+        mongo = settings.mongo();
+        if (mongo == null) {
+            Path documents = directory.resolve("mongo");
+            mongo = parts.add(
+                            "MongoDB",
+                            progress.step(
+                                    "the server for missions",
+                                    () -> EmbeddedMongo.start(
+                                            documents, settings.ports().mongo())))
+                    .uri();
+        }
+    }
+
     private void startFlink() throws Exception {
+        startMongo();
         flink = parts.add(
                 "Flink",
                 progress.step(
@@ -129,7 +149,7 @@ public final class Suite implements AutoCloseable {
                         () -> EmbeddedFlink.start(SLOTS, settings.ports().flink())));
         jobs = new Jobs(flink, directory.resolve("jobs"));
         progress.step("jobs", () -> {
-            new JobPlans(settings, kafka, directory).all().forEach(jobs::submit);
+            new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);
             return jobs.running();
         });
     }
@@ -175,6 +195,11 @@ public final class Suite implements AutoCloseable {
 
     public URI contextBroker() {
         return contextBroker;
+    }
+
+    /** The MongoDB of missions. */
+    public String mongo() {
+        return mongo;
     }
 
     public URI connect() {

@@ -11,7 +11,7 @@ final class SuiteOptions {
             names = "--data",
             paramLabel = "DIR",
             description =
-                    "Keep everything here across restarts: Kafka's log, Connect's offsets, checkpoints, entities. "
+                    "Keep everything here across restarts: Kafka's log, Connect's offsets, checkpoints, entities, missions. "
                             + "Default: a temporary directory that is deleted at the end.")
     Path data;
 
@@ -87,12 +87,25 @@ final class SuiteOptions {
             description = PORT_OF + "the IoT Agent's stand-in" + DEFAULT)
     int iotAgentPort;
 
+    @Option(
+            names = "--mongo-port",
+            paramLabel = "PORT",
+            defaultValue = "27017",
+            description = PORT_OF + "the server for missions that speaks MongoDB's protocol" + DEFAULT)
+    int mongoPort;
+
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            description = "Keep missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server.")
+    String mongo;
+
     private static final String PORT_OF = "Port of ";
     private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
 
     SuiteSettings settings(URI orion, String kafka) {
         SuiteSettings.Ports ports = new SuiteSettings.Ports(
-                kafkaPort, connectPort, flinkPort, notifyPort, mqttPort, orionPort, iotAgentPort);
-        return new SuiteSettings(kafkaProperties, fiwareService, window, fields, ports, orion, kafka);
+                kafkaPort, connectPort, flinkPort, notifyPort, mqttPort, orionPort, iotAgentPort, mongoPort);
+        return new SuiteSettings(kafkaProperties, fiwareService, window, fields, ports, orion, kafka, mongo);
     }
 }

@@ -10,6 +10,7 @@ final class UrlTable {
         out.println();
         row(out, "Flink web UI", suite.flink());
         row(out, "Kafka", suite.kafka().bootstrapServers());
+        row(out, "Missions (MongoDB)", suite.mongo().replaceAll("://[^/@]*@", "://***@"));
         row(out, "Connect REST", suite.connect() + "/connectors");
         row(out, "Notifications (NGSI source)", suite.listener());
         row(out, "Context broker (NGSI-v2)", suite.contextBroker() + "/v2/entities");

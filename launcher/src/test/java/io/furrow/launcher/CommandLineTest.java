@@ -32,7 +32,8 @@ class CommandLineTest {
         "bench --help, load",
         "bench load --help, --devices",
         "bench notifications --help, --new-connections",
-        "bench sink --help, --stand-in"
+        "bench sink --help, --stand-in",
+        "dead-letters refeed --help, --dry-run"
     })
     void explainsItself(String words, String mentioned) {
         assertThat(furrow.execute(words.split(" "))).isZero();
@@ -82,7 +83,7 @@ class CommandLineTest {
 
     private static String[] upOnFreePorts(Path data) {
         return ("up --kafka-port 0 --connect-port 0 --flink-port 0 --notify-port 0 --mqtt-port 0 --orion-port 0 "
-                        + "--iot-agent-port 0 --data " + data)
+                        + "--iot-agent-port 0 --mongo-port 0 --data " + data)
                 .split(" ");
     }
 }

@@ -19,7 +19,7 @@ class UnusableFieldsIT {
         Path fields = Files.writeString(directory.resolve("fields.geojson"), "{}");
         StringWriter err = new StringWriter();
         String words = "up --kafka-port 0 --connect-port 0 --flink-port 0 --notify-port 0 --mqtt-port 0 --orion-port 0 "
-                + "--iot-agent-port 0 --fields " + fields;
+                + "--iot-agent-port 0 --mongo-port 0 --fields " + fields;
 
         assertThat(Furrow.commandLine()
                         .setOut(new PrintWriter(new StringWriter()))

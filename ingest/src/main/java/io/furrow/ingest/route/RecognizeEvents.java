@@ -1,54 +1,81 @@
 package io.furrow.ingest.route;
 
+import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Set;
 
+import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.DeadCounters;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads what routing needs of an event; emits dead letters for records that are no entities. */
-final class RecognizeEvents extends ProcessFunction<TopicRecord, ReportedEvent> {
+/**
+ * Reads what routing needs of an event; a record without a value is the deletion of the entity that its key names. Emits dead
+ * letters for records that are neither.
+ */
+public final class RecognizeEvents extends ProcessFunction<TopicRecord, ReportedEvent> {
     private static final long serialVersionUID = 1L;
     private static final String STAGE = "ingest";
     private static final Set<String> ROUTE = Set.of("Domain", "Mission");
 
+    private transient DeadCounters dead;
+
+    @Override
+    public void open(OpenContext context) {
+        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+    }
+
     @Override
     public void processElement(TopicRecord record, Context context, Collector<ReportedEvent> out) {
-        if (record.value() == null
-                && HeaderNames.TYPE_DELETED.equals(record.headers().get(HeaderNames.CE_TYPE))) {
-            return; // a deletion names neither domain nor mission; it stays on the input topic
-        }
         try {
             out.collect(recognize(record));
         } catch (UnreadableException e) {
+            dead.count(e.reason());
             context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
         }
     }
 
     /** A record of another producer may lack the event id: it gets the one that the source would have given. */
     static ReportedEvent recognize(TopicRecord record) throws UnreadableException {
-        if (record.value() == null) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no value");
-        }
-        String known = record.headers().get(HeaderNames.CE_ID);
-        Entity entity = known == null ? Entity.parse(record.value()) : Entity.parse(record.value(), ROUTE);
         FiwareScope scope = FiwareScope.of(
                 record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
+        return record.value() == null ? deletion(record, scope) : change(record, scope);
+    }
+
+    private static ReportedEvent change(TopicRecord record, FiwareScope scope) throws UnreadableException {
+        String known = record.headers().get(HeaderNames.CE_ID);
+        Entity entity = known == null ? Entity.parse(record.value()) : Entity.parse(record.value(), ROUTE);
         String id = known == null ? EventId.of(scope, entity, Instant.ofEpochMilli(record.timestamp())) : known;
         return new ReportedEvent(
                 id,
                 scope.identity(entity.id()),
+                entity.id(),
+                entity.type(),
                 entity.text("Domain").orElse(""),
                 entity.text("Mission").orElse(""),
                 known == null ? record.with(HeaderNames.CE_ID, id) : record);
+    }
+
+    private static ReportedEvent deletion(TopicRecord record, FiwareScope scope) throws UnreadableException {
+        if (record.key() == null || record.key().length == 0) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has neither a value nor a key");
+        }
+        String entityId = new String(record.key(), StandardCharsets.UTF_8);
+        String known = record.headers().get(HeaderNames.CE_ID);
+        Instant time = Instant.ofEpochMilli(record.timestamp());
+        String id = known == null ? new EntityDeletion(entityId, scope, time, time, Origin.KAFKA).id() : known;
+        TopicRecord deletion = known == null ? record.with(HeaderNames.CE_ID, id) : record;
+        return new ReportedEvent(id, scope.identity(entityId), entityId, "", "", "", deletion);
     }
 }

@@ -3,11 +3,35 @@ package io.furrow.ingest.route;
 import io.furrow.flink.TopicRecord;
 
 /**
- * An event as {@code ingest} sees it.
+ * An event as the stages of {@code ingest} see it: a change of an entity, or its deletion.
  *
  * @param id event id
- * @param identity tenant, service path and entity id
- * @param domain empty where the entity names none
- * @param mission empty where the entity names none
+ * @param identity tenant, service path and entity id; the key of all state
+ * @param entityId id of the entity
+ * @param type type of the entity; empty for a deletion, which does not name it
+ * @param domain empty where there is none
+ * @param mission empty where there is none
+ * @param record as it was read; null as its value for a deletion
  */
-public record ReportedEvent(String id, String identity, String domain, String mission, TopicRecord record) {}
+public record ReportedEvent(
+        String id, String identity, String entityId, String type, String domain, String mission, TopicRecord record) {
+    /** Whether this is the end of the entity. */
+    public boolean isDeletion() {
+        return record.value() == null;
+    }
+
+    /** Event time, epoch ms. */
+    public long time() {
+        return record.timestamp();
+    }
+
+    /** The same event with what was found out of its domain and mission. */
+    public ReportedEvent belongingTo(String itsDomain, String itsMission) {
+        return new ReportedEvent(id, identity, entityId, type, itsDomain, itsMission, record);
+    }
+
+    /** The same event as another record, for instance with a reference where an image was. */
+    public ReportedEvent as(TopicRecord other) {
+        return new ReportedEvent(id, identity, entityId, type, domain, mission, other);
+    }
+}

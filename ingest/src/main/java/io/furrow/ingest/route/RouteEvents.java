@@ -1,49 +1,51 @@
 package io.furrow.ingest.route;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.functions.RichFlatMapFunction;
 import org.apache.flink.metrics.Counter;
+import org.apache.flink.metrics.MetricGroup;
+import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.PerMission;
 import io.furrow.flink.TopicRecord;
-import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
-/** Emits an event for its domain, and for its mission where it has one, value unchanged, stamped {@code ts-ingest}. */
-final class RouteEvents extends RichFlatMapFunction<ReportedEvent, TopicRecord> {
+/** Emits an event for its domain, and for its mission where it has one; measures what passes. */
+public final class RouteEvents extends ProcessFunction<ReportedEvent, TopicRecord> {
     private static final long serialVersionUID = 1L;
 
-    private final String defaultDomain;
-    private final String defaultMission;
+    private final boolean writes;
     private transient Counter routed;
     private transient Counter unrouted;
+    private transient PerMission<RouteMeters> meters;
 
-    /** Defaults are empty where there is none. */
-    RouteEvents(String defaultDomain, String defaultMission) {
-        this.defaultDomain = defaultDomain;
-        this.defaultMission = defaultMission;
+    /** @param writes without it events are measured only */
+    public RouteEvents(boolean writes) {
+        this.writes = writes;
     }
 
     @Override
     public void open(OpenContext context) {
-        routed = getRuntimeContext().getMetricGroup().counter("routed");
-        unrouted = getRuntimeContext().getMetricGroup().counter("unrouted");
+        MetricGroup metrics = getRuntimeContext().getMetricGroup();
+        routed = metrics.counter("routed");
+        unrouted = metrics.counter("unrouted");
+        meters = new PerMission<>(metrics, PerMission.USUAL_LIMIT, RouteMeters::new);
     }
 
     @Override
-    public void flatMap(ReportedEvent event, Collector<TopicRecord> out) {
-        String domain = event.domain().isEmpty() ? defaultDomain : event.domain();
-        String mission = event.mission().isEmpty() ? defaultMission : event.mission();
-        if (domain.isEmpty()) {
+    public void processElement(ReportedEvent event, Context context, Collector<TopicRecord> out) {
+        boolean late = event.time() < context.timerService().currentWatermark();
+        meters.of(event.domain(), event.mission()).count(event, late);
+        if (event.domain().isEmpty()) {
             unrouted.inc();
             return;
         }
-        // Wall clock: the stamp says when the event passed here, for measuring the delay of each hop.
-        TopicRecord stamped = event.record().with(HeaderNames.TS_INGEST, Long.toString(System.currentTimeMillis()));
-        out.collect(stamped.to(Topics.realtime(domain)));
-        if (!mission.isEmpty()) {
-            out.collect(stamped.to(Topics.realtime(domain, mission)));
-        }
         routed.inc();
+        if (writes) {
+            out.collect(event.record().to(Topics.realtime(event.domain())));
+            if (!event.mission().isEmpty()) {
+                out.collect(event.record().to(Topics.realtime(event.domain(), event.mission())));
+            }
+        }
     }
 }

@@ -1,2 +1,2 @@
-/** The job {@code ingest}: from {@code data.raw} to the topics of domains and missions. */
+/** What becomes of every event: recognized, passed once, given its domain and mission, brought to their topics. */
 package io.furrow.ingest.route;

@@ -16,6 +16,8 @@ public enum Reason {
     UNSUPPORTED_FORM,
     /** A record on a topic that lacks what the reader needs, for instance a value where none may be missing. */
     NOT_AN_EVENT,
+    /** An image attribute that holds no base64, or neither PNG nor JPEG, or only a part of one. */
+    NOT_AN_IMAGE,
     /** Written, but refused by the server it was written to. */
     REFUSED;
 

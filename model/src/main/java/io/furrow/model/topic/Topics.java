@@ -1,14 +1,31 @@
 package io.furrow.model.topic;
 
+import java.util.Optional;
+
 /** The topics that the parts of Furrow meet in. */
 public final class Topics {
     /** Every change that was reported. */
     public static final String RAW = "data.raw";
 
+    /** The newest value of every attribute of every entity; compacted. */
+    public static final String LATEST = "data.latest";
+    /** The context broker's native Kafka notifications. */
+    public static final String NOTIFICATIONS = "ngsi.notifications";
+    /** To whom each device belongs, see {@code DeviceVersion}; compacted. */
+    public static final String DEVICES = "service.devices";
+
     public static final String TEMPERATURE = "data.temperature";
     public static final String TEMPERATURE_LATE = "data.temperature.late";
     public static final String COLLISION = "data.collision";
     public static final String COLLISION_LATE = "data.collision.late";
+
+    /** Where each stored image is. */
+    public static final String IMAGES = "data.images";
+
+    /** What there is: types, attributes, missions, sizes. */
+    public static final String CATALOG = "data.catalog";
+
+    private static final String DEAD = ".dead";
 
     private Topics() {}
 
@@ -24,6 +41,13 @@ public final class Topics {
 
     /** Where the unreadable records of a topic go. */
     public static String dead(String topic) {
-        return topic + ".dead";
+        return topic + DEAD;
+    }
+
+    /** The topic whose dead letters a topic takes; empty where it takes none. */
+    public static Optional<String> ofDeadLetters(String topic) {
+        return topic.endsWith(DEAD) && topic.length() > DEAD.length()
+                ? Optional.of(topic.substring(0, topic.length() - DEAD.length()))
+                : Optional.empty();
     }
 }

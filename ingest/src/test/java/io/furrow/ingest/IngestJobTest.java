@@ -1,27 +1,25 @@
-package io.furrow.ingest.route;
+package io.furrow.ingest;
 
 import java.nio.charset.StandardCharsets;
-import java.util.Arrays;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Stream;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine;
 
 import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.TopicRecord;
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -32,7 +30,6 @@ class IngestJobTest {
             .setNumberSlotsPerTaskManager(2)
             .build());
 
-    private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     private static final long TIME = 1_700_000_000_000L;
 
     @Test
@@ -121,6 +118,94 @@ class IngestJobTest {
     }
 
     @Test
+    void routesADeviceByItsNewMissionFromThatEventOn() throws Exception {
+        KnownDevices devices = KnownDevices.of(
+                new DeviceVersion("robot", "", "/", "farm", "weeding", 0, null, 1, null),
+                new DeviceVersion("robot", "", "/", "farm", "sowing", TIME + 1, null, 2, null));
+        TopicRecord before = record("a", Entity.builder("robot", "ROBOT"));
+        TopicRecord after = at(TIME + 1, record("b", Entity.builder("robot", "ROBOT")));
+
+        assertThat(IngestRun.of(options("--no-latest"), devices, before, after))
+                .extracting(record -> record.headers().get(HeaderNames.CE_ID) + " " + record.topic())
+                .containsExactly(
+                        "a data.farm.realtime",
+                        "a data.farm.realtime.weeding",
+                        "b data.farm.realtime",
+                        "b data.farm.realtime.sowing");
+    }
+
+    @Test
+    void letsAnEntitysOwnWordGoBeforeWhatIsKnownOfIt() throws Exception {
+        KnownDevices devices = KnownDevices.of(new DeviceVersion("t", "", "/", "north", "weeding", 0, null, 1, null));
+
+        assertThat(IngestRun.of(options("--no-latest"), devices, record("a", thermometer("t", "farm", "mowing"))))
+                .extracting(TopicRecord::topic)
+                .containsExactly("data.farm.realtime", "data.farm.realtime.mowing");
+        assertThat(IngestRun.of(options("--no-latest"), devices, record("a", thermometer("t", "farm", ""))))
+                .as("the mission that is known is not one of this domain")
+                .extracting(TopicRecord::topic)
+                .containsExactly("data.farm.realtime");
+    }
+
+    @Test
+    void tellsOfADeletionWhereTheEntityWasToldOf() throws Exception {
+        TopicRecord reported = record("a", thermometer("t", "farm", "weeding"));
+        TopicRecord deleted = deletion("b", "t", TIME + 1);
+
+        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), reported, deleted, deleted);
+
+        assertThat(written)
+                .filteredOn(record -> record.value() == null)
+                .extracting(TopicRecord::topic)
+                .containsExactlyInAnyOrder("data.farm.realtime", "data.farm.realtime.weeding", "data.latest");
+        assertThat(written)
+                .filteredOn(record -> record.value() == null)
+                .allSatisfy(record -> assertThat(record.headers())
+                        .containsEntry(HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED)
+                        .containsKey(HeaderNames.TS_INGEST));
+    }
+
+    @Test
+    void keepsTheNewestOfEveryAttributeOnDataLatest() throws Exception {
+        TopicRecord place = record("a", Entity.builder("t", "Thermometer").number("Latitude", 40));
+        TopicRecord warm =
+                at(TIME + 2, record("b", Entity.builder("t", "Thermometer").number("Temperature", 20)));
+        TopicRecord coldBefore = at(
+                TIME + 1,
+                record(
+                        "c",
+                        Entity.builder("t", "Thermometer")
+                                .number("Temperature", 2)
+                                .bool("Status", true)));
+
+        List<TopicRecord> written = IngestRun.of(options(), KnownDevices.of(), place, warm, coldBefore);
+
+        assertThat(written)
+                .extracting(TopicRecord::topic)
+                .containsOnly("data.latest")
+                .hasSize(3);
+        TopicRecord newest = written.get(2);
+        Entity entity = Entity.parse(newest.value());
+        assertThat(newest.timestamp()).isEqualTo(TIME + 2);
+        assertThat(newest.key()).isEqualTo("t".getBytes(StandardCharsets.UTF_8));
+        assertThat(entity.type()).isEqualTo("Thermometer");
+        assertThat(entity.number("Temperature")).contains(20.0);
+        assertThat(entity.number("Latitude")).contains(40.0);
+        assertThat(entity.value("Status")).isPresent();
+    }
+
+    @Test
+    void leavesOutTheBranchesThatAreSwitchedOff() throws Exception {
+        TopicRecord reported = record("a", thermometer("t", "farm", "weeding"));
+
+        assertThat(IngestRun.of(options("--no-latest", "--no-routes"), KnownDevices.of(), reported))
+                .isEmpty();
+        assertThat(IngestRun.of(options("--no-routes"), KnownDevices.of(), reported))
+                .extracting(TopicRecord::topic)
+                .containsExactly("data.latest");
+    }
+
+    @Test
     void neverMergesADomainWithADotIntoAnother() throws Exception {
         assertThat(run(
                         options(),
@@ -131,29 +216,33 @@ class IngestJobTest {
                         "data._x-north-2E7.realtime", "data._x-north-2E7.realtime._x-a-2Eb", "data.north.realtime");
     }
 
+    /** What goes to the topics of domains and missions, and to dead letters. */
     private static List<TopicRecord> run(IngestOptions options, TopicRecord... records) throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        env.setParallelism(2);
-        DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
-                        .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .uid("timestamps")
-                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
-
-        return IngestJob.define(source, options).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        return IngestRun.of(options, KnownDevices.of(), records).stream()
+                .filter(record -> !record.topic().equals(Topics.LATEST))
+                .toList();
     }
 
     private static IngestOptions options(String... args) {
         IngestOptions options = new IngestOptions();
         CommandLine line = JobCommandLine.of(options);
-        line.parseArgs(args);
+        line.parseArgs(Stream.concat(Stream.of("--no-catalog"), Stream.of(args)).toArray(String[]::new));
         return options;
     }
 
     private static EntityBuilder thermometer(String id, String domain, String mission) {
         return Entity.builder(id, "Thermometer").text("Domain", domain).text("Mission", mission);
+    }
+
+    private static TopicRecord at(long time, TopicRecord record) {
+        return new TopicRecord(
+                record.topic(), 0, record.offset(), time, record.key(), record.value(), record.headers());
+    }
+
+    private static TopicRecord deletion(String eventId, String key, long time) {
+        Map<String, String> headers = Map.of(HeaderNames.CE_ID, eventId, HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED);
+        return new TopicRecord(
+                "data.raw", 0, 9, time, key.getBytes(StandardCharsets.UTF_8), null, new HashMap<>(headers));
     }
 
     private static TopicRecord record(String eventId, EntityBuilder entity) {

@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.ingest;
 
 import org.junit.jupiter.api.Test;
 
@@ -11,7 +11,7 @@ class IngestUidsTest {
     @Test
     void keepsTheUidsThatSavepointsKnow() {
         IngestOptions options = new IngestOptions();
-        JobCommandLine.of(options).parseArgs();
+        JobCommandLine.of(options).parseArgs("--images", "file:///images", "--mongo", "mongodb://127.0.0.1:27017");
 
         assertThat(JobUids.of(IngestJob.assemble(options))).isEqualTo(JobUids.checkedIn("ingest"));
     }

@@ -1,0 +1,2 @@
+/** How fast images are stored. */
+package io.furrow.bench.image;

@@ -1,0 +1,19 @@
+package io.furrow.flink;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+
+/** Where a job's records go that name their topic; a test puts something else in its place. */
+public interface KafkaOutput {
+    /** @param name of the stream, in kebab-case; {@code write-<name>} is the sink's uid */
+    void write(String name, DataStream<TopicRecord> records);
+
+    /** Kafka under the job's delivery guarantee; topics are made when needed. */
+    static KafkaOutput of(JobOptions options, TopicOptions.Settings topics) {
+        return (name, records) -> records.map(new EnsureTopics(options, topics))
+                .uid("ensure-topics-of-" + name)
+                .name("Ensure topics of " + name.replace('-', ' '))
+                .sinkTo(KafkaEnds.sink(options, name))
+                .uid("write-" + name)
+                .name("Write " + name.replace('-', ' '));
+    }
+}

@@ -1,0 +1,60 @@
+package io.furrow.flink;
+
+import java.io.Serializable;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.common.config.TopicConfig;
+import picocli.CommandLine.Option;
+
+/** How topics are made that a job writes to and that are not there; those that exist stay as they are. */
+public final class TopicOptions {
+    @Option(
+            names = "--topic-partitions",
+            paramLabel = "N",
+            description = "Partitions of topics that the job makes. Default: the broker's num.partitions.")
+    private Integer partitions;
+
+    @Option(
+            names = "--topic-replication",
+            paramLabel = "N",
+            description = "Replicas of topics that the job makes. Default: the broker's default.replication.factor.")
+    private Short replication;
+
+    @Option(
+            names = "--topic-retention",
+            paramLabel = "DURATION",
+            description =
+                    "How long topics that the job makes keep their records, compacted ones excepted. Default: the "
+                            + "broker's log.retention.")
+    private Duration retention;
+
+    /** What is asked of the broker, without picocli, because it travels with the job. */
+    public Settings settings(Set<String> compacted) {
+        return new Settings(partitions, replication, retention == null ? null : retention.toMillis(), compacted);
+    }
+
+    /**
+     * @param partitions null for the broker's default, as are {@code replication} and {@code retentionMillis}
+     * @param compacted topics that keep the newest record of each key for ever
+     */
+    public record Settings(Integer partitions, Short replication, Long retentionMillis, Set<String> compacted)
+            implements Serializable {
+        /** The topic to be asked for; it takes records as large as the job may write. */
+        NewTopic topic(String name) {
+            Map<String, String> configs = new HashMap<>();
+            configs.put(TopicConfig.MAX_MESSAGE_BYTES_CONFIG, Integer.toString(KafkaEnds.MAX_REQUEST_BYTES));
+            if (compacted.contains(name)) {
+                configs.put(TopicConfig.CLEANUP_POLICY_CONFIG, TopicConfig.CLEANUP_POLICY_COMPACT);
+            } else if (retentionMillis != null) {
+                configs.put(TopicConfig.RETENTION_MS_CONFIG, Long.toString(retentionMillis));
+            }
+            return new NewTopic(name, Optional.ofNullable(partitions), Optional.ofNullable(replication))
+                    .configs(configs);
+        }
+    }
+}

@@ -1,0 +1,2 @@
+/** Images, and archives of missions, on file systems that other machines keep. */
+package io.furrow.stores;

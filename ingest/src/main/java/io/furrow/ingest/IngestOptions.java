@@ -1,0 +1,161 @@
+package io.furrow.ingest;
+
+import java.time.Duration;
+import java.util.Optional;
+import java.util.concurrent.Callable;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicOptions;
+import io.furrow.ingest.image.ImageOptions;
+import io.furrow.ingest.latest.LatestKey;
+import io.furrow.ingest.mission.MissionOptions;
+import io.furrow.ingest.route.AssignMission;
+
+/** The options of the job {@code ingest}; those of a branch are a group of their own. */
+@Command(
+        name = "ingest",
+        description =
+                "Brings each event once to data.<domain>.realtime and data.<domain>.realtime.<mission>, and the newest "
+                        + "of all to data.latest.")
+public final class IngestOptions extends JobOptions implements Callable<Integer> {
+    @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Mixin
+    private final ImageOptions images = new ImageOptions();
+
+    @Mixin
+    private final MissionOptions missions = new MissionOptions();
+
+    @Option(
+            names = "--default-domain",
+            paramLabel = "NAME",
+            description = "Domain of entities for which neither they nor service.devices name one. Default: none, they "
+                    + "stay on the input topic and data.latest.")
+    private String defaultDomain;
+
+    @Option(
+            names = "--default-mission",
+            paramLabel = "NAME",
+            description = "Mission of entities for which neither they nor service.devices name one. Default: none.")
+    private String defaultMission;
+
+    @Option(
+            names = "--repeat-window",
+            paramLabel = "DURATION",
+            defaultValue = "2min",
+            description =
+                    "An event id passes once within this event time. Longer: repeats after longer failures are dropped, "
+                            + "more state. Default: ${DEFAULT-VALUE}.")
+    private Duration repeatWindow;
+
+    @Option(
+            names = "--device-history",
+            paramLabel = "DURATION",
+            defaultValue = "30d",
+            description =
+                    "How long it is known to whom a device belonged before. Longer: later events still find their "
+                            + "mission, more state. Default: ${DEFAULT-VALUE}.")
+    private Duration deviceHistory;
+
+    @Option(
+            names = "--devices",
+            paramLabel = "TOPIC",
+            defaultValue = "service.devices",
+            description = "Topic that says to which domain and mission devices belong; it need not be there. Default: "
+                    + "${DEFAULT-VALUE}.")
+    private String devices;
+
+    @Option(names = "--no-routes", description = "Do not write to the topics of domains and missions.")
+    private boolean noRoutes;
+
+    @Option(names = "--no-latest", description = "Do not write to data.latest.")
+    private boolean noLatest;
+
+    @Option(names = "--no-catalog", description = "Do not write to data.catalog.")
+    private boolean noCatalog;
+
+    @Option(
+            names = "--catalog-interval",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description = "An entry of the catalogue is written at most once per this event time. Default: "
+                    + "${DEFAULT-VALUE}.")
+    private Duration catalogInterval;
+
+    @Option(
+            names = "--latest-key",
+            paramLabel = "KEY",
+            defaultValue = "id",
+            description =
+                    "Key of the records on data.latest: id, that of the entity; identity, tenant, service path and id, "
+                            + "which must be where two tenants have entities of one id, or one would hide the other. Default: "
+                            + "${DEFAULT-VALUE}.")
+    private LatestKey latestKey;
+
+    /** How topics are made. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** Whether and how missions are kept in MongoDB. */
+    public MissionOptions missions() {
+        return missions;
+    }
+
+    public Optional<String> defaultDomain() {
+        return Optional.ofNullable(defaultDomain);
+    }
+
+    public Optional<String> defaultMission() {
+        return Optional.ofNullable(defaultMission);
+    }
+
+    public Duration repeatWindow() {
+        return repeatWindow;
+    }
+
+    public String devices() {
+        return devices;
+    }
+
+    /** How events get their domain and mission. */
+    AssignMission.Rule assignment() {
+        return new AssignMission.Rule(
+                deviceHistory, defaultDomain().orElse(""), defaultMission().orElse(""));
+    }
+
+    public boolean writesRoutes() {
+        return !noRoutes;
+    }
+
+    public boolean writesLatest() {
+        return !noLatest;
+    }
+
+    public boolean writesCatalog() {
+        return !noCatalog;
+    }
+
+    public Duration catalogInterval() {
+        return catalogInterval;
+    }
+
+    public LatestKey latestKey() {
+        return latestKey;
+    }
+
+    ImageOptions images() {
+        return images;
+    }
+
+    @Override
+    public Integer call() throws Exception {
+        IngestJob.assemble(this).execute(jobName());
+        return 0;
+    }
+}

@@ -1,0 +1,172 @@
+package io.furrow.ingest.catalog;
+
+import java.time.Instant;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What there is of one type of entity in one mission: counts, times, and a profile of each attribute. Entries of the same key
+ * add up, in any order to the same.
+ *
+ * @param service tenant; empty for the default one
+ * @param domain empty where there is none
+ * @param mission empty where there is none
+ * @param entities that have been seen and not deleted
+ * @param events changes that were reported
+ * @param bytes of these events, images not counted that were moved to files
+ * @param images that were moved to files
+ * @param first event time of the first event, epoch ms
+ * @param last event time of the last event, epoch ms
+ * @param attributes by name, at most {@value #MOST_ATTRIBUTES}
+ */
+public record CatalogEntry(
+        String service,
+        String domain,
+        String mission,
+        String type,
+        long entities,
+        long events,
+        long bytes,
+        long images,
+        long imageBytes,
+        long first,
+        long last,
+        Map<String, AttributeProfile> attributes) {
+    /** A device that makes up names would otherwise fill the memory. */
+    static final int MOST_ATTRIBUTES = 1000;
+
+    private static final double MILLIS_PER_SECOND = 1000;
+
+    /** One event. */
+    static CatalogEntry of(ReportedEvent event) throws UnreadableException {
+        Entity entity = Entity.parse(event.record().value());
+        Map<String, AttributeProfile> attributes = new HashMap<>();
+        long images = 0;
+        long imageBytes = 0;
+        for (Map.Entry<String, JsonNode> attribute : entity.attributes()) {
+            var profile = AttributeProfile.of(attribute.getValue(), event.time());
+            if (profile.isEmpty() || Entity.BUILT_INS.contains(attribute.getKey())) {
+                continue;
+            }
+            if (attributes.size() < MOST_ATTRIBUTES) {
+                attributes.put(attribute.getKey(), profile.get());
+            }
+            if (profile.get().kind().equals(AttributeProfile.IMAGE)) {
+                images++;
+                imageBytes += attribute.getValue().path("value").path("bytes").asLong();
+            }
+        }
+        return new CatalogEntry(
+                service(event),
+                event.domain(),
+                event.mission(),
+                entity.type(),
+                0,
+                1,
+                event.record().value().length,
+                images,
+                imageBytes,
+                event.time(),
+                event.time(),
+                attributes);
+    }
+
+    private static String service(ReportedEvent event) {
+        Map<String, String> headers = event.record().headers();
+        return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH))
+                .service();
+    }
+
+    /** The same with a number of entities more, or less. */
+    CatalogEntry andEntities(long more) {
+        return new CatalogEntry(
+                service,
+                domain,
+                mission,
+                type,
+                entities + more,
+                events,
+                bytes,
+                images,
+                imageBytes,
+                first,
+                last,
+                attributes);
+    }
+
+    /** Nothing but a number of entities. */
+    CatalogEntry onlyEntities(long number) {
+        return new CatalogEntry(service, domain, mission, type, number, 0, 0, 0, 0, first, last, new HashMap<>());
+    }
+
+    /** Tenant, domain, mission and type in one text; no two keys share one. */
+    String key() {
+        return String.join("|", escaped(service), escaped(domain), escaped(mission), escaped(type));
+    }
+
+    private static String escaped(String part) {
+        return part.replace("%", "%25").replace("|", "%7C");
+    }
+
+    /** Both together. */
+    CatalogEntry plus(CatalogEntry other) {
+        Map<String, AttributeProfile> all = new HashMap<>(attributes);
+        other.attributes.forEach((name, profile) -> {
+            if (all.containsKey(name) || all.size() < MOST_ATTRIBUTES) {
+                all.merge(name, profile, AttributeProfile::plus);
+            }
+        });
+        return new CatalogEntry(
+                service,
+                domain,
+                mission,
+                type,
+                entities + other.entities,
+                events + other.events,
+                bytes + other.bytes,
+                images + other.images,
+                imageBytes + other.imageBytes,
+                Math.min(first, other.first),
+                Math.max(last, other.last),
+                all);
+    }
+
+    /** As it stands on {@code data.catalog}; times in ISO 8601, rates per second. */
+    byte[] toBytes() {
+        ObjectNode json = NgsiJson.mapper()
+                .createObjectNode()
+                .put("service", service)
+                .put("domain", domain)
+                .put("mission", mission)
+                .put("type", type)
+                .put("entities", entities)
+                .put("events", events)
+                .put("bytes", bytes)
+                .put("images", images)
+                .put("imageBytes", imageBytes);
+        writeTimes(json, events, first, last);
+        ObjectNode byName = json.putObject("attributes");
+        new TreeMap<>(attributes).forEach((name, profile) -> profile.writeTo(byName.putObject(name)));
+        return NgsiJson.write(json);
+    }
+
+    /** First, last, and how many a second from the first to the last; no rate where that is no time. */
+    static void writeTimes(ObjectNode json, long count, long first, long last) {
+        json.put("first", Instant.ofEpochMilli(first).toString())
+                .put("last", Instant.ofEpochMilli(last).toString());
+        if (last > first) {
+            json.put("rate", Math.round((count - 1) * MILLIS_PER_SECOND * 1e6 / (last - first)) / 1e6);
+        }
+    }
+}

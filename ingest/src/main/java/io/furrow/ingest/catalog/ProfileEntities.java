@@ -1,0 +1,91 @@
+package io.furrow.ingest.catalog;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.MapState;
+import org.apache.flink.api.common.state.MapStateDescriptor;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Adds up what is new of each entity, so that a mission with many devices has no key that sees every event.
+ *
+ * <p>State: per entity what was added up since the last interval, and in which entries it was counted. Cleared: the first by
+ * event-time timers, all of it by the entity's deletion. Late: no difference. Emits: what was added up, once per interval.
+ */
+public final class ProfileEntities extends KeyedProcessFunction<String, ReportedEvent, CatalogEntry> {
+    private static final long serialVersionUID = 1L;
+
+    private final long intervalMillis;
+    private transient MapState<String, CatalogEntry> pending;
+    private transient MapState<String, CatalogEntry> counted;
+
+    public ProfileEntities(Duration interval) {
+        this.intervalMillis = Math.max(1, interval.toMillis());
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        TypeInformation<CatalogEntry> entry = TypeInformation.of(CatalogEntry.class);
+        pending = getRuntimeContext().getMapState(new MapStateDescriptor<>("pending", Types.STRING, entry));
+        counted = getRuntimeContext().getMapState(new MapStateDescriptor<>("counted", Types.STRING, entry));
+    }
+
+    @Override
+    public void processElement(ReportedEvent event, Context context, Collector<CatalogEntry> out) throws Exception {
+        if (event.isDeletion()) {
+            flush(out);
+            for (CatalogEntry entry : counted.values()) {
+                out.collect(entry.onlyEntities(-1));
+            }
+            counted.clear();
+            return;
+        }
+        CatalogEntry entry = entry(event);
+        String key = entry.key();
+        if (!counted.contains(key)) {
+            counted.put(key, entry.onlyEntities(0));
+            entry = entry.andEntities(1);
+        }
+        CatalogEntry before = pending.get(key);
+        if (pending.isEmpty()) {
+            long from = Math.max(context.timestamp(), context.timerService().currentWatermark());
+            context.timerService().registerEventTimeTimer(nextInterval(from, intervalMillis));
+        }
+        pending.put(key, before == null ? entry : before.plus(entry));
+    }
+
+    private static CatalogEntry entry(ReportedEvent event) {
+        try {
+            return CatalogEntry.of(event);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException(
+                    "only entities come here: " + event.record().position(), e);
+        }
+    }
+
+    /** The end of the interval that a time is in. */
+    static long nextInterval(long time, long interval) {
+        return (Math.floorDiv(time, interval) + 1) * interval - 1;
+    }
+
+    @Override
+    public void onTimer(long timestamp, OnTimerContext context, Collector<CatalogEntry> out) throws Exception {
+        flush(out);
+    }
+
+    private void flush(Collector<CatalogEntry> out) throws Exception {
+        List<CatalogEntry> entries = new ArrayList<>();
+        pending.values().forEach(entries::add);
+        pending.clear();
+        entries.forEach(out::collect);
+    }
+}

@@ -1,0 +1,20 @@
+package io.furrow.ingest.image;
+
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** A whole image of a known format, not larger than allowed. */
+record Image(byte[] bytes, ImageFormat format, String sha256) {
+    /**
+     * @param text of the attribute
+     * @throws UnreadableException with {@link Reason#NOT_AN_IMAGE} or {@link Reason#TOO_LARGE}
+     */
+    static Image of(byte[] text, int limit) throws UnreadableException {
+        byte[] bytes = ImageText.decode(text);
+        if (bytes.length > limit) {
+            throw new UnreadableException(
+                    Reason.TOO_LARGE, "the image has " + bytes.length + " bytes, more than the " + limit + " allowed");
+        }
+        return new Image(bytes, ImageFormat.of(bytes), Sha256.hex(bytes));
+    }
+}

@@ -1,0 +1,104 @@
+package io.furrow.ingest.image;
+
+import java.io.IOException;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.node.NullNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.flink.DeadLetters;
+import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Stores the images of one event and makes the event that travels on. Instead of an image it carries {@code {url, sha256,
+ * bytes, contentType}}; instead of a broken one null, and a header {@value #BROKEN} with the reason.
+ */
+final class ImageMover {
+    /** Header of an event that lost an image: the reason code. */
+    static final String BROKEN = "image-broken";
+    /** Header {@code ce_type} of the manifest. */
+    static final String TYPE_STORED = "furrow.image.stored";
+
+    private static final String STAGE = "ingest-images";
+    private static final byte[] NULL = NgsiJson.write(NullNode.getInstance());
+
+    private final ImageSettings settings;
+    private final ImageFiles files;
+    private final List<byte[]> quotedNames;
+
+    ImageMover(ImageSettings settings, ImageFiles files) {
+        this.settings = settings;
+        this.files = files;
+        this.quotedNames = ImageSpan.quoted(settings.attributes());
+    }
+
+    /** False where a short look says that the event holds no image. */
+    boolean concerns(TopicRecord record) {
+        return record.value() != null && ImageSpan.possible(record.value(), quotedNames);
+    }
+
+    /**
+     * @throws IOException if the store does not take an image; the same call may be made again
+     */
+    Moved move(ReportedEvent event) throws IOException {
+        TopicRecord record = event.record();
+        List<ImageSpan> spans;
+        try {
+            spans = ImageSpan.find(record.value(), settings.attributes());
+            if (spans.isEmpty()) {
+                return Moved.unchanged(record);
+            }
+        } catch (UnreadableException e) {
+            return new Moved(record, List.of(), List.of(DeadLetters.of(record, e, STAGE)), 0);
+        }
+        ImageName name = ImageName.of(event.domain(), event.mission(), event.entityId(), record.timestamp());
+        List<byte[]> values = new ArrayList<>();
+        List<TopicRecord> manifest = new ArrayList<>();
+        UnreadableException broken = null;
+        long bytes = 0;
+        for (ImageSpan span : spans) {
+            try {
+                Image image = Image.of(span.text(record.value()), settings.maxBytes());
+                StoredImage stored = files.store(name, image);
+                values.add(NgsiJson.write(stored.json()));
+                bytes += stored.bytes();
+                manifest.add(manifest(event, span.attribute(), stored));
+            } catch (UnreadableException e) {
+                values.add(NULL);
+                broken = broken == null ? e : broken;
+            }
+        }
+        TopicRecord moved = record.withValue(ImageSpan.replace(record.value(), spans, values));
+        return broken == null
+                ? new Moved(moved, manifest, List.of(), bytes)
+                : new Moved(
+                        moved.with(BROKEN, broken.reason().code()),
+                        manifest,
+                        List.of(DeadLetters.of(record, broken, STAGE)),
+                        bytes);
+    }
+
+    private static TopicRecord manifest(ReportedEvent event, String attribute, StoredImage stored) {
+        TopicRecord record = event.record();
+        ObjectNode json = NgsiJson.mapper()
+                .createObjectNode()
+                .put("entity", event.entityId())
+                .put("attribute", attribute)
+                .put("domain", event.domain())
+                .put("mission", event.mission())
+                .put("time", Instant.ofEpochMilli(record.timestamp()).toString());
+        json.setAll(stored.json());
+        Map<String, String> headers = new HashMap<>(record.headers());
+        headers.put(HeaderNames.CE_TYPE, TYPE_STORED);
+        return TopicRecord.of(Topics.IMAGES, record.timestamp(), event.entityId(), NgsiJson.write(json), headers);
+    }
+}

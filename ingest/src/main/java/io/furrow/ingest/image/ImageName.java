@@ -1,0 +1,59 @@
+package io.furrow.ingest.image;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.time.ZoneOffset;
+import java.time.format.DateTimeFormatter;
+import java.util.Locale;
+
+/**
+ * Where an image is kept below the root: {@code <domain>/<mission>/<entity id>/<entity id>_<yyyyMMddHHmmssSSS>.<ext>}, event
+ * time in UTC. A part of {@code A-Z a-z 0-9 . _ -} that begins with no dot stands as it is; every other byte of its UTF-8 form
+ * becomes {@code ~HH}, because HDFS takes no colon and a leading dot hides a file. An absent domain or mission is {@code
+ * ~none}; a part that would be longer than {@value #LONGEST} signs is {@code ~h} and its SHA-256. No two parts share a name.
+ *
+ * @param folder {@code <domain>/<mission>/<entity id>}
+ * @param file without the extension
+ */
+record ImageName(String folder, String file) {
+    /** A file name holds at most 255 bytes: the part, the time, a hash and the mark of a file under way must fit in. */
+    private static final int LONGEST = 120;
+
+    private static final DateTimeFormatter TIME =
+            DateTimeFormatter.ofPattern("uuuuMMddHHmmssSSS", Locale.ROOT).withZone(ZoneOffset.UTC);
+
+    static ImageName of(String domain, String mission, String entityId, long eventTime) {
+        String entity = part(entityId);
+        return new ImageName(
+                part(domain) + "/" + part(mission) + "/" + entity,
+                entity + "_" + TIME.format(Instant.ofEpochMilli(eventTime)));
+    }
+
+    /** {@code <folder>/<file>.<extension>}. */
+    String path(ImageFormat format) {
+        return folder + "/" + file + "." + format.extension();
+    }
+
+    /** The name of an image whose first name is taken by another one: the same entity, the same millisecond. */
+    String path(ImageFormat format, String sha256) {
+        return folder + "/" + file + "-" + sha256 + "." + format.extension();
+    }
+
+    /** The time in a file's name. */
+    static Instant time(String digits) {
+        return TIME.parse(digits, Instant::from);
+    }
+
+    static String part(String name) {
+        if (name.isEmpty()) {
+            return "~none";
+        }
+        StringBuilder safe = new StringBuilder();
+        for (byte b : name.getBytes(StandardCharsets.UTF_8)) {
+            boolean alphanumeric = b >= '0' && b <= '9' || b >= 'A' && b <= 'Z' || b >= 'a' && b <= 'z';
+            boolean plain = alphanumeric || b == '_' || b == '-' || b == '.' && safe.length() > 0;
+            safe.append(plain ? String.valueOf((char) b) : String.format("~%02X", b));
+        }
+        return safe.length() <= LONGEST ? safe.toString() : "~h" + Sha256.hex(name.getBytes(StandardCharsets.UTF_8));
+    }
+}

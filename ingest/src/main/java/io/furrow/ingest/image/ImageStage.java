@@ -1,0 +1,80 @@
+package io.furrow.ingest.image;
+
+import java.io.IOException;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.streaming.api.datastream.KeyedStream;
+import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
+import org.apache.flink.streaming.api.operators.AbstractStreamOperatorFactory;
+import org.apache.flink.streaming.api.operators.OneInputStreamOperatorFactory;
+import org.apache.flink.streaming.api.operators.StreamOperator;
+import org.apache.flink.streaming.api.operators.StreamOperatorParameters;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.flink.DeadLetters;
+import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.route.ReportedEvent;
+
+/**
+ * The stage of a job that moves images: events go on in the order of their entity, each once. Broken images are on {@link
+ * DeadLetters#TAG}. Without {@code --images} all events pass as they are, so that the job keeps its shape.
+ */
+public final class ImageStage {
+    /** A record for {@code data.images} for each image that was stored. */
+    public static final OutputTag<TopicRecord> MANIFEST = new OutputTag<>("image-manifest") {
+        private static final long serialVersionUID = 1L;
+    };
+
+    private ImageStage() {}
+
+    /** @param events by {@link CarriesImages#identity()}; the caller gives uid and name */
+    public static SingleOutputStreamOperator<ReportedEvent> move(
+            KeyedStream<ReportedEvent, String> events, ImageOptions options) {
+        options.settings().ifPresent(settings -> check(settings, options));
+        return events.transform(
+                "move-images", events.getType(), operator(options.settings().orElse(null), events.getType()));
+    }
+
+    /** @param settings null where images stay in the events */
+    static OneInputStreamOperatorFactory<ReportedEvent, ReportedEvent> operator(
+            ImageSettings settings, TypeInformation<ReportedEvent> type) {
+        return new Factory(settings, type);
+    }
+
+    /** Here, where a wrong setting can be refused, not when the job runs. */
+    private static void check(ImageSettings settings, ImageOptions options) {
+        try {
+            ImageFiles.in(settings.root());
+        } catch (IOException e) {
+            throw options.refused(
+                    "--images " + settings.root() + ": Flink has no file system for it here (" + e.getMessage() + ")",
+                    e);
+        }
+    }
+
+    private static final class Factory extends AbstractStreamOperatorFactory<ReportedEvent>
+            implements OneInputStreamOperatorFactory<ReportedEvent, ReportedEvent> {
+        private static final long serialVersionUID = 1L;
+
+        private final ImageSettings settings;
+        private final TypeInformation<ReportedEvent> type;
+
+        Factory(ImageSettings settings, TypeInformation<ReportedEvent> type) {
+            this.settings = settings;
+            this.type = type;
+        }
+
+        @Override
+        @SuppressWarnings("unchecked") // the caller names the operator's type, which is ours
+        public <T extends StreamOperator<ReportedEvent>> T createStreamOperator(
+                StreamOperatorParameters<ReportedEvent> parameters) {
+            return (T) new MoveImages(parameters, settings, type, parameters.getMailboxExecutor());
+        }
+
+        @Override
+        @SuppressWarnings("rawtypes") // as the interface has it
+        public Class<? extends StreamOperator> getStreamOperatorClass(ClassLoader loader) {
+            return MoveImages.class;
+        }
+    }
+}

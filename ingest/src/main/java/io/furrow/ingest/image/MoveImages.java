@@ -1,0 +1,267 @@
+package io.furrow.ingest.image;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.Deque;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.RejectedExecutionException;
+
+import org.apache.flink.api.common.operators.MailboxExecutor;
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.runtime.state.StateSnapshotContext;
+import org.apache.flink.runtime.state.VoidNamespace;
+import org.apache.flink.runtime.state.VoidNamespaceSerializer;
+import org.apache.flink.streaming.api.operators.AbstractStreamOperator;
+import org.apache.flink.streaming.api.operators.OneInputStreamOperator;
+import org.apache.flink.streaming.api.operators.StreamOperatorParameters;
+import org.apache.flink.streaming.api.watermark.Watermark;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
+import org.apache.flink.streaming.runtime.watermarkstatus.WatermarkStatus;
+import org.apache.flink.util.function.ThrowingRunnable;
+
+import io.furrow.flink.DeadLetters;
+import io.furrow.ingest.route.ReportedEvent;
+
+/**
+ * Writes images in threads of its own while other entities' events pass; keyed by entity, whose events keep their order. One
+ * image of an entity is written at a time. Watermarks wait for the events before them.
+ *
+ * <p>State: events that wait for the store, per entity, written at a checkpoint. Cleared: when the entity's last one has gone
+ * on. Late: no difference. Emits: each event once, its images replaced; the manifest and dead letters aside.
+ */
+final class MoveImages extends AbstractStreamOperator<ReportedEvent>
+        implements OneInputStreamOperator<ReportedEvent, ReportedEvent> {
+    private static final long serialVersionUID = 1L;
+    private static final String STATE = "in-flight";
+    /** What an event takes beside its value, roughly. */
+    private static final int OVERHEAD_BYTES = 512;
+    /** So much longer than its patience a store may leave an attempt without an answer; then the job fails. */
+    private static final Duration HANGING = Duration.ofMinutes(1);
+
+    private final ImageSettings settings;
+    private final TypeInformation<ReportedEvent> type;
+    private final transient MailboxExecutor mailbox;
+    private transient ImageMover mover;
+    private transient ImageCounts counts;
+    private transient ExecutorService threads;
+    private transient ListState<ReportedEvent> inFlight;
+    private transient Set<String> kept;
+    private transient Map<String, Deque<Waiting>> byEntity;
+    private transient Deque<Waiting> inOrder;
+    private transient long bytes;
+
+    /** @param settings null where images stay in the events */
+    MoveImages(
+            StreamOperatorParameters<ReportedEvent> parameters,
+            ImageSettings settings,
+            TypeInformation<ReportedEvent> type,
+            MailboxExecutor mailbox) {
+        super(parameters);
+        this.settings = settings;
+        this.type = type;
+        this.mailbox = mailbox;
+    }
+
+    @Override
+    public void open() throws Exception {
+        super.open();
+        counts = new ImageCounts(getMetricGroup(), () -> bytes);
+        if (settings != null) {
+            mover = new ImageMover(settings, ImageFiles.in(settings.root()));
+            threads = Executors.newFixedThreadPool(settings.threads(), MoveImages::thread);
+        }
+        byEntity = new HashMap<>();
+        inOrder = new ArrayDeque<>();
+        inFlight = getPartitionedState(
+                VoidNamespace.INSTANCE, VoidNamespaceSerializer.INSTANCE, new ListStateDescriptor<>(STATE, type));
+        try (var entities = getKeyedStateBackend().getKeys(STATE, VoidNamespace.INSTANCE)) {
+            kept = new HashSet<>(entities.map(String.class::cast).toList());
+        }
+        for (String entity : List.copyOf(kept)) {
+            setCurrentKey(entity);
+            for (ReportedEvent event : inFlight.get()) {
+                add(event);
+            }
+        }
+    }
+
+    private static Thread thread(Runnable task) {
+        Thread thread = new Thread(task, "images");
+        thread.setDaemon(true); // a store that hangs must not keep the process from ending
+        return thread;
+    }
+
+    @Override
+    public void processElement(StreamRecord<ReportedEvent> element) throws Exception {
+        ReportedEvent event = element.getValue();
+        if (!isConcerned(event) && !byEntity.containsKey(event.identity())) {
+            output.collect(element);
+            return;
+        }
+        long size = size(event);
+        while (bytes + size > settings.maxInFlightBytes() && !byEntity.isEmpty()) {
+            mailbox.yield();
+        }
+        add(event);
+    }
+
+    private void add(ReportedEvent event) throws Exception {
+        Waiting waiting = Waiting.event(event);
+        Deque<Waiting> queue = byEntity.computeIfAbsent(event.identity(), entity -> new ArrayDeque<>());
+        queue.add(waiting);
+        inOrder.add(waiting);
+        bytes += size(event);
+        if (queue.size() == 1) {
+            begin(waiting);
+        }
+    }
+
+    /** Hands the first event of an entity to a thread; one that needs none goes on by the next mail. */
+    private void begin(Waiting waiting) {
+        ReportedEvent event = waiting.event();
+        if (!isConcerned(event)) {
+            mailbox.execute(() -> goOn(waiting, Moved.unchanged(event.record())), "pass an event");
+            return;
+        }
+        long deadline = getProcessingTimeService().getCurrentProcessingTime()
+                + settings.patience().plus(HANGING).toMillis();
+        waiting.until(getProcessingTimeService()
+                .registerTimer(deadline, time -> fail(event, new IOException("the store does not answer"))));
+        StoreAttempts attempts = new StoreAttempts(mover, settings.patience(), counts::retried);
+        threads.execute(() -> {
+            try {
+                Moved moved = attempts.move(event);
+                send(() -> goOn(waiting, moved));
+            } catch (IOException | RuntimeException | LinkageError e) { // the last: a store's client lacks a class
+                send(() -> fail(event, e));
+            } catch (InterruptedException e) {
+                Thread.currentThread().interrupt(); // the task is being closed
+            }
+        });
+    }
+
+    /** Has the task's own thread do something. */
+    private void send(ThrowingRunnable<Exception> mail) {
+        try {
+            mailbox.execute(mail, "go on after storing an image");
+        } catch (RejectedExecutionException e) {
+            LOG.debug("The task was closed while an image was stored", e);
+        }
+    }
+
+    private void fail(ReportedEvent event, Throwable cause) throws IOException {
+        throw new IOException(
+                "the image of " + event.identity() + " at " + event.record().position() + " could not be stored below "
+                        + settings.root() + "; the job is restarted",
+                cause);
+    }
+
+    private void goOn(Waiting done, Moved moved) throws Exception {
+        ReportedEvent event = done.event();
+        output.collect(
+                new StreamRecord<>(event.as(moved.record()), event.record().timestamp()));
+        moved.manifest()
+                .forEach(record -> output.collect(
+                        ImageStage.MANIFEST,
+                        new StreamRecord<>(record, event.record().timestamp())));
+        moved.deadLetters()
+                .forEach(record -> output.collect(
+                        DeadLetters.TAG,
+                        new StreamRecord<>(record, event.record().timestamp())));
+        counts.count(event, moved);
+        bytes -= size(event);
+        done.pass();
+        Deque<Waiting> queue = byEntity.get(event.identity());
+        queue.remove();
+        if (!queue.isEmpty()) {
+            begin(queue.element());
+        } else {
+            byEntity.remove(event.identity());
+            forget(event.identity());
+        }
+        while (!inOrder.isEmpty() && inOrder.element().hasPassed()) {
+            inOrder.remove().emitMark();
+        }
+    }
+
+    private void forget(String entity) {
+        if (kept.remove(entity)) {
+            setCurrentKey(entity);
+            inFlight.clear();
+        }
+    }
+
+    @Override
+    public void processWatermark(Watermark mark) throws Exception {
+        if (inOrder.isEmpty()) {
+            super.processWatermark(mark);
+        } else {
+            inOrder.add(Waiting.mark(() -> super.processWatermark(mark)));
+        }
+    }
+
+    @Override
+    public void processWatermarkStatus(WatermarkStatus status) throws Exception {
+        if (inOrder.isEmpty()) {
+            super.processWatermarkStatus(status);
+        } else {
+            inOrder.add(Waiting.mark(() -> super.processWatermarkStatus(status)));
+        }
+    }
+
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
+        for (Map.Entry<String, Deque<Waiting>> waiting : byEntity.entrySet()) {
+            setCurrentKey(waiting.getKey());
+            List<ReportedEvent> events = new ArrayList<>();
+            waiting.getValue().forEach(one -> events.add(one.event()));
+            inFlight.update(events);
+            kept.add(waiting.getKey());
+        }
+    }
+
+    /** At the end of the input: what waits must go on before the task may finish. */
+    @Override
+    public void finish() throws Exception {
+        while (!byEntity.isEmpty()) {
+            mailbox.yield();
+        }
+        super.finish();
+    }
+
+    @Override
+    public void close() throws Exception {
+        if (threads != null) {
+            threads.shutdownNow();
+        }
+        super.close();
+    }
+
+    private boolean isConcerned(ReportedEvent event) {
+        return mover != null && mover.concerns(event.record());
+    }
+
+    boolean isIdle() {
+        return byEntity.isEmpty() && inOrder.isEmpty() && bytes == 0;
+    }
+
+    long bytesInFlight() {
+        return bytes;
+    }
+
+    private long size(ReportedEvent event) {
+        byte[] value = event.record().value();
+        return OVERHEAD_BYTES + (value == null ? 0 : value.length);
+    }
+}

@@ -1,0 +1,55 @@
+package io.furrow.ingest.image;
+
+import java.util.concurrent.Future;
+
+import org.apache.flink.util.function.ThrowingRunnable;
+
+import io.furrow.ingest.route.ReportedEvent;
+
+/**
+ * An event that waits for the store, or a watermark that waits for the events before it.
+ */
+final class Waiting {
+    private final ReportedEvent event;
+    private final ThrowingRunnable<Exception> mark;
+    private Future<?> deadline;
+    private boolean passed;
+
+    private Waiting(ReportedEvent event, ThrowingRunnable<Exception> mark, boolean passed) {
+        this.event = event;
+        this.mark = mark;
+        this.passed = passed;
+    }
+
+    static Waiting event(ReportedEvent event) {
+        return new Waiting(event, () -> {}, false);
+    }
+
+    /** @param mark what to do when everything before it has gone on */
+    static Waiting mark(ThrowingRunnable<Exception> mark) {
+        return new Waiting(null, mark, true);
+    }
+
+    ReportedEvent event() {
+        return event;
+    }
+
+    void until(Future<?> timer) {
+        deadline = timer;
+    }
+
+    void pass() {
+        passed = true;
+        if (deadline != null) {
+            deadline.cancel(false);
+        }
+    }
+
+    boolean hasPassed() {
+        return passed;
+    }
+
+    void emitMark() throws Exception {
+        mark.run();
+    }
+}

@@ -1,0 +1,65 @@
+package io.furrow.ingest.latest;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Map;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * The newest that is known of an entity. An attribute changes by events that are not older than what is known of it; of two
+ * events of one time the later to arrive stands.
+ *
+ * @param time of the newest event, epoch ms
+ * @param deleted whether that event was its deletion; nothing older brings it back
+ * @param type as the newest event had it
+ */
+public record KnownEntity(long time, boolean deleted, String type, Map<String, KnownAttribute> attributes) {
+    static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of());
+
+    /** After a change: the same object where the event brings nothing that is not known newer. */
+    KnownEntity with(Entity reported, long eventTime) {
+        if (deleted && eventTime <= time) {
+            return this;
+        }
+        Map<String, KnownAttribute> merged = new TreeMap<>(deleted ? Map.of() : attributes);
+        boolean news = eventTime >= time;
+        for (Map.Entry<String, JsonNode> attribute : reported.attributes()) {
+            KnownAttribute known = merged.get(attribute.getKey());
+            if (known == null || known.time() <= eventTime) {
+                merged.put(
+                        attribute.getKey(),
+                        new KnownAttribute(
+                                eventTime, new String(NgsiJson.write(attribute.getValue()), StandardCharsets.UTF_8)));
+                news = true;
+            }
+        }
+        return news
+                ? new KnownEntity(Math.max(time, eventTime), false, eventTime >= time ? reported.type() : type, merged)
+                : this;
+    }
+
+    /** After its deletion: the same object where something newer is known. */
+    KnownEntity withoutAnything(long eventTime) {
+        return eventTime >= time ? new KnownEntity(eventTime, true, type, Map.of()) : this;
+    }
+
+    /** In normalized form, attributes by name; put together from what is JSON already. */
+    byte[] toBytes(String id) {
+        StringBuilder json = new StringBuilder("{\"id\":").append(quoted(id));
+        json.append(",\"type\":").append(quoted(type));
+        for (Map.Entry<String, KnownAttribute> attribute : new TreeMap<>(attributes).entrySet()) {
+            json.append(',').append(quoted(attribute.getKey())).append(':');
+            json.append(attribute.getValue().json());
+        }
+        return json.append('}').toString().getBytes(StandardCharsets.UTF_8);
+    }
+
+    private static String quoted(String text) {
+        return new String(NgsiJson.write(TextNode.valueOf(text)), StandardCharsets.UTF_8);
+    }
+}

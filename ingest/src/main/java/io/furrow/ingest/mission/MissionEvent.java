@@ -1,0 +1,11 @@
+package io.furrow.ingest.mission;
+
+import io.furrow.flink.TopicRecord;
+
+/**
+ * An event and the mission that it belongs to.
+ *
+ * @param mission empty where there is none
+ * @param record as it goes to the mission's topic, event id and hop stamps in its headers; no value where the entity was deleted
+ */
+public record MissionEvent(String mission, TopicRecord record) {}

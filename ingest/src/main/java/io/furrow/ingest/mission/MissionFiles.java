@@ -1,0 +1,117 @@
+package io.furrow.ingest.mission;
+
+import java.io.BufferedOutputStream;
+import java.io.FilterOutputStream;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.OutputStream;
+import java.util.Arrays;
+import java.util.Comparator;
+import java.util.List;
+import java.util.function.LongConsumer;
+import java.util.stream.Stream;
+import java.util.zip.GZIPInputStream;
+import java.util.zip.GZIPOutputStream;
+
+import org.apache.flink.core.fs.FileStatus;
+import org.apache.flink.core.fs.FileSystem;
+import org.apache.flink.core.fs.Path;
+import org.apache.flink.core.fs.RecoverableFsDataOutputStream;
+import org.apache.flink.util.IOUtils;
+
+/**
+ * Files of lines on any of Flink's file systems, compressed where the name ends in {@code .gz}. A file appears under its name
+ * only when it is whole.
+ */
+public final class MissionFiles {
+    private static final int BUFFER = 64 * 1024;
+
+    private MissionFiles() {}
+
+    /** What writes a file. */
+    interface Content {
+        long writeTo(OutputStream out) throws IOException;
+    }
+
+    /** Writes a mission into one file; another of that name is replaced. */
+    public static long export(StoredMissions missions, String mission, Path file, LongConsumer told)
+            throws IOException {
+        FileSystem files = file.getFileSystem();
+        if (files.exists(file)) {
+            files.delete(file, false);
+        }
+        return write(file, out -> missions.export(mission, out, told));
+    }
+
+    /** Reads a file, or every {@code .ndjson} and {@code .ndjson.gz} of a folder, into a mission. */
+    public static long importFrom(StoredMissions missions, String mission, Path path, LongConsumer told)
+            throws IOException, InterruptedException {
+        long count = 0;
+        for (Path file : filesOf(path)) {
+            long before = count;
+            try (InputStream in = open(file)) {
+                count += missions.importFrom(mission, in, file.toString(), more -> told.accept(before + more));
+            }
+        }
+        return count;
+    }
+
+    static List<Path> filesOf(Path path) throws IOException {
+        FileSystem files = path.getFileSystem();
+        if (!files.getFileStatus(path).isDir()) {
+            return List.of(path);
+        }
+        return list(path)
+                .filter(it -> it.getName().endsWith(".ndjson") || it.getName().endsWith(".ndjson.gz"))
+                .toList();
+    }
+
+    /** What a folder holds, by name; nothing where there is no such folder. */
+    static Stream<Path> list(Path folder) throws IOException {
+        FileSystem files = folder.getFileSystem();
+        FileStatus[] found = files.exists(folder) ? files.listStatus(folder) : null;
+        return found == null
+                ? Stream.empty()
+                : Arrays.stream(found).map(FileStatus::getPath).sorted(Comparator.comparing(Path::getName));
+    }
+
+    static InputStream open(Path file) throws IOException {
+        InputStream in = file.getFileSystem().open(file);
+        return isCompressed(file) ? new GZIPInputStream(in, BUFFER) : in;
+    }
+
+    static long write(Path file, Content content) throws IOException {
+        RecoverableFsDataOutputStream out =
+                file.getFileSystem().createRecoverableWriter().open(file);
+        boolean whole = false;
+        try {
+            OutputStream kept = new FilterOutputStream(out) {
+                @Override
+                public void write(byte[] bytes, int from, int length) throws IOException {
+                    out.write(bytes, from, length);
+                }
+
+                @Override
+                public void close() {
+                    // closed by the commit below
+                }
+            };
+            long count;
+            try (OutputStream lines =
+                    isCompressed(file) ? new GZIPOutputStream(kept, BUFFER) : new BufferedOutputStream(kept)) {
+                count = content.writeTo(lines);
+            }
+            out.closeForCommit().commit();
+            whole = true;
+            return count;
+        } finally {
+            if (!whole) {
+                IOUtils.closeQuietly(out); // once committed, S3 takes a second close for a fault
+            }
+        }
+    }
+
+    private static boolean isCompressed(Path file) {
+        return file.getName().endsWith(".gz");
+    }
+}

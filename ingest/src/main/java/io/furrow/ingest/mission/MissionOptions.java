@@ -1,0 +1,93 @@
+package io.furrow.ingest.mission;
+
+import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+import com.mongodb.ConnectionString;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+import picocli.CommandLine.TypeConversionException;
+
+import io.furrow.flink.DurationConverter;
+
+/** The options of the branch that keeps missions in MongoDB. */
+public final class MissionOptions {
+    /** What an index of MongoDB takes. */
+    private static final long LONGEST_SECONDS = Integer.MAX_VALUE;
+
+    @Spec(Spec.Target.MIXEE)
+    private CommandSpec spec;
+
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            description =
+                    "Keep every event of a mission in this MongoDB, for instance mongodb://127.0.0.1:27017: database "
+                            + "persistence, collection mission_<mission>. Default: missions are not kept.")
+    private String mongo;
+
+    @Option(
+            names = "--mongo-patience",
+            paramLabel = "DURATION",
+            defaultValue = "60s",
+            description = "How long documents are tried again while MongoDB is away, before the job is restarted. "
+                    + "Default: ${DEFAULT-VALUE}.")
+    private Duration patience;
+
+    @Option(
+            names = "--mission-retention",
+            paramLabel = "[MISSION=]DURATION",
+            description = "How long documents are kept after their event time; of one mission, or of all that are not "
+                    + "named. May be repeated. Default: for ever.")
+    private List<String> retention = List.of();
+
+    /** Whether missions are kept at all. */
+    public boolean isOn() {
+        return mongo != null;
+    }
+
+    MongoAccess access() {
+        try {
+            new ConnectionString(mongo);
+        } catch (IllegalArgumentException e) {
+            throw refused("--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
+                    .formatted(e.getMessage()));
+        }
+        return new MongoAccess(mongo, patience);
+    }
+
+    Retention retention() {
+        Duration everywhere = null;
+        Map<String, Duration> byMission = new LinkedHashMap<>();
+        for (String given : retention) {
+            int equals = given.lastIndexOf('=');
+            Duration kept = duration(given.substring(equals + 1));
+            if (equals < 0) {
+                everywhere = kept;
+            } else {
+                byMission.put(given.substring(0, equals), kept);
+            }
+        }
+        return Retention.of(everywhere, byMission);
+    }
+
+    private Duration duration(String text) {
+        try {
+            Duration kept = new DurationConverter().convert(text);
+            if (kept.toSeconds() >= 1 && kept.toSeconds() <= LONGEST_SECONDS) {
+                return kept;
+            }
+        } catch (TypeConversionException e) {
+            throw refused("--mission-retention: " + e.getMessage());
+        }
+        throw refused("--mission-retention " + text + " is not between a second and 68 years; write for instance 30d");
+    }
+
+    private ParameterException refused(String message) {
+        return new ParameterException(spec.commandLine(), message);
+    }
+}

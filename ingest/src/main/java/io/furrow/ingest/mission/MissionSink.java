@@ -1,0 +1,67 @@
+package io.furrow.ingest.mission;
+
+import java.io.IOException;
+import java.time.Clock;
+import java.time.Duration;
+
+import com.mongodb.client.MongoClient;
+import org.apache.flink.api.connector.sink2.Sink;
+import org.apache.flink.api.connector.sink2.SinkWriter;
+import org.apache.flink.api.connector.sink2.WriterInitContext;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
+
+import io.furrow.flink.TopicRecord;
+
+/**
+ * Documents to MongoDB: after any restart the same collections as without it, because a document's {@code _id} is its event's
+ * id. What the server refuses goes to another sink as a dead letter.
+ */
+public final class MissionSink implements Sink<MissionDocument> {
+    private static final long serialVersionUID = 1L;
+
+    private final MongoAccess access;
+    private final Retention retention;
+    private final Sink<TopicRecord> deadLetters;
+
+    /** @param deadLetters a sink whose writer needs nothing beyond itself: it takes no part in transactions here */
+    public MissionSink(MissionOptions options, Sink<TopicRecord> deadLetters) {
+        this(options.access(), options.retention(), deadLetters);
+    }
+
+    MissionSink(MongoAccess access, Retention retention, Sink<TopicRecord> deadLetters) {
+        this.access = access;
+        this.retention = retention;
+        this.deadLetters = deadLetters;
+    }
+
+    /** A writer outside of a job, as measurements want it: without retention. */
+    public static SinkWriter<MissionDocument> writer(String uri, SinkWriter<TopicRecord> deadLetters) {
+        MongoAccess access = new MongoAccess(uri, Duration.ofMinutes(1));
+        MongoClient client = access.open();
+        MissionCollections collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
+        return new MissionWriter(
+                new BulkSender(collections, access.patience(), ignored -> {}),
+                deadLetters,
+                client,
+                UnregisteredMetricsGroup.createSinkWriterMetricGroup());
+    }
+
+    @Override
+    public SinkWriter<MissionDocument> createWriter(WriterInitContext context) throws IOException {
+        SinkWriter<TopicRecord> dead = deadLetters.createWriter(context);
+        Counter retried = context.metricGroup().counter("retried");
+        MongoClient client = access.open();
+        MissionCollections collections = new MissionCollections(client, retention, Clock.systemUTC());
+        boolean purges = context.getTaskInfo().getIndexOfThisSubtask() == 0 && !retention.isForEver();
+        Purge purge = purges ? Purge.start(access, retention) : null;
+        AutoCloseable connection = () -> {
+            if (purge != null) {
+                purge.close();
+            }
+            client.close();
+        };
+        return new MissionWriter(
+                new BulkSender(collections, access.patience(), retried::inc), dead, connection, context.metricGroup());
+    }
+}

@@ -1,0 +1,127 @@
+package io.furrow.ingest.mission;
+
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.Future;
+
+import org.apache.flink.api.connector.sink2.SinkWriter;
+import org.apache.flink.metrics.groups.SinkWriterMetricGroup;
+
+import io.furrow.flink.DeadCounters;
+import io.furrow.flink.DeadLetters;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Gathers documents into bulks; one bulk is under way while the next is gathered. A checkpoint waits until all that came before
+ * it is written, or was refused and has its dead letter.
+ */
+@SuppressWarnings("try") // close() may be interrupted, as a sink writer's may
+final class MissionWriter implements SinkWriter<MissionDocument> {
+    private static final int MOST_DOCUMENTS = 1_000;
+    private static final int MOST_BYTES = 8 * 1024 * 1024;
+
+    private final BulkSender sender;
+    private final SinkWriter<TopicRecord> deadLetters;
+    private final AutoCloseable connection;
+    private final ExecutorService thread = Executors.newSingleThreadExecutor(MissionWriter::named);
+    private final DeadCounters dead;
+    private final SinkWriterMetricGroup metrics;
+
+    private List<MissionDocument> gathered = new ArrayList<>();
+    private long gatheredBytes;
+    private Future<List<BulkSender.Refusal>> underWay = CompletableFuture.completedFuture(List.of());
+
+    /** @param connection is closed with the writer */
+    MissionWriter(
+            BulkSender sender,
+            SinkWriter<TopicRecord> deadLetters,
+            AutoCloseable connection,
+            SinkWriterMetricGroup metrics) {
+        this.sender = sender;
+        this.deadLetters = deadLetters;
+        this.connection = connection;
+        this.metrics = metrics;
+        this.dead = new DeadCounters(metrics);
+    }
+
+    @Override
+    public void write(MissionDocument document, Context context) throws IOException, InterruptedException {
+        gathered.add(document);
+        gatheredBytes += document.bson().length;
+        if (gathered.size() >= MOST_DOCUMENTS || gatheredBytes >= MOST_BYTES) {
+            sendGathered();
+        }
+    }
+
+    @Override
+    public void flush(boolean endOfInput) throws IOException, InterruptedException {
+        sendGathered();
+        awaitUnderWay();
+        deadLetters.flush(endOfInput);
+    }
+
+    private void sendGathered() throws IOException, InterruptedException {
+        awaitUnderWay();
+        List<MissionDocument> bulk = gathered;
+        if (bulk.isEmpty()) {
+            return;
+        }
+        metrics.getNumRecordsSendCounter().inc(bulk.size());
+        metrics.getNumBytesSendCounter().inc(gatheredBytes);
+        gathered = new ArrayList<>();
+        gatheredBytes = 0;
+        underWay = thread.submit(() -> sender.send(bulk));
+    }
+
+    private void awaitUnderWay() throws IOException, InterruptedException {
+        Future<List<BulkSender.Refusal>> sent = underWay;
+        underWay = CompletableFuture.completedFuture(List.of());
+        try {
+            for (BulkSender.Refusal refusal : sent.get()) {
+                dead.count(Reason.REFUSED);
+                UnreadableException why = new UnreadableException(Reason.REFUSED, refusal.reason());
+                deadLetters.write(DeadLetters.of(refusal.document().record(), why, ComposeDocuments.STAGE), NO_CONTEXT);
+            }
+        } catch (ExecutionException e) {
+            throw e.getCause() instanceof IOException known
+                    ? known
+                    : new IOException("documents could not be written", e.getCause());
+        }
+    }
+
+    @Override
+    public void close() throws Exception {
+        thread.shutdownNow();
+        try {
+            deadLetters.close();
+        } finally {
+            connection.close();
+        }
+    }
+
+    private static Thread named(Runnable work) {
+        Thread thread = new Thread(work, "missions to MongoDB");
+        thread.setDaemon(true);
+        return thread;
+    }
+
+    /** A dead letter bears its own time. */
+    private static final Context NO_CONTEXT = new Context() {
+        @Override
+        public long currentWatermark() {
+            return Long.MIN_VALUE;
+        }
+
+        @Override
+        public Long timestamp() {
+            return null;
+        }
+    };
+}

@@ -1,0 +1,49 @@
+package io.furrow.ingest.mission;
+
+import java.io.Serializable;
+import java.time.Duration;
+import java.util.concurrent.TimeUnit;
+
+import com.mongodb.ConnectionString;
+import com.mongodb.MongoClientSettings;
+import com.mongodb.WriteConcern;
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+
+/**
+ * How MongoDB is reached.
+ *
+ * @param uri a connection string; what it says of timeouts and of the write concern goes before what is set here
+ * @param patience how long documents are tried again while the server is away
+ */
+record MongoAccess(String uri, Duration patience) implements Serializable {
+    /** The database of all missions. */
+    static final String DATABASE = "persistence";
+
+    private static final int CONNECT_SECONDS = 5;
+    private static final int ANSWER_SECONDS = 60;
+
+    /**
+     * Does not wait for the server.
+     *
+     * @throws IllegalArgumentException if the URI is none
+     */
+    MongoClient open() {
+        ConnectionString given = new ConnectionString(uri);
+        MongoClientSettings.Builder settings = MongoClientSettings.builder()
+                .applicationName("furrow")
+                // Acknowledged means on the disk of most members: a checkpoint passes over what was acknowledged.
+                .writeConcern(WriteConcern.MAJORITY.withJournal(true))
+                .applyToClusterSettings(it -> it.serverSelectionTimeout(CONNECT_SECONDS, TimeUnit.SECONDS))
+                .applyToSocketSettings(it -> it.connectTimeout(CONNECT_SECONDS, TimeUnit.SECONDS)
+                        .readTimeout(ANSWER_SECONDS, TimeUnit.SECONDS))
+                .applyConnectionString(given);
+        return MongoClients.create(settings.build());
+    }
+
+    /** Holds no password. */
+    @Override
+    public String toString() {
+        return String.join(",", new ConnectionString(uri).getHosts());
+    }
+}

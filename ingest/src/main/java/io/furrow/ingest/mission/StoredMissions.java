@@ -1,0 +1,212 @@
+package io.furrow.ingest.mission;
+
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.InputStreamReader;
+import java.io.OutputStream;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Clock;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.Iterator;
+import java.util.List;
+import java.util.function.LongConsumer;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.client.MongoCursor;
+import com.mongodb.client.model.Sorts;
+import org.bson.RawBsonDocument;
+
+import io.furrow.model.ngsi.UnreadableException;
+
+/** The missions that are kept in MongoDB: told, written as lines, and read from lines. */
+public final class StoredMissions implements AutoCloseable {
+    private static final int BATCH = 1_000;
+    private static final int TELL_EVERY = 10_000;
+    private static final Duration PATIENCE = Duration.ofSeconds(20);
+
+    private final MongoClient client;
+    private final MissionCollections collections;
+
+    private StoredMissions(MongoClient client) {
+        this.client = client;
+        this.collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
+    }
+
+    /**
+     * @param uri of MongoDB
+     * @throws IllegalArgumentException if it is none
+     */
+    public static StoredMissions open(String uri) {
+        return new StoredMissions(new MongoAccess(uri, PATIENCE).open());
+    }
+
+    /**
+     * What is kept of a mission.
+     *
+     * @param name as its topic and collection have it
+     * @param first event time of the oldest event
+     * @param last event time of the newest event
+     */
+    public record Summary(String name, long events, Instant first, Instant last) {}
+
+    /** All that hold an event, in alphabetical order. */
+    public List<Summary> all() {
+        List<Summary> all = new ArrayList<>();
+        for (String name : collections.names()) {
+            MongoCollection<RawBsonDocument> collection = collections.get(name);
+            RawBsonDocument first =
+                    collection.find().sort(Sorts.ascending(DocumentForm.TIME)).first();
+            RawBsonDocument last =
+                    collection.find().sort(Sorts.descending(DocumentForm.TIME)).first();
+            if (first != null && last != null) {
+                all.add(new Summary(
+                        name.substring(MissionCollections.PREFIX.length()),
+                        collection.countDocuments(),
+                        time(first),
+                        time(last)));
+            }
+        }
+        return all;
+    }
+
+    private static Instant time(RawBsonDocument document) {
+        return Instant.ofEpochMilli(document.getDateTime(DocumentForm.TIME).getValue());
+    }
+
+    /** Whether anything is kept of it. */
+    public boolean has(String mission) {
+        return collections.get(MissionCollections.nameOf(mission)).find().first() != null;
+    }
+
+    /**
+     * Writes all events of a mission as lines, in the order of their times; the same documents are always the same bytes.
+     *
+     * @param told is told now and then how many it has been
+     * @return how many events
+     */
+    public long export(String mission, OutputStream out, LongConsumer told) throws IOException {
+        long count = 0;
+        try (Events events = events(mission)) {
+            while (events.hasNext()) {
+                out.write(ArchiveLine.write(events.next()));
+                out.write('\n');
+                if (++count % TELL_EVERY == 0) {
+                    told.accept(count);
+                }
+            }
+        }
+        return count;
+    }
+
+    /**
+     * Reads lines into a mission. What is there already stays once.
+     *
+     * @param source for messages
+     * @return how many lines
+     * @throws IOException if a line is no event, or the server does not take it; the lines before it may have been taken
+     */
+    public long importFrom(String mission, InputStream in, String source, LongConsumer told)
+            throws IOException, InterruptedException {
+        BulkSender sender = new BulkSender(collections, PATIENCE, ignored -> {});
+        String collection = MissionCollections.nameOf(mission);
+        List<MissionDocument> bulk = new ArrayList<>(BATCH);
+        BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
+        long count = 0;
+        for (String line = lines.readLine(); line != null; line = lines.readLine()) {
+            count++;
+            bulk.add(document(collection, line, source + ", line " + count));
+            if (bulk.size() == BATCH) {
+                send(sender, bulk, source);
+            }
+            if (count % TELL_EVERY == 0) {
+                told.accept(count);
+            }
+        }
+        send(sender, bulk, source);
+        return count;
+    }
+
+    private static MissionDocument document(String collection, String line, String where) throws IOException {
+        try {
+            StoredEvent event = ArchiveLine.read(line);
+            return new MissionDocument(collection, event.id(), DocumentForm.write(event), null);
+        } catch (UnreadableException e) {
+            throw new IOException(where + " is no event: " + e.getMessage(), e);
+        }
+    }
+
+    private static void send(BulkSender sender, List<MissionDocument> bulk, String source)
+            throws IOException, InterruptedException {
+        for (BulkSender.Refusal refusal : sender.send(bulk)) {
+            throw new IOException("MongoDB refuses event %s of %s: %s"
+                    .formatted(refusal.document().id(), source, refusal.reason()));
+        }
+        bulk.clear();
+    }
+
+    /** The events of a mission in the order of archives. */
+    Events events(String mission) {
+        return new Events(collections
+                .get(MissionCollections.nameOf(mission))
+                .find()
+                .sort(Sorts.ascending(DocumentForm.TIME))
+                .batchSize(BATCH)
+                .cursor());
+    }
+
+    @Override
+    public void close() {
+        client.close();
+    }
+
+    /** Reads from the server as it goes. */
+    static final class Events implements Iterator<StoredEvent>, AutoCloseable {
+        private final MongoCursor<RawBsonDocument> cursor;
+        private final Iterator<StoredEvent> ordered;
+
+        private Events(MongoCursor<RawBsonDocument> cursor) {
+            this.cursor = cursor;
+            this.ordered = EventOrder.within(new Iterator<>() {
+                @Override
+                public boolean hasNext() {
+                    return cursor.hasNext();
+                }
+
+                @Override
+                public StoredEvent next() {
+                    return read(cursor.next());
+                }
+            });
+        }
+
+        private static StoredEvent read(RawBsonDocument document) {
+            try {
+                return DocumentForm.read(document);
+            } catch (UnreadableException e) {
+                throw new UncheckedIOException(
+                        "The collection holds a document that ingest did not write",
+                        new IOException(e.getMessage(), e));
+            }
+        }
+
+        @Override
+        public boolean hasNext() {
+            return ordered.hasNext();
+        }
+
+        @Override
+        public StoredEvent next() {
+            return ordered.next();
+        }
+
+        @Override
+        public void close() {
+            cursor.close();
+        }
+    }
+}

@@ -1,0 +1,107 @@
+package io.furrow.ingest.normalise;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.Callable;
+import java.util.regex.Pattern;
+import java.util.regex.PatternSyntaxException;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.IDefaultValueProvider;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.ArgSpec;
+import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicOptions;
+import io.furrow.model.topic.Topics;
+
+/** The options of the job {@code normalise}. */
+@Command(
+        name = "normalise",
+        description = "Brings the context broker's native Kafka notifications, in any form, to data.raw.",
+        defaultValueProvider = NormaliseOptions.OwnDefaults.class)
+public final class NormaliseOptions extends JobOptions implements Callable<Integer> {
+    private static final Duration HOUR = Duration.ofHours(1);
+
+    @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Option(
+            names = "--output",
+            paramLabel = "TOPIC",
+            defaultValue = Topics.RAW,
+            description = "Topic to write events to. Default: ${DEFAULT-VALUE}.")
+    private String output;
+
+    @Option(
+            names = "--exclude-types",
+            paramLabel = "REGEX,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "Analytics:.*,Domain,Mission",
+            description =
+                    "An entity whose whole type matches one is dropped and counted. Name here what is written into the "
+                            + "context broker from Kafka, or it comes back as news. Default: ${DEFAULT-VALUE}.")
+    private List<String> excludeTypes;
+
+    @Option(
+            names = "--max-clock-skew",
+            paramLabel = "DURATION",
+            defaultValue = "5min",
+            description =
+                    "How far a device's clock may be ahead, less than an hour; beyond it the event gets the time of "
+                            + "the notification. Default: ${DEFAULT-VALUE}.")
+    private Duration maxClockSkew;
+
+    @Option(
+            names = "--max-record-bytes",
+            paramLabel = "N",
+            defaultValue = "8388608",
+            description =
+                    "An entity that makes a larger record becomes a dead letter: a record that the broker refuses "
+                            + "would stop the job. Default: ${DEFAULT-VALUE}.")
+    private int maxRecordBytes;
+
+    /** The one default of all jobs that is another for this one. */
+    static final class OwnDefaults implements IDefaultValueProvider {
+        @Override
+        public String defaultValue(ArgSpec argument) {
+            return argument instanceof OptionSpec option && option.longestName().equals("--input")
+                    ? Topics.NOTIFICATIONS
+                    : null;
+        }
+    }
+
+    /** How topics are made. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** What the translation needs to know. */
+    NormaliseNotifications.Settings settings() {
+        return new NormaliseNotifications.Settings(output, excluded(), maxClockSkew(), maxRecordBytes);
+    }
+
+    private List<Pattern> excluded() {
+        try {
+            return excludeTypes.stream().map(Pattern::compile).toList();
+        } catch (PatternSyntaxException e) {
+            throw refused("--exclude-types " + e.getPattern() + " is no regular expression: " + e.getDescription(), e);
+        }
+    }
+
+    private Duration maxClockSkew() {
+        if (maxClockSkew.compareTo(HOUR) >= 0) {
+            throw refused("--max-clock-skew is an hour or more; write for instance 5min", null);
+        }
+        return maxClockSkew;
+    }
+
+    @Override
+    public Integer call() throws Exception {
+        NormaliseJob.assemble(this).execute(jobName());
+        return 0;
+    }
+}

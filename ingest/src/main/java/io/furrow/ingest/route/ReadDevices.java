@@ -1,0 +1,39 @@
+package io.furrow.ingest.route;
+
+import java.nio.charset.StandardCharsets;
+
+import org.apache.flink.streaming.api.functions.ProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.flink.DeadLetters;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Reads the records of {@code service.devices}; emits dead letters for those that are no devices. */
+public final class ReadDevices extends ProcessFunction<TopicRecord, DeviceChange> {
+    private static final long serialVersionUID = 1L;
+    private static final String STAGE = "ingest";
+
+    @Override
+    public void processElement(TopicRecord record, Context context, Collector<DeviceChange> out) {
+        try {
+            out.collect(read(record));
+        } catch (UnreadableException e) {
+            context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
+        }
+    }
+
+    static DeviceChange read(TopicRecord record) throws UnreadableException {
+        if (record.value() != null) {
+            DeviceVersion version = DeviceVersion.read(record.value());
+            return new DeviceChange(version.key(), record.offset(), record.timestamp(), version);
+        }
+        if (record.key() == null) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has neither a value nor a key");
+        }
+        return new DeviceChange(
+                new String(record.key(), StandardCharsets.UTF_8), record.offset(), record.timestamp(), null);
+    }
+}

@@ -1,0 +1,28 @@
+package io.furrow.ingest;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+
+import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.TopicRecord;
+
+/** What a job would write to Kafka, collected. */
+public final class CollectedOutput implements KafkaOutput {
+    private static final int MORE_THAN_ANY_TEST_WRITES = 100_000;
+
+    private final List<DataStream<TopicRecord>> streams = new ArrayList<>();
+
+    @Override
+    public void write(String name, DataStream<TopicRecord> records) {
+        streams.add(records);
+    }
+
+    /** Runs the job to its end. */
+    @SuppressWarnings({"unchecked", "rawtypes"}) // the array that union takes
+    public List<TopicRecord> run() throws Exception {
+        DataStream<TopicRecord>[] others = streams.subList(1, streams.size()).toArray(DataStream[]::new);
+        return streams.get(0).union(others).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+    }
+}

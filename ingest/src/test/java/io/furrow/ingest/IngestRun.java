@@ -1,0 +1,44 @@
+package io.furrow.ingest;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.topic.Topics;
+
+/** The job {@code ingest} over records that a test has, at parallelism 2, to their end. */
+final class IngestRun {
+    private IngestRun() {}
+
+    /** All that the job would write to Kafka. */
+    static List<TopicRecord> of(IngestOptions options, KnownDevices devices, TopicRecord... records) throws Exception {
+        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        env.setParallelism(2);
+        DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
+                .setParallelism(1)
+                .uid("records")
+                .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forMonotonousTimestamps()
+                        .withTimestampAssigner((record, ignored) -> record.timestamp()))
+                .uid("timestamps")
+                .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
+        DataStream<TopicRecord> deviceRecords = env.fromData(List.of(new TopicRecord(
+                        Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
+                .setParallelism(1)
+                .uid("devices")
+                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                .uid("no-hindrance")
+                .setParallelism(1);
+
+        CollectedOutput out = new CollectedOutput();
+        IngestJob.define(new IngestJob.Inputs(source, deviceRecords, devices), out, options);
+        return out.run();
+    }
+}

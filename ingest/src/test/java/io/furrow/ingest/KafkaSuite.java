@@ -1,0 +1,152 @@
+package io.furrow.ingest;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.core.execution.RecoveryClaimMode;
+import org.apache.flink.core.execution.SavepointFormatType;
+import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
+import org.apache.flink.streaming.api.graph.StreamGraph;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.flink.JobCommandLine;
+
+import static org.awaitility.Awaitility.await;
+
+/** A Kafka broker and a Flink cluster for the time of a test, and the job {@code ingest} on them. */
+final class KafkaSuite implements AutoCloseable {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final int SLOTS = 4;
+
+    private final EmbeddedKafka kafka;
+    private final EmbeddedFlink flink;
+    private final KafkaProducer<byte[], byte[]> producer;
+    private final Admin admin;
+
+    private KafkaSuite(EmbeddedKafka kafka, EmbeddedFlink flink) {
+        this.kafka = kafka;
+        this.flink = flink;
+        Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
+        this.producer = new KafkaProducer<>(client, new ByteArraySerializer(), new ByteArraySerializer());
+        this.admin = Admin.create(client);
+    }
+
+    static KafkaSuite start(Path directory) {
+        return new KafkaSuite(EmbeddedKafka.start(directory), EmbeddedFlink.start(SLOTS, 0));
+    }
+
+    String bootstrapServers() {
+        return kafka.bootstrapServers();
+    }
+
+    Admin admin() {
+        return admin;
+    }
+
+    /** Keeps records of any time: retention goes by the record timestamp. */
+    void makeTopic(String name, int partitions) throws Exception {
+        NewTopic topic = new NewTopic(name, Optional.of(partitions), Optional.empty());
+        admin.createTopics(List.of(topic.configs(Map.of("retention.ms", "-1"))))
+                .all()
+                .get();
+    }
+
+    /** @param partition null for that of the key */
+    void write(String topic, Integer partition, long time, String key, String value, Map<String, String> headers) {
+        ProducerRecord<byte[], byte[]> record =
+                new ProducerRecord<>(topic, partition, time, utf8(key), value == null ? null : utf8(value));
+        headers.forEach((name, text) -> record.headers().add(name, utf8(text)));
+        producer.send(record);
+    }
+
+    /** Starts the job, from a savepoint where one is given. */
+    JobID run(String savepoint, String... args) {
+        IngestOptions options = new IngestOptions();
+        List<String> all = new ArrayList<>(List.of(args));
+        all.addAll(List.of("--bootstrap-servers", kafka.bootstrapServers(), "--checkpoint-interval", "500ms"));
+        JobCommandLine.of(options).parseArgs(all.toArray(String[]::new));
+        StreamGraph graph = IngestJob.assemble(options).getStreamGraph();
+        if (savepoint != null) {
+            graph.setSavepointRestoreSettings(
+                    SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
+        }
+        return flink.submit(graph);
+    }
+
+    /** Where the savepoint is with which the job ended. */
+    String stop(JobID job, Path directory) throws Exception {
+        return flink.cluster()
+                .stopWithSavepoint(job, directory.toUri().toString(), false, SavepointFormatType.CANONICAL)
+                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+    }
+
+    void cancel(JobID job) throws Exception {
+        flink.cluster().cancelJob(job).get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+        await().atMost(PATIENCE).until(() -> flink.status(job).isGloballyTerminalState());
+    }
+
+    /** The committed records of a topic, as soon as there are so many. */
+    List<ConsumerRecord<byte[], byte[]>> awaitRecords(String topic, int atLeast) {
+        List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
+        Map<String, Object> settings = Map.of(
+                "bootstrap.servers", kafka.bootstrapServers(),
+                "auto.offset.reset", "earliest",
+                "allow.auto.create.topics", "false",
+                "isolation.level", "read_committed");
+        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+            await().alias(topic).atMost(PATIENCE).until(() -> {
+                List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+                        .map(info -> new TopicPartition(topic, info.partition()))
+                        .toList();
+                if (partitions.isEmpty()) {
+                    return false;
+                }
+                if (consumer.assignment().size() != partitions.size()) {
+                    consumer.assign(partitions);
+                }
+                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
+                return records.size() >= atLeast;
+            });
+        }
+        return records;
+    }
+
+    static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {
+        Map<String, String> headers = new HashMap<>();
+        for (Header header : record.headers()) {
+            headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
+        }
+        return headers;
+    }
+
+    private static byte[] utf8(String text) {
+        return text.getBytes(StandardCharsets.UTF_8);
+    }
+
+    @Override
+    public void close() {
+        producer.close(Duration.ofSeconds(1));
+        admin.close(Duration.ofSeconds(1));
+        flink.close();
+        kafka.close();
+    }
+}

@@ -1,0 +1,83 @@
+package io.furrow.ingest.image;
+
+import java.nio.file.Path;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+
+import io.furrow.flink.JobCommandLine;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class ImageOptionsTest {
+    @Command(name = "job")
+    private static final class Job {
+        @Mixin
+        private ImageOptions images;
+    }
+
+    @Test
+    void leavesImagesInTheEventsUnlessToldWhereToPutThem() {
+        assertThat(parsed().settings()).isEmpty();
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "hdfs://namenode:8020/images/, hdfs://namenode:8020/images",
+        "s3://bucket, s3://bucket",
+        "s3://bucket/a/b, s3://bucket/a/b",
+        "file:///data/images///, file:///data/images",
+        "/data/images, file:///data/images",
+        "/, file:///"
+    })
+    void takesAFolderOnAnyFileSystem(String given, String root) {
+        assertThat(parsed("--images", given).settings().orElseThrow().root()).isEqualTo(root);
+    }
+
+    @Test
+    void takesARelativeFolderFromWhereItRuns() {
+        assertThat(parsed("--images", "images").settings().orElseThrow().root())
+                .isEqualTo("file://" + Path.of("images").toAbsolutePath());
+    }
+
+    @Test
+    void takesSeveralAttributes() {
+        assertThat(parsed("--images", "/x").settings().orElseThrow().attributes())
+                .containsExactly("Image");
+        assertThat(parsed("--images", "/x", "--image-attribute", "Left,Right")
+                        .settings()
+                        .orElseThrow()
+                        .attributes())
+                .containsExactly("Left", "Right");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+                    --images=s3://bucket/a b                  | is no URI
+                    --images=s3://bucket/a?x=1                | is no folder
+                    --images=mailto:a@b                       | is no folder
+                    --images=/x --image-max-bytes=0           | --image-max-bytes 0 lets no image pass
+                    --images=/x --image-threads=0             | --image-threads 0 writes nothing
+                    --images=/x --image-in-flight=0           | --image-in-flight 0 lets nothing pass
+                    --images=/x --image-attribute=Left,,Right | --image-attribute has an empty name
+                    """)
+    void refusesAWrongSettingWithARemedy(String args, String message) {
+        ImageOptions options = parsed(args.split(" (?=--)"));
+
+        assertThatThrownBy(options::settings)
+                .isInstanceOf(CommandLine.ParameterException.class)
+                .hasMessageContaining(message)
+                .hasMessageContaining(";");
+    }
+
+    private static ImageOptions parsed(String... args) {
+        Job job = new Job();
+        JobCommandLine.of(job).parseArgs(args);
+        return job.images;
+    }
+}

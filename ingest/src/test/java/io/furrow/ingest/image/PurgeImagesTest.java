@@ -1,0 +1,104 @@
+package io.furrow.ingest.image;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.attribute.FileTime;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+
+import io.furrow.flink.JobCommandLine;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class PurgeImagesTest {
+    private static final long NOW = System.currentTimeMillis();
+
+    @TempDir
+    Path folder;
+
+    private String young;
+
+    @BeforeEach
+    void storeImages() throws Exception {
+        store("old", NOW - Duration.ofDays(31).toMillis(), 1);
+        store("old", NOW - Duration.ofDays(31).toMillis(), 2);
+        store("both", NOW - Duration.ofDays(31).toMillis(), 3);
+        young = store("both", NOW - Duration.ofDays(29).toMillis(), 4);
+        write("north/notes.txt", Instant.EPOCH);
+        write("north/both/m_99999999999999999.png", Instant.EPOCH);
+        write("north/m/.unfinished-1", Instant.EPOCH);
+        write("north/m/.unfinished-2", Instant.ofEpochMilli(NOW));
+    }
+
+    @Test
+    void deletesWhatIsOldAndEmptyFoldersAndNothingElse() throws Exception {
+        assertThat(run("--older-than", "30d")).startsWith("Deleted 4 files").contains("kept 4");
+
+        assertThat(everything())
+                .containsExactlyInAnyOrder(
+                        young, "north/notes.txt", "north/both/m_99999999999999999.png", "north/m/.unfinished-2");
+        assertThat(folder.resolve("north/m/old")).doesNotExist();
+        assertThat(run("--older-than", "30d")).startsWith("Deleted 0 files");
+    }
+
+    @Test
+    void saysWhatItWouldDo() throws Exception {
+        List<String> before = everything();
+
+        assertThat(run("--older-than", "30d", "--dry-run")).startsWith("Would delete 4 files");
+
+        assertThat(everything()).isEqualTo(before);
+    }
+
+    @Test
+    void refusesAFolderThatIsNotThereAndAnAgeThatIsNone() {
+        assertThat(said(folder.resolve("none").toString(), "--older-than", "30d"))
+                .contains("none is not there; name the folder of --images");
+        assertThat(said(folder.toString(), "--older-than", "0s")).contains("--older-than must be positive");
+    }
+
+    private String store(String entity, long time, int seed) throws Exception {
+        Image image = Image.of(Pictures.base64(Pictures.png(seed)).getBytes(StandardCharsets.US_ASCII), 1_000_000);
+        String url = ImageFiles.in("file://" + folder)
+                .store(ImageName.of("north", "m", entity, time), image)
+                .url();
+        return folder.relativize(Path.of(java.net.URI.create(url))).toString();
+    }
+
+    private void write(String name, Instant modified) throws IOException {
+        Files.createDirectories(folder.resolve(name).getParent());
+        Files.writeString(folder.resolve(name), "x");
+        Files.setLastModifiedTime(folder.resolve(name), FileTime.from(modified));
+    }
+
+    private String run(String... args) {
+        return said(Stream.concat(Stream.of(folder.toString()), Stream.of(args)).toArray(String[]::new));
+    }
+
+    private static String said(String... args) {
+        StringWriter said = new StringWriter();
+        CommandLine line = JobCommandLine.of(new PurgeImages());
+        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        line.execute(args);
+        return said.toString();
+    }
+
+    private List<String> everything() throws IOException {
+        try (Stream<Path> all = Files.walk(folder)) {
+            return all.filter(Files::isRegularFile)
+                    .map(file -> folder.relativize(file).toString())
+                    .toList();
+        }
+    }
+}

@@ -1,0 +1,186 @@
+package io.furrow.ingest.latest;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class MergeLatestTest {
+    private static final Duration KEPT = Duration.ofMillis(1000);
+
+    private KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, TopicRecord> operator;
+
+    @BeforeEach
+    void open() throws Exception {
+        create(LatestKey.ID);
+        operator.open();
+    }
+
+    @AfterEach
+    void close() throws Exception {
+        operator.close();
+    }
+
+    @Test
+    void mergesAttributeByAttribute() throws Exception {
+        report(100, robot().number("speed", 1).number("fuel", 50));
+        report(200, robot().number("speed", 2));
+
+        assertThat(values()).containsExactly("""
+                {"id":"robot","type":"Robot","fuel":{"type":"Float","value":50.0,"metadata":{}},"speed":{"type":"Float",\
+                "value":1.0,"metadata":{}}}""", """
+                {"id":"robot","type":"Robot","fuel":{"type":"Float","value":50.0,"metadata":{}},"speed":{"type":"Float",\
+                "value":2.0,"metadata":{}}}""");
+    }
+
+    @Test
+    void neverGoesBackInEventTime() throws Exception {
+        report(200, robot().number("speed", 2));
+        report(100, robot().number("speed", 1));
+        report(150, robot().number("speed", 1).number("fuel", 50));
+
+        assertThat(operator.extractOutputValues())
+                .as("the event of 100 brings nothing new")
+                .hasSize(2);
+        Entity newest = Entity.parse(last().value());
+        assertThat(newest.number("speed")).contains(2.0);
+        assertThat(newest.number("fuel")).contains(50.0);
+        assertThat(last().timestamp()).isEqualTo(200);
+        assertThat(last().headers())
+                .containsEntry(HeaderNames.TS_DEVICE, "200")
+                .containsEntry(HeaderNames.CE_TIME, "1970-01-01T00:00:00.200Z")
+                .containsEntry(HeaderNames.CE_ID, "e150");
+    }
+
+    @Test
+    void takesTheLaterToComeOfTwoOfOneTime() throws Exception {
+        report(100, robot().number("speed", 1));
+        report(100, robot().number("speed", 2));
+
+        assertThat(Entity.parse(last().value()).number("speed")).contains(2.0);
+    }
+
+    @Test
+    void keepsANumberDigitForDigitAndATextSignForSign() throws Exception {
+        String reported =
+                "{\"id\":\"robot\",\"type\":\"Robot\",\"a \\\"quote\":{\"type\":\"Number\",\"value\":1.10,\"metadata\":{}},"
+                        + "\"n\":{\"type\":\"Number\",\"value\":123456789012345678901234567890,\"metadata\":{}},"
+                        + "\"t\":{\"type\":\"Text\",\"value\":\"\\u0000 ñ 🚜\",\"metadata\":{}}}";
+        event(100, reported.getBytes(StandardCharsets.UTF_8));
+
+        assertThat(Entity.parse(last().value())).isEqualTo(Entity.parse(reported.getBytes(StandardCharsets.UTF_8)));
+        assertThat(values().get(0)).contains("\"value\":1.10,");
+    }
+
+    @Test
+    void endsWithTheDeletionAndLeavesNoState() throws Exception {
+        report(100, robot().number("speed", 1));
+        event(200, null);
+
+        assertThat(last().value()).isNull();
+        assertThat(last().key()).isEqualTo("robot".getBytes(StandardCharsets.UTF_8));
+        operator.processWatermark(1199);
+        assertThat(operator.numKeyedStateEntries())
+                .as("older events may still come")
+                .isEqualTo(1);
+        operator.processWatermark(1200);
+        assertThat(operator.numKeyedStateEntries()).isZero();
+        assertThat(operator.numEventTimeTimers()).isZero();
+    }
+
+    @Test
+    void isNotBroughtBackByWhatIsOlderThanItsDeletion() throws Exception {
+        report(100, robot().number("speed", 1));
+        event(200, null);
+        report(150, robot().number("speed", 1));
+        assertThat(operator.extractOutputValues()).hasSize(2);
+
+        report(201, robot().number("fuel", 50));
+
+        assertThat(Entity.parse(last().value()).value("speed"))
+                .as("what it was before")
+                .isEmpty();
+        assertThat(Entity.parse(last().value()).number("fuel")).contains(50.0);
+        operator.processWatermark(5000);
+        assertThat(operator.numKeyedStateEntries()).as("it is alive").isEqualTo(1);
+    }
+
+    @Test
+    void isNotEndedByADeletionThatIsOlderThanWhatIsKnown() throws Exception {
+        report(200, robot().number("speed", 1));
+        event(100, null);
+
+        assertThat(operator.extractOutputValues()).hasSize(1);
+    }
+
+    @Test
+    void remembersAcrossARestart() throws Exception {
+        report(200, robot().number("speed", 2));
+        OperatorSubtaskState snapshot = operator.snapshot(1, 1);
+        operator.close();
+        create(LatestKey.ID);
+        operator.initializeState(snapshot);
+        operator.open();
+
+        report(100, robot().number("speed", 1).number("fuel", 50));
+
+        assertThat(Entity.parse(last().value()).number("speed")).contains(2.0);
+        assertThat(Entity.parse(last().value()).number("fuel")).contains(50.0);
+    }
+
+    @Test
+    void isCompactedByIdentityWhereTenantsShareIds() throws Exception {
+        operator.close();
+        create(LatestKey.IDENTITY);
+        operator.open();
+        report(100, robot().number("speed", 1));
+
+        assertThat(last().key()).isEqualTo("farm|/|robot".getBytes(StandardCharsets.UTF_8));
+    }
+
+    private void create(LatestKey key) throws Exception {
+        operator = new KeyedOneInputStreamOperatorTestHarness<>(
+                new KeyedProcessOperator<>(new MergeLatest(KEPT, key)), ReportedEvent::identity, Types.STRING);
+    }
+
+    private static EntityBuilder robot() {
+        return Entity.builder("robot", "Robot");
+    }
+
+    private void report(long time, EntityBuilder entity) throws Exception {
+        event(time, entity.build().toBytes());
+    }
+
+    private void event(long time, byte[] value) throws Exception {
+        Map<String, String> headers = Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.TS_DEVICE, Long.toString(time));
+        TopicRecord record = TopicRecord.of("data.raw", time, "robot", value, headers);
+        operator.processElement(new ReportedEvent("e" + time, "farm|/|robot", "robot", "Robot", "", "", record), time);
+    }
+
+    private TopicRecord last() {
+        List<TopicRecord> written = operator.extractOutputValues();
+        return written.get(written.size() - 1);
+    }
+
+    private List<String> values() {
+        return operator.extractOutputValues().stream()
+                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .toList();
+    }
+}

@@ -1,0 +1,203 @@
+package io.furrow.ingest.mission;
+
+import java.io.ByteArrayInputStream;
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.TreeMap;
+import java.util.stream.Stream;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.model.Filters;
+import org.apache.flink.core.fs.Path;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedMongo;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class MissionArchiveTest {
+    private static final long DAY = Duration.ofDays(1).toMillis();
+
+    @TempDir
+    private java.nio.file.Path directory;
+
+    private EmbeddedMongo mongo;
+    private MongoClient client;
+    private MissionCollections collections;
+    private StoredMissions missions;
+
+    @BeforeEach
+    void start() {
+        mongo = EmbeddedMongo.start(directory.resolve("mongo"));
+        client = new MongoAccess(mongo.uri(), Duration.ofSeconds(5)).open();
+        collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
+        missions = StoredMissions.open(mongo.uri());
+    }
+
+    @AfterEach
+    void stop() {
+        missions.close();
+        client.close();
+        mongo.close();
+    }
+
+    @Test
+    void givesTheSameBytesAfterExportAndImport() throws Exception {
+        store(awkward());
+        byte[] exported = exported("m");
+
+        missions.importFrom("copy", new ByteArrayInputStream(exported), "test", ignored -> {});
+        missions.importFrom("copy", new ByteArrayInputStream(exported), "test", ignored -> {});
+
+        assertThat(new String(exported, StandardCharsets.UTF_8).lines()).hasSameSizeAs(awkward());
+        assertThat(exported("copy")).isEqualTo(exported);
+        assertThat(documents("mission_copy")).isEqualTo(documents("mission_m"));
+    }
+
+    @Test
+    void exportsInTheOrderOfEventTimeWhateverTheOrderOfArrival() throws Exception {
+        List<MissionEvent> shuffled = new ArrayList<>();
+        for (int i = 0; i < 300; i++) {
+            shuffled.add(Events.event("m", "e" + i, Events.TIME + i / 3, "{\"id\":\"t\"}"));
+        }
+        Collections.shuffle(shuffled, new Random(1));
+        store(shuffled);
+
+        List<StoredEvent> lines = new ArrayList<>();
+        for (String line : new String(exported("m"), StandardCharsets.UTF_8).split("\n")) {
+            lines.add(ArchiveLine.read(line));
+        }
+        assertThat(lines).hasSize(300).isSortedAccordingTo(EventOrder.COMPARATOR);
+    }
+
+    @Test
+    void archivesEachDayOnceAndWhatComesLaterInAFurtherFile() throws Exception {
+        Path root = new Path(directory.resolve("archive").toUri());
+        MissionArchive archive = new MissionArchive(missions, root);
+        store(List.of(at("a", 0), at("b", 1), at("c", DAY)));
+        assertThat(archive.archive("m")).isEqualTo(new MissionArchive.Outcome(2, 3, 0));
+        assertThat(archive.archive("m")).isEqualTo(new MissionArchive.Outcome(0, 0, 3));
+
+        store(List.of(at("late", 0), at("d", DAY + 1)));
+        assertThat(archive.archive("m")).isEqualTo(new MissionArchive.Outcome(2, 2, 3));
+        assertThat(files(root))
+                .containsExactly(
+                        "2023-11-14-0001.ndjson.gz",
+                        "2023-11-14-0002.ndjson.gz",
+                        "2023-11-15-0001.ndjson.gz",
+                        "2023-11-15-0002.ndjson.gz");
+    }
+
+    @Test
+    void givesBackFromTheArchiveWhatHasExpired() throws Exception {
+        Path root = new Path(directory.resolve("archive").toUri());
+        MissionArchive archive = new MissionArchive(missions, root);
+        store(List.of(at("a", 0), at("b", 1), at("c", DAY)));
+        byte[] whole = exported("m");
+        archive.archive("m");
+        collections.get("mission_m").deleteMany(Filters.eq("_id", "a"));
+
+        assertThat(archive.archive("m")).isEqualTo(new MissionArchive.Outcome(0, 0, 2));
+        MissionFiles.importFrom(missions, "m", archive.folder("m"), ignored -> {});
+
+        assertThat(exported("m")).isEqualTo(whole);
+    }
+
+    @Test
+    void writesTheSameCompressedFileAgain() throws Exception {
+        store(awkward());
+        Path file = new Path(directory.resolve("m.ndjson.gz").toUri());
+
+        MissionFiles.export(missions, "m", file, ignored -> {});
+        byte[] first = Files.readAllBytes(directory.resolve("m.ndjson.gz"));
+        MissionFiles.export(missions, "m", file, ignored -> {});
+
+        assertThat(Files.readAllBytes(directory.resolve("m.ndjson.gz"))).isEqualTo(first);
+        assertThat(MissionFiles.importFrom(missions, "other", file, ignored -> {}))
+                .isEqualTo(awkward().size());
+        assertThat(exported("other")).isEqualTo(exported("m"));
+    }
+
+    @Test
+    void saysWhichLineIsNoEvent() throws Exception {
+        store(List.of(at("a", 0)));
+        byte[] lines =
+                (new String(exported("m"), StandardCharsets.UTF_8) + "{\"id\":1}\n").getBytes(StandardCharsets.UTF_8);
+
+        assertThatThrownBy(() -> missions.importFrom("m", new ByteArrayInputStream(lines), "file.ndjson", n -> {}))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("file.ndjson, line 2 is no event");
+    }
+
+    private static MissionEvent at(String id, long after) {
+        return Events.event("m", id, Events.TIME + after, "{\"id\":\"t\",\"n\":{\"value\":1.50}}");
+    }
+
+    private static List<MissionEvent> awkward() {
+        return List.of(
+                Events.event(
+                        "m",
+                        "a",
+                        Events.TIME,
+                        "{\"id\":\"t\",\"n\":{\"value\":[1,1.0,1.10,1e3,5e0,12345678901234567890]}}"),
+                Events.event(
+                        "m",
+                        "b",
+                        Events.TIME,
+                        "{\"id\":\"t\",\"a.b\":{\"value\":{\"$x\":null,\"\":\"\\u2028\\u0000\"}}}"),
+                Events.event("m", "c", Events.TIME, null),
+                Events.event(
+                        "m",
+                        "d",
+                        0,
+                        "{\"id\":\"ü\",\"type\":\"T\",\"_id\":{\"value\":-0.0},\"_time\":{\"value\":true}}"),
+                Events.event(
+                        "m", "e", Events.TIME, "{\"id\":\"t\",\"n\":{\"value\":1E-300},\"m\":{\"value\":4.9E-324}}"));
+    }
+
+    private void store(List<MissionEvent> events) throws Exception {
+        List<MissionDocument> documents = new ArrayList<>();
+        for (MissionEvent event : events) {
+            documents.add(ComposeDocuments.compose(event));
+        }
+        assertThat(new BulkSender(collections, Duration.ofSeconds(5), ignored -> {}).send(documents))
+                .isEmpty();
+    }
+
+    private byte[] exported(String mission) throws IOException {
+        ByteArrayOutputStream out = new ByteArrayOutputStream();
+        missions.export(mission, out, ignored -> {});
+        return out.toByteArray();
+    }
+
+    private Map<String, String> documents(String collection) {
+        Map<String, String> documents = new TreeMap<>();
+        collections
+                .get(collection)
+                .find()
+                .forEach(it -> documents.put(it.getString("_id").getValue(), it.toJson()));
+        return documents;
+    }
+
+    private List<String> files(Path root) throws IOException {
+        try (Stream<java.nio.file.Path> all = Files.walk(java.nio.file.Path.of(root.toUri()))) {
+            return all.filter(Files::isRegularFile)
+                    .map(it -> it.getFileName().toString())
+                    .sorted()
+                    .toList();
+        }
+    }
+}

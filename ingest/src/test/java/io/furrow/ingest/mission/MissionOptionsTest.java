@@ -1,0 +1,71 @@
+package io.furrow.ingest.mission;
+
+import java.time.Duration;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+import picocli.CommandLine;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.ParameterException;
+
+import io.furrow.flink.JobCommandLine;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class MissionOptionsTest {
+    @Test
+    void keepMissionsOnlyWhereAMongoIsNamed() {
+        assertThat(parsed().isOn()).isFalse();
+        assertThat(parsed("--mongo", "mongodb://127.0.0.1").isOn()).isTrue();
+    }
+
+    @Test
+    void keepDocumentsForEverUnlessTold() {
+        assertThat(parsed().retention().isForEver()).isTrue();
+        assertThat(parsed().retention().of("mission_weeding")).isEmpty();
+    }
+
+    @Test
+    void keepDocumentsOfAMissionAsLongAsThatMissionShall() {
+        Retention retention = parsed("--mission-retention", "30d", "--mission-retention", "field.7=12h")
+                .retention();
+
+        assertThat(retention.of("mission__x-field-2E7")).contains(Duration.ofHours(12));
+        assertThat(retention.of("mission_weeding")).contains(Duration.ofDays(30));
+        assertThat(retention.shortest()).contains(Duration.ofHours(12));
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"long", "5ms", "weeding=", "99999d"})
+    void refuseARetentionThatIsNone(String retention) {
+        assertThatThrownBy(() -> parsed("--mission-retention", retention).retention())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--mission-retention")
+                .hasMessageContaining("write for instance");
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"localhost:27017", "http://localhost", "mongodb://"})
+    void refuseAnAddressThatIsNone(String uri) {
+        assertThatThrownBy(() -> parsed("--mongo", uri).access())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--mongo")
+                .hasMessageContaining("mongodb://127.0.0.1:27017");
+    }
+
+    private static MissionOptions parsed(String... args) {
+        Job job = new Job();
+        CommandLine line = JobCommandLine.of(job);
+        line.parseArgs(args);
+        return job.missions;
+    }
+
+    @Command(name = "job")
+    private static final class Job {
+        @Mixin
+        private final MissionOptions missions = new MissionOptions();
+    }
+}

@@ -1,0 +1,116 @@
+package io.furrow.ingest.mission;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.model.IndexOptions;
+import com.mongodb.client.model.Indexes;
+import org.apache.flink.api.connector.sink2.SinkWriter;
+import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.DeadLetter;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class MissionWriterTest {
+    private final CollectedDeadLetters dead = new CollectedDeadLetters();
+
+    @TempDir
+    private Path directory;
+
+    private EmbeddedMongo mongo;
+    private MongoClient client;
+    private MissionCollections collections;
+    private MissionWriter writer;
+
+    @BeforeEach
+    void start() {
+        mongo = EmbeddedMongo.start(directory);
+        client = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", Duration.ZERO).open();
+        collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
+        writer = new MissionWriter(
+                new BulkSender(collections, Duration.ofMillis(100), ignored -> {}),
+                dead,
+                client,
+                UnregisteredMetricsGroup.createSinkWriterMetricGroup());
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        writer.close();
+        mongo.close();
+    }
+
+    @Test
+    void hasEverythingWrittenWhenACheckpointMayPass() throws Exception {
+        for (int i = 0; i < 2_345; i++) {
+            writer.write(Events.document("m", i), null);
+        }
+        writer.flush(false);
+
+        assertThat(collections.get("mission_m").countDocuments()).isEqualTo(2_345);
+        assertThat(dead.flushed).isTrue();
+    }
+
+    @Test
+    void makesADeadLetterOfWhatTheServerRefusesBeforeACheckpointMayPass() throws Exception {
+        collections
+                .prepared("mission_m")
+                .createIndex(Indexes.ascending("Temperature.value"), new IndexOptions().unique(true));
+        for (int i = 0; i < 60; i++) { // of 40 different temperatures
+            writer.write(Events.document("m", i), null);
+        }
+        writer.flush(false);
+
+        assertThat(collections.get("mission_m").countDocuments()).isEqualTo(40);
+        assertThat(dead.records).hasSize(20).allSatisfy(record -> {
+            assertThat(record.topic()).isEqualTo("data.raw.dead");
+            assertThat(record.headers())
+                    .containsEntry(DeadLetter.REASON, "refused")
+                    .containsEntry(DeadLetter.STAGE, "missions")
+                    .containsEntry(DeadLetter.SOURCE, "data.raw-0@7");
+            assertThat(new String(record.value(), StandardCharsets.UTF_8)).contains("\"Temperature\"");
+        });
+    }
+
+    @Test
+    void letsNoCheckpointPassWhileTheServerIsAway() throws Exception {
+        writer.write(Events.document("m", 1), null);
+        mongo.close();
+
+        assertThatThrownBy(() -> writer.flush(false)).hasMessageContaining("MongoDB did not take documents");
+        assertThat(dead.flushed).isFalse();
+    }
+
+    private static final class CollectedDeadLetters implements SinkWriter<TopicRecord> {
+        private final List<TopicRecord> records = new ArrayList<>();
+        private boolean flushed;
+
+        @Override
+        public void write(TopicRecord record, Context context) {
+            records.add(record);
+        }
+
+        @Override
+        public void flush(boolean endOfInput) {
+            flushed = true;
+        }
+
+        @Override
+        public void close() {
+            // nothing is open
+        }
+    }
+}

@@ -1,0 +1,197 @@
+package io.furrow.ingest.route;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
+import org.apache.flink.streaming.api.operators.co.CoBroadcastWithKeyedOperator;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
+import org.apache.flink.streaming.util.KeyedTwoInputStreamOperatorTestHarness;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** All devices are in the default scope, so that {@code |/|robot} is the identity of {@code robot}. */
+class AssignMissionTest {
+    private static final AssignMission.Rule RULE = new AssignMission.Rule(Duration.ofMillis(1000), "home", "");
+
+    private final ArrayList<TopicRecord> onTheTopic = new ArrayList<>();
+    private KeyedTwoInputStreamOperatorTestHarness<String, ReportedEvent, DeviceChange, ReportedEvent> operator;
+
+    @BeforeEach
+    void open() throws Exception {
+        create();
+        operator.open();
+    }
+
+    @AfterEach
+    void close() throws Exception {
+        operator.close();
+    }
+
+    @Test
+    void takesTheWordOfTheEventThenOfTheDevicesThenTheDefault() throws Exception {
+        broadcast(0, version("robot", "farm", "weeding", 100, 1));
+
+        report("robot", 100, "north", "mowing");
+        report("robot", 100, "", "");
+        report("robot", 99, "", "");
+        report("stranger", 100, "", "");
+        report("robot", 100, "farm", "");
+        report("robot", 100, "north", "");
+
+        assertThat(routes())
+                .containsExactly("north/mowing", "farm/weeding", "home/", "home/", "farm/weeding", "north/");
+    }
+
+    @Test
+    void assignsAnEventThatComesLateAsOfItsOwnTime() throws Exception {
+        broadcast(0, version("robot", "farm", "weeding", 100, 1));
+        broadcast(1, version("robot", "farm", "sowing", 200, 2));
+
+        report("robot", 250, "", "");
+        report("robot", 150, "", "");
+
+        assertThat(routes()).containsExactly("farm/sowing", "farm/weeding");
+    }
+
+    @Test
+    void knowsWhatIsOnTheTopicBeforeTheStreamOfDevicesHasBroughtAnything() throws Exception {
+        operator.close();
+        onTheTopic(0, version("robot", "farm", "weeding", 100, 1));
+        onTheTopic(1, version("robot", "farm", "sowing", 200, 2));
+        create();
+        operator.open();
+
+        report("robot", 250, "", "");
+        broadcast(0, version("robot", "farm", "weeding", 100, 1)); // the stream is behind what was read at the start
+        report("robot", 250, "", "");
+        broadcast(1, version("robot", "farm", "sowing", 200, 2));
+        broadcast(2, version("robot", "farm", "mowing", 240, 3));
+        report("robot", 250, "", "");
+
+        assertThat(routes()).containsExactly("farm/sowing", "farm/sowing", "farm/mowing");
+    }
+
+    @Test
+    void sendsADeletionWhereTheNewestEventWentAndForgetsTheEntity() throws Exception {
+        report("robot", 200, "farm", "sowing");
+        report("robot", 100, "farm", "weeding");
+        delete("robot", 300);
+        assertThat(operator.numKeyedStateEntries()).isZero();
+        delete("robot", 301);
+
+        assertThat(routes()).containsExactly("farm/sowing", "farm/weeding", "farm/sowing", "home/");
+    }
+
+    @Test
+    void forgetsDevicesThatEndedLongerAgoThanTheyAreKept() throws Exception {
+        broadcast(0, version("robot", "farm", "weeding", 100, 1));
+        broadcast(1, new DeviceChange("|/|robot", 1, 200, null));
+        report("robot", 150, "", "");
+        assertThat(operator.getOperator()
+                        .getOperatorStateBackend()
+                        .getBroadcastState(AssignMission.DEVICES)
+                        .contains("|/|robot"))
+                .isTrue();
+
+        broadcast(2, new DeviceChange("|/|other", 2, 1201, null));
+
+        assertThat(operator.getOperator()
+                        .getOperatorStateBackend()
+                        .getBroadcastState(AssignMission.DEVICES)
+                        .entries())
+                .isEmpty();
+        report("robot", 150, "", "");
+        assertThat(routes()).containsExactly("farm/weeding", "home/");
+    }
+
+    @Test
+    void remembersDevicesAndRoutesAcrossARestart() throws Exception {
+        broadcast(0, version("robot", "farm", "weeding", 100, 1));
+        report("robot", 200, "north", "mowing");
+        OperatorSubtaskState snapshot = operator.snapshot(1, 1);
+        operator.close();
+        onTheTopic(1, new DeviceChange("|/|robot", 1, 300, null));
+        create();
+        operator.initializeState(snapshot);
+        operator.open();
+
+        report("robot", 150, "", "");
+        report("robot", 300, "", "");
+        delete("robot", 400);
+
+        assertThat(routes())
+                .as("the end of the device came while the job was down")
+                .containsExactly("farm/weeding", "home/", "home/");
+    }
+
+    private void create() throws Exception {
+        List<TopicRecord> records = List.copyOf(onTheTopic);
+        operator = new KeyedTwoInputStreamOperatorTestHarness<>(
+                new CoBroadcastWithKeyedOperator<>(
+                        new AssignMission(new OnTheTopic(records), RULE), List.of(AssignMission.DEVICES)),
+                ReportedEvent::identity,
+                null,
+                Types.STRING);
+    }
+
+    /** Serializable in name only: the harness does not send it anywhere. */
+    private record OnTheTopic(List<TopicRecord> records) implements DevicesAtStart {
+        @Override
+        public List<TopicRecord> read() {
+            return records;
+        }
+    }
+
+    private void onTheTopic(long offset, DeviceVersion version) {
+        onTheTopic.add(new TopicRecord(Topics.DEVICES, 0, offset, 0, new byte[0], version.toBytes(), Map.of()));
+    }
+
+    private void onTheTopic(long offset, DeviceChange end) {
+        byte[] key = end.key().getBytes(StandardCharsets.UTF_8);
+        onTheTopic.add(new TopicRecord(Topics.DEVICES, 0, offset, end.time(), key, null, Map.of()));
+    }
+
+    private void broadcast(long offset, DeviceVersion version) throws Exception {
+        broadcast(offset, new DeviceChange(version.key(), offset, version.from(), version));
+    }
+
+    private void broadcast(long offset, DeviceChange change) throws Exception {
+        operator.processElement2(new StreamRecord<>(change, offset));
+    }
+
+    private void report(String id, long time, String domain, String mission) throws Exception {
+        event(id, time, domain, mission, new byte[0]);
+    }
+
+    private void delete(String id, long time) throws Exception {
+        event(id, time, "", "", null);
+    }
+
+    private void event(String id, long time, String domain, String mission, byte[] value) throws Exception {
+        TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, Map.of());
+        operator.processElement1(
+                new StreamRecord<>(new ReportedEvent("e", "|/|" + id, id, "Robot", domain, mission, record), time));
+    }
+
+    private List<String> routes() {
+        return operator.extractOutputValues().stream()
+                .map(event -> event.domain() + "/" + event.mission())
+                .toList();
+    }
+
+    private static DeviceVersion version(String id, String domain, String mission, long from, long sequence) {
+        return new DeviceVersion(id, "", "/", domain, mission, from, null, sequence, null);
+    }
+}

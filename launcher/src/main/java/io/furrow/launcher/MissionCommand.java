@@ -1,0 +1,189 @@
+package io.furrow.launcher;
+
+import java.io.IOException;
+import java.io.OutputStream;
+import java.io.PrintWriter;
+import java.io.UncheckedIOException;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.function.LongConsumer;
+
+import com.mongodb.MongoException;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.core.fs.FileSystem;
+import org.apache.flink.core.fs.Path;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.ScopeType;
+import picocli.CommandLine.Spec;
+
+import io.furrow.ingest.mission.MissionArchive;
+import io.furrow.ingest.mission.MissionFiles;
+import io.furrow.ingest.mission.StoredMissions;
+
+/** {@code ./furrow mission}. */
+@Command(
+        name = "mission",
+        description = "Lists, exports, imports and archives the missions that are kept in MongoDB.",
+        synopsisSubcommandLabel = "COMMAND")
+final class MissionCommand {
+    private static final String MISSION = "Name of the mission, as its entities have it.";
+    private static final String FILES = ", on any file system of Flink: a path, file:, hdfs:, s3: …";
+
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            scope = ScopeType.INHERIT,
+            defaultValue = "mongodb://127.0.0.1:27017",
+            description = "MongoDB. Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
+    private String mongo;
+
+    @Option(
+            names = "--file-system",
+            paramLabel = "KEY=VALUE",
+            scope = ScopeType.INHERIT,
+            description =
+                    "A setting of Flink's for file systems, for instance s3.endpoint=http://127.0.0.1:9000. May be "
+                            + "repeated.")
+    private Map<String, String> fileSystem = new LinkedHashMap<>();
+
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            scope = ScopeType.INHERIT,
+            description = "Show this text.")
+    private boolean help;
+
+    /** Something done with the missions of MongoDB. */
+    private interface Work {
+        void with(StoredMissions missions) throws IOException, InterruptedException;
+    }
+
+    @Command(name = "list", description = "Prints each mission, how many events it holds and from when to when.")
+    int list() {
+        return run(missions -> {
+            for (StoredMissions.Summary mission : missions.all()) {
+                out().printf(
+                                "%-32s %,12d events  %s … %s%n",
+                                mission.name(), mission.events(), mission.first(), mission.last());
+            }
+        });
+    }
+
+    @Command(
+            name = "export",
+            description =
+                    "Writes all events of a mission in the order of their times, one JSON object a line. The same "
+                            + "events are always the same bytes.")
+    int export(
+            @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
+            @Parameters(
+                            paramLabel = "FILE",
+                            description =
+                                    "Where to" + FILES + " Compressed where the name ends in .gz; - for the terminal.")
+                    String file) {
+        return run(missions -> {
+            known(missions, mission);
+            if (file.equals("-")) {
+                OutputStream terminal = new java.io.BufferedOutputStream(System.out);
+                missions.export(mission, terminal, ignored -> {});
+                terminal.flush();
+                return;
+            }
+            long count = MissionFiles.export(missions, mission, new Path(file), told("exported"));
+            out().printf("%,d events of %s in %s%n", count, mission, file);
+        });
+    }
+
+    @Command(
+            name = "import",
+            description =
+                    "Reads events into a mission. Those that it holds already stay once, so that a broken import can "
+                            + "be repeated.")
+    int importFrom(
+            @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
+            @Parameters(
+                            paramLabel = "FILE",
+                            description = "A file, or a folder of an archive" + FILES
+                                    + " Compressed where the name ends in .gz.")
+                    String file) {
+        return run(missions -> {
+            long count = MissionFiles.importFrom(missions, mission, new Path(file), told("imported"));
+            out().printf("%,d events of %s are now in mission %s%n", count, file, mission);
+        });
+    }
+
+    @Command(
+            name = "archive",
+            description =
+                    "Adds what an archive lacks of missions: one file per day and mission, and a further one for what "
+                            + "comes later. Nothing in an archive is changed or removed.")
+    int archive(
+            @Parameters(paramLabel = "ROOT", description = "Folder of the archive" + FILES) String root,
+            @Parameters(paramLabel = "MISSION", arity = "1..*", description = "Names of the missions.")
+                    List<String> names) {
+        return run(missions -> {
+            MissionArchive archive = new MissionArchive(missions, new Path(root));
+            for (String mission : names) {
+                known(missions, mission);
+                MissionArchive.Outcome done = archive.archive(mission);
+                out().printf(
+                                "%s: %,d events added in %d files, %,d were there, in %s%n",
+                                mission, done.added(), done.files(), done.kept(), archive.folder(mission));
+            }
+        });
+    }
+
+    private int run(Work work) {
+        FileSystem.initialize(Configuration.fromMap(fileSystem), null);
+        try (StoredMissions missions = StoredMissions.open(mongo)) {
+            work.with(missions);
+            out().flush();
+            return 0;
+        } catch (IllegalArgumentException e) {
+            throw new ParameterException(
+                    spec.commandLine(),
+                    "%s. Check --mongo %s and the file's name.".formatted(e.getMessage(), mongo),
+                    e);
+        } catch (MongoException e) {
+            return failed("MongoDB at %s: %s. Check that it runs, and --mongo.".formatted(mongo, e.getMessage()));
+        } catch (UncheckedIOException e) {
+            return failed(e.getCause().getMessage());
+        } catch (IOException e) {
+            return failed(e.getMessage());
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            return failed("interrupted");
+        }
+    }
+
+    private static void known(StoredMissions missions, String mission) throws IOException {
+        if (!missions.has(mission)) {
+            throw new IOException(
+                    "No mission named %s is kept; ./furrow mission list shows those that are.".formatted(mission));
+        }
+    }
+
+    private int failed(String message) {
+        spec.commandLine().getErr().println(message);
+        return spec.exitCodeOnExecutionException();
+    }
+
+    private LongConsumer told(String done) {
+        return count -> {
+            out().printf("\r  %,d events %s", count, done);
+            out().flush();
+        };
+    }
+
+    private PrintWriter out() {
+        return spec.commandLine().getOut();
+    }
+}

@@ -1,0 +1,87 @@
+package io.furrow.launcher.catalog;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.PartitionInfo;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** The topic {@code data.catalog}, read to its end. */
+public final class Catalog {
+    private static final Duration PATIENCE = Duration.ofSeconds(10);
+
+    private Catalog() {}
+
+    /**
+     * The newest entry of each tenant, domain, mission and type, in this order; none where the topic is not there.
+     *
+     * @throws IOException if Kafka does not answer, or the topic holds something else; the message says what to do
+     */
+    public static List<JsonNode> read(String bootstrapServers, Properties client) throws IOException {
+        Properties properties = new Properties();
+        properties.putAll(client);
+        properties.setProperty("bootstrap.servers", bootstrapServers);
+        properties.setProperty("isolation.level", "read_committed");
+        properties.setProperty("default.api.timeout.ms", Long.toString(PATIENCE.toMillis()));
+        try (KafkaConsumer<String, byte[]> consumer =
+                new KafkaConsumer<>(properties, new StringDeserializer(), new ByteArrayDeserializer())) {
+            return read(consumer);
+        } catch (KafkaException e) {
+            throw new IOException(
+                    "Kafka at %s cannot be read (%s). Check the address given with --kafka."
+                            .formatted(bootstrapServers, e.getMessage()),
+                    e);
+        }
+    }
+
+    private static List<JsonNode> read(KafkaConsumer<String, byte[]> consumer) throws IOException {
+        List<PartitionInfo> partitions = consumer.listTopics().getOrDefault(Topics.CATALOG, List.of());
+        List<TopicPartition> all = partitions.stream()
+                .map(one -> new TopicPartition(one.topic(), one.partition()))
+                .toList();
+        consumer.assign(all);
+        consumer.seekToBeginning(all);
+        Map<TopicPartition, Long> ends = consumer.endOffsets(all);
+        Map<String, byte[]> newest = new TreeMap<>();
+        while (all.stream().anyMatch(one -> consumer.position(one) < ends.get(one))) {
+            for (ConsumerRecord<String, byte[]> record : consumer.poll(Duration.ofMillis(200))) {
+                if (record.value() == null) {
+                    newest.remove(record.key());
+                } else {
+                    newest.put(record.key(), record.value());
+                }
+            }
+        }
+        List<JsonNode> entries = new ArrayList<>();
+        for (Map.Entry<String, byte[]> one : newest.entrySet()) {
+            entries.add(entry(one.getKey(), one.getValue()));
+        }
+        return entries;
+    }
+
+    private static JsonNode entry(String key, byte[] value) throws IOException {
+        try {
+            return NgsiJson.read(value);
+        } catch (UnreadableException e) {
+            throw new IOException(
+                    "%s holds something else than a catalogue at key %s. Check who else writes to it."
+                            .formatted(Topics.CATALOG, key),
+                    e);
+        }
+    }
+}

@@ -1,0 +1,2 @@
+/** The data catalogue, read and printed. */
+package io.furrow.launcher.catalog;

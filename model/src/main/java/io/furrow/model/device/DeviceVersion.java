@@ -1,0 +1,121 @@
+package io.furrow.model.device;
+
+import java.util.Objects;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * To whom a device belongs from a time on: a record of {@code service.devices}, key = {@link #key()}, value = {@link
+ * #toBytes()}. A record without a value ends the device at its record timestamp.
+ *
+ * @param id id of the entity as which the device reports
+ * @param service tenant, empty for the default one
+ * @param servicePath {@code /} for the root
+ * @param domain empty where it belongs to none
+ * @param mission empty where it is on none
+ * @param from event time from which on this holds, epoch ms
+ * @param until event time at which it ends, epoch ms; null where it holds until the next version
+ * @param sequence grows with every version of a device; a version with a smaller one is out of date
+ * @param carriedBy id of the entity that carries this one; null where none does
+ */
+public record DeviceVersion(
+        String id,
+        String service,
+        String servicePath,
+        String domain,
+        String mission,
+        long from,
+        Long until,
+        long sequence,
+        String carriedBy) {
+    public DeviceVersion {
+        Objects.requireNonNull(id);
+        Objects.requireNonNull(domain);
+        Objects.requireNonNull(mission);
+    }
+
+    /**
+     * Reads the value of a record. {@code service}, {@code servicePath}, {@code domain}, {@code mission}, {@code until} and
+     * {@code carriedBy} may be missing or null; members of other names are passed over.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     */
+    public static DeviceVersion read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        if (text(json, "id").isBlank()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "the device has no member 'id' with a text");
+        }
+        FiwareScope scope = FiwareScope.of(text(json, "service"), text(json, "servicePath"));
+        long from = number(json, "from");
+        Long until = json.hasNonNull("until") ? Long.valueOf(number(json, "until")) : null;
+        if (until != null && until < from) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'until' is before 'from'");
+        }
+        return new DeviceVersion(
+                text(json, "id"),
+                scope.service(),
+                scope.servicePath(),
+                text(json, "domain"),
+                text(json, "mission"),
+                from,
+                until,
+                number(json, "sequence"),
+                json.hasNonNull("carriedBy") ? text(json, "carriedBy") : null);
+    }
+
+    /** The record's key: tenant, service path and id, because two tenants may have devices of one id. */
+    public String key() {
+        return new FiwareScope(service, servicePath).identity(id);
+    }
+
+    /** Whether it holds at an event time in epoch ms, as far as it says itself. */
+    public boolean holdsAt(long time) {
+        return from <= time && (until == null || time < until);
+    }
+
+    /** The same, ended at a time. */
+    public DeviceVersion endingAt(long time) {
+        return new DeviceVersion(id, service, servicePath, domain, mission, from, time, sequence, carriedBy);
+    }
+
+    /** UTF-8 JSON; members without a value are left out. */
+    public byte[] toBytes() {
+        ObjectNode json = NgsiJson.mapper().createObjectNode();
+        json.put("id", id).put("service", service).put("servicePath", servicePath);
+        json.put("domain", domain).put("mission", mission).put("from", from);
+        if (until != null) {
+            json.put("until", until);
+        }
+        json.put("sequence", sequence);
+        if (carriedBy != null) {
+            json.put("carriedBy", carriedBy);
+        }
+        return NgsiJson.write(json);
+    }
+
+    private static String text(JsonNode json, String member) throws UnreadableException {
+        JsonNode value = json.path(member);
+        if (value.isMissingNode() || value.isNull()) {
+            return "";
+        }
+        if (!value.isTextual()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'" + member + "' of the device is no text");
+        }
+        return value.textValue();
+    }
+
+    private static long number(JsonNode json, String member) throws UnreadableException {
+        JsonNode value = json.path(member);
+        if (!value.isIntegralNumber() || !value.canConvertToLong() || value.longValue() < 0) {
+            throw new UnreadableException(
+                    Reason.NOT_AN_EVENT, "'" + member + "' of the device is no whole number from 0 on");
+        }
+        return value.longValue();
+    }
+}
