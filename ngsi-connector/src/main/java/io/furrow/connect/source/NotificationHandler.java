@@ -13,6 +13,7 @@ import java.util.function.Supplier;
 
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.http.HttpMethod;
+import org.eclipse.jetty.io.Content;
 import org.eclipse.jetty.io.EndPoint;
 import org.eclipse.jetty.io.EofException;
 import org.eclipse.jetty.server.Handler;
@@ -70,7 +71,7 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
         if (HttpMethod.POST.is(request.getMethod())) {
             Optional<Answer> refused = gatekeeper.refuse(request.getHeaders()::get);
             if (refused.isPresent()) {
-                write(response, refused.get(), callback);
+                refuse(request, response, refused.get(), callback);
             } else {
                 take(request, response, callback);
             }
@@ -83,6 +84,17 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
             write(response, Answer.notAllowed(), callback);
         }
         return true;
+    }
+
+    /** Reads the body first, and drops it: a sender that is still writing would find its connection closed, not the answer. */
+    private void refuse(Request request, Response response, Answer refusal, Callback callback) {
+        if (request.getLength() > limits.maxBody()) {
+            response.getHeaders().put(HttpHeader.CONNECTION, "close");
+            write(response, refusal, callback);
+        } else {
+            Content.Source.consumeAll(
+                    request, Callback.from(() -> write(response, refusal, callback), callback::failed));
+        }
     }
 
     private void take(Request request, Response response, Callback callback) {

@@ -1,8 +1,12 @@
 package io.furrow.connect.source;
 
+import java.io.IOException;
+import java.net.Socket;
 import java.net.http.HttpRequest.BodyPublisher;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CompletableFuture;
@@ -20,6 +24,7 @@ import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
 
 class SecurityTest {
     private static final BodyPublisher ENTITY = BodyPublishers.ofString("{\"id\": \"a\"}");
@@ -40,6 +45,39 @@ class SecurityTest {
             assertThat(rig.intake.taken).hasSize(2);
             assertThat(rig.ledger.received.sum()).isEqualTo(2);
         }
+    }
+
+    @Test
+    void refusesOnceTheBodyIsThereAndKeepsTheConnection() throws IOException {
+        try (ReceptionRig rig = new ReceptionRig("secret", NEW);
+                Socket socket = new Socket("127.0.0.1", rig.port())) {
+            socket.setSoTimeout((int) ReceptionRig.PATIENCE.toMillis());
+            String head = "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 11\r\n";
+            write(socket, head + "\r\n");
+            await().during(Duration.ofMillis(300))
+                    .until(() -> socket.getInputStream().available() == 0);
+            write(socket, "{\"id\": \"a\"}");
+            assertThat(statusLine(socket)).contains("401");
+
+            write(socket, head + "X-Furrow-Secret: " + NEW + "\r\n\r\n{\"id\": \"a\"}");
+
+            await().until(() -> rig.intake.taken.size() == 1);
+        }
+    }
+
+    private static void write(Socket socket, String text) throws IOException {
+        socket.getOutputStream().write(text.getBytes(StandardCharsets.US_ASCII));
+        socket.getOutputStream().flush();
+    }
+
+    private static String statusLine(Socket socket) throws IOException {
+        StringBuilder line = new StringBuilder();
+        for (int next = socket.getInputStream().read();
+                next >= 0 && next != '\n';
+                next = socket.getInputStream().read()) {
+            line.append((char) next);
+        }
+        return line.toString();
     }
 
     @Test
