@@ -60,7 +60,8 @@ class ReadmeIT {
 
     private static List<String> commands() throws IOException {
         String readme = Files.readString(Path.of("README.md"));
-        String part = readme.substring(readme.indexOf("## The first record"), readme.indexOf("## Source"));
+        int begin = readme.indexOf("## The first record");
+        String part = readme.substring(begin, readme.indexOf("\n## ", begin));
         return COMMAND.matcher(part)
                 .results()
                 .map((MatchResult match) -> match.group(1))
