@@ -44,7 +44,7 @@ public final class EmbeddedKafka implements AutoCloseable {
      */
     public static EmbeddedKafka start(Path directory, int port) {
         int brokerPort = FreePort.orFree(port);
-        Map<String, Object> settings = settings(directory, brokerPort, FreePort.orFree(0));
+        Map<String, Object> settings = settings(directory, brokerPort, FreePort.otherThan(brokerPort));
         format(directory);
         KafkaRaftServer server = new KafkaRaftServer(new KafkaConfig(asProperties(settings)), Time.SYSTEM);
         server.startup();

@@ -9,6 +9,15 @@ import java.net.ServerSocket;
 public final class FreePort {
     private FreePort() {}
 
+    /** A free port that differs from one that is spoken for but not listened on yet. */
+    static int otherThan(int taken) {
+        int port = orFree(0);
+        while (port == taken) {
+            port = orFree(0);
+        }
+        return port;
+    }
+
     /** The port itself, or a free one where it is 0. */
     public static int orFree(int port) {
         if (port != 0) {
