@@ -104,6 +104,23 @@ class CatalogEntryTest {
         assertThat(entry.events()).isEqualTo(1_201);
     }
 
+    @Test
+    void namesTheNewestTypeAndUnitOfAnAttribute() throws Exception {
+        CatalogEntry celsius = CatalogEntry.of(Reports.thermometer("t1", "m", T + 1, 20));
+        CatalogEntry fahrenheit = CatalogEntry.of(
+                Reports.of(
+                        "t1",
+                        "m",
+                        T,
+                        "{\"id\":\"t1\",\"Temperature\":{\"type\":\"Number\",\"value\":68,\"metadata\":{\"unitCode\":{\"value\":\"FAH\"}}}}"));
+
+        for (CatalogEntry both : List.of(celsius.plus(fahrenheit), fahrenheit.plus(celsius))) {
+            AttributeProfile temperature = both.attributes().get("Temperature");
+            assertThat(temperature.type()).isEqualTo("Float");
+            assertThat(temperature.unit()).isEqualTo("CEL");
+        }
+    }
+
     private static CatalogEntry sum(List<CatalogEntry> entries) {
         return entries.stream().reduce(CatalogEntry::plus).orElseThrow();
     }

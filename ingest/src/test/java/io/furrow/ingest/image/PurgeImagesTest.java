@@ -43,7 +43,8 @@ class PurgeImagesTest {
 
     @Test
     void deletesWhatIsOldAndEmptyFoldersAndNothingElse() throws Exception {
-        assertThat(run("--older-than", "30d")).startsWith("Deleted 4 files").contains("kept 4");
+        long bytes = Pictures.png(1).length + Pictures.png(2).length + Pictures.png(3).length + 1L;
+        assertThat(run("--older-than", "30d")).isEqualTo(String.format("Deleted 4 files, %d bytes; kept 4.%n", bytes));
 
         assertThat(everything())
                 .containsExactlyInAnyOrder(
