@@ -52,7 +52,7 @@ fetch() {
     wait "$pip" || { tail -n 3 "$log" >&2; rm -rf "$folder"; fail "Flink could not be fetched. Set FLINK_HOME to a Flink $flink_version."; }
 }
 
-# Starts a job manager and a task manager below $run; sets rest.
+# start_flink [SETTING…]: a job manager and a task manager below $run; sets rest. A setting is a line of config.yaml.
 start_flink() {
     local port rpc opens
     free_port && rest=http://127.0.0.1:$port
@@ -76,13 +76,20 @@ taskmanager.numberOfTaskSlots: 6
 io.tmp.dirs: $run/flink-tmp
 execution.checkpointing.dir: file://$run/checkpoints
 YAML
+    (($# == 0)) || printf '%s\n' "$@" >>"$run/flink-conf/config.yaml"
     export FLINK_CONF_DIR=$run/flink-conf FLINK_PID_DIR=$run FLINK_LOG_DIR=$logs
     mkdir -p "$run/flink-tmp"
     "$FLINK_HOME/bin/jobmanager.sh" start-foreground >"$logs/jobmanager.out" 2>&1 &
     own $!
-    "$FLINK_HOME/bin/taskmanager.sh" start-foreground >"$logs/taskmanager.out" 2>&1 &
-    own $!
+    start_task_manager
     until_true 90 "A task manager of the Flink cluster at $rest" has_slots
+}
+
+# Sets task_manager to its process: the scripts become it.
+start_task_manager() {
+    "$FLINK_HOME/bin/taskmanager.sh" start-foreground >>"$logs/taskmanager.out" 2>&1 &
+    task_manager=$!
+    own "$task_manager"
 }
 
 has_slots() { curl -fs "$rest/overview" | grep -q '"slots-total":[1-9]'; }

@@ -1,0 +1,144 @@
+package io.furrow.soak.ingest;
+
+import java.awt.image.BufferedImage;
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.util.Base64;
+import java.util.List;
+import java.util.Random;
+import java.util.stream.Stream;
+import javax.imageio.ImageIO;
+import javax.imageio.stream.MemoryCacheImageOutputStream;
+
+import org.apache.kafka.clients.producer.ProducerRecord;
+
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Numbered records of {@code data.raw}, the same number, the same record: thermometers, robots that name no mission and change
+ * it on the way, cameras, and among them repeats, deletions, late events and what becomes dead letters.
+ */
+final class FarmLoad {
+    static final int PARTITIONS = 4;
+    static final String DOMAIN = "farm";
+
+    private static final long TIME = 1_700_000_000_000L;
+    private static final long ROBOTS_CHANGE = TIME + 4_000;
+    private static final List<String> ROBOTS = List.of("robot-6", "robot-7", "robot-16", "robot-17");
+
+    private FarmLoad() {}
+
+    /** What {@code service.devices} says of the robots, from the beginning. */
+    static Stream<DeviceVersion> devices() {
+        return ROBOTS.stream()
+                .flatMap(robot -> Stream.of(
+                        new DeviceVersion(robot, "farm", "/", DOMAIN, "weeding", 0, null, 1, null),
+                        new DeviceVersion(robot, "farm", "/", DOMAIN, "spraying", ROBOTS_CHANGE, null, 2, null)));
+    }
+
+    static ProducerRecord<byte[], byte[]> record(int number) {
+        if (number % 50 == 49) {
+            return record(number - 7); // a repeat: the same event id
+        }
+        long time = TIME + number - (number % 37 == 36 ? 700 : 0);
+        String thermometer = "thermometer-" + number % 36;
+        if (number % 97 == 96) {
+            return record(number, null, time, thermometer, "{\"id\":\"" + thermometer);
+        }
+        if (number % 211 == 210) {
+            return record(number, null, time, thermometer, null);
+        }
+        return switch (number % 10) {
+            case 6, 7 -> report(number, time, "robot-" + number % 20, "");
+            case 8 -> report(number, time, "camera-" + number % 40, belonging(number) + "," + image(number));
+            case 9 -> report(number, time, "stray-" + number % 30, ""); // of no domain
+            default -> report(number, time, thermometer, belonging(number) + "," + oddity(number));
+        };
+    }
+
+    /** The last record of a partition, whose event shows that all before it have been read. */
+    static ProducerRecord<byte[], byte[]> closing(int partition, int number) {
+        String id = "closing-" + partition;
+        return record(number + partition, partition, TIME + number, id, entity(id, number, belonging(number)));
+    }
+
+    static boolean isClosing(byte[] key) {
+        return new String(key, StandardCharsets.UTF_8).startsWith("closing-");
+    }
+
+    private static String belonging(int number) {
+        return attribute("Domain", "\"" + DOMAIN + "\"") + ","
+                + attribute("Mission", number % 3 == 0 ? "\"weeding\"" : "\"sowing\"");
+    }
+
+    /** Every 101st camera's image is none. */
+    private static String image(int number) {
+        return attribute(
+                "Image",
+                '"'
+                        + (number % 101 == 100
+                                ? "bm8gaW1hZ2U="
+                                : Base64.getEncoder().encodeToString(png(number)))
+                        + '"');
+    }
+
+    /** Some have a number that no document of MongoDB can hold. */
+    private static String oddity(int number) {
+        return attribute("Odd" + number % 5, number % 83 == 82 ? "1234567890".repeat(4) : Integer.toString(number));
+    }
+
+    private static byte[] png(int number) {
+        BufferedImage image = new BufferedImage(24, 16, BufferedImage.TYPE_INT_RGB);
+        Random random = new Random(number);
+        for (int i = 0; i < 24 * 16; i++) {
+            image.setRGB(i % 24, i / 24, random.nextInt(1 << 24));
+        }
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+        try (MemoryCacheImageOutputStream out = new MemoryCacheImageOutputStream(bytes)) {
+            ImageIO.write(image, "png", out);
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+        return bytes.toByteArray();
+    }
+
+    private static ProducerRecord<byte[], byte[]> report(int number, long time, String id, String attributes) {
+        return record(number, null, time, id, entity(id, number, attributes));
+    }
+
+    private static String entity(String id, int number, String attributes) {
+        return "{\"id\":\"%s\",\"type\":\"%s\",%s%s}"
+                .formatted(
+                        id,
+                        id.substring(0, id.indexOf('-')),
+                        attribute("Number", Integer.toString(number)),
+                        attributes.isEmpty() ? "" : "," + attributes);
+    }
+
+    private static String attribute(String name, String value) {
+        return "\"" + name + "\":{\"type\":\"X\",\"value\":" + value + ",\"metadata\":{}}";
+    }
+
+    private static ProducerRecord<byte[], byte[]> record(
+            int number, Integer partition, long time, String key, String value) {
+        ProducerRecord<byte[], byte[]> record =
+                new ProducerRecord<>(Topics.RAW, partition, time, utf8(key), value == null ? null : utf8(value));
+        record.headers()
+                .add(HeaderNames.CE_ID, utf8("event-" + number))
+                .add(HeaderNames.CE_TIME, utf8(Instant.ofEpochMilli(time).toString()))
+                .add(HeaderNames.SERVICE, utf8("farm"))
+                .add(HeaderNames.SERVICE_PATH, utf8("/"))
+                .add(HeaderNames.TS_DEVICE, utf8(Long.toString(time)))
+                .add(HeaderNames.TS_SOURCE, utf8(Long.toString(time + 5)));
+        return record;
+    }
+
+    static byte[] utf8(String text) {
+        return text.getBytes(StandardCharsets.UTF_8);
+    }
+}

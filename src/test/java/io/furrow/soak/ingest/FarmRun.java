@@ -1,0 +1,152 @@
+package io.furrow.soak.ingest;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.core.execution.RecoveryClaimMode;
+import org.apache.flink.core.execution.SavepointFormatType;
+import org.apache.flink.runtime.checkpoint.CheckpointStatsCounts;
+import org.apache.flink.runtime.execution.ExecutionState;
+import org.apache.flink.runtime.executiongraph.AccessExecutionGraph;
+import org.apache.flink.runtime.executiongraph.AccessExecutionVertex;
+import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
+import org.apache.flink.streaming.api.graph.StreamGraph;
+
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.flink.JobCommandLine;
+import io.furrow.ingest.IngestJob;
+import io.furrow.ingest.IngestOptions;
+
+import static org.awaitility.Awaitility.await;
+
+/** The job {@code ingest}, exactly-once, with missions and images, on a broker and a cluster in this JVM, under load. */
+final class FarmRun implements AutoCloseable {
+    private static final int SLOTS = 3;
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+
+    private final Path folder;
+    private final EmbeddedKafka kafka;
+    private final EmbeddedMongo mongo;
+    private final EmbeddedFlink flink;
+    private final LoadWriter load;
+    private CompletableFuture<Integer> writing;
+    private JobID job;
+    private int taskManagers;
+
+    private FarmRun(Path folder) {
+        this.folder = folder;
+        this.kafka = EmbeddedKafka.start(folder.resolve("kafka"));
+        this.mongo = EmbeddedMongo.start(folder.resolve("mongo"));
+        this.flink = EmbeddedFlink.start(SLOTS, 0);
+        this.load = new LoadWriter(kafka.bootstrapServers());
+    }
+
+    /** Starts servers and load; the job is to be started. */
+    static FarmRun start(Path folder, int records, int perSecond) throws Exception {
+        FarmRun run = new FarmRun(folder);
+        run.load.makeTopics();
+        run.writing = CompletableFuture.supplyAsync(() -> run.load.write(perSecond, number -> number < records));
+        return run;
+    }
+
+    /** @param savepoint null to begin from nothing */
+    void startJob(int parallelism, String savepoint) {
+        IngestOptions options = new IngestOptions();
+        String[] args = {
+            "--delivery=exactly-once",
+            "--bootstrap-servers=" + kafka.bootstrapServers(),
+            "--mongo=" + mongo.uri(),
+            "--images=" + images().toUri(),
+            "--checkpoint-interval=300ms",
+            "--restart-delay=50ms",
+            "--topic-retention=36500d",
+            "--parallelism=" + parallelism
+        };
+        JobCommandLine.of(options).parseArgs(args);
+        StreamGraph graph = IngestJob.assemble(options).getStreamGraph();
+        if (savepoint != null) {
+            graph.setSavepointRestoreSettings(
+                    SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
+        }
+        job = flink.submit(graph);
+    }
+
+    void awaitWritten(int records) {
+        await().atMost(PATIENCE).until(() -> load.written() >= records);
+    }
+
+    /** Returns when one more checkpoint is complete than were at the call. */
+    void awaitCheckpoint() throws Exception {
+        long before = checkpoints().getNumberOfCompletedCheckpoints();
+        await().atMost(PATIENCE).until(() -> checkpoints().getNumberOfCompletedCheckpoints() > before);
+    }
+
+    /** How often the job went on from a checkpoint. */
+    long restored() throws Exception {
+        return checkpoints().getNumberOfRestoredCheckpoints();
+    }
+
+    private CheckpointStatsCounts checkpoints() throws Exception {
+        return graph().getCheckpointStatsSnapshot().getCounts();
+    }
+
+    private AccessExecutionGraph graph() throws Exception {
+        return flink.cluster().getExecutionGraph(job).get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+    }
+
+    private boolean isRunning() throws Exception {
+        for (AccessExecutionVertex subtask : graph().getAllExecutionVertices()) {
+            if (subtask.getExecutionState() != ExecutionState.RUNNING) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /** Ends the one there is, with all that it holds, and starts another. */
+    void replaceTaskManager() throws Exception {
+        flink.cluster().terminateTaskManager(taskManagers++).get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+        flink.cluster().startTaskManager();
+    }
+
+    /** Where the savepoint is with which the job ended. */
+    String stopJob() throws Exception {
+        return stopJob(false);
+    }
+
+    /** @param drained whether event time goes to its end first, so that nothing waits for it any more */
+    private String stopJob(boolean drained) throws Exception {
+        await().atMost(PATIENCE).until(this::isRunning);
+        String savepoint = flink.cluster()
+                .stopWithSavepoint(
+                        job, folder.resolve("savepoints").toUri().toString(), drained, SavepointFormatType.CANONICAL)
+                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+        await().atMost(PATIENCE).until(() -> flink.status(job).isGloballyTerminalState());
+        return savepoint;
+    }
+
+    /** What there is when all has come out and the job has ended. */
+    Outcome outcome() throws Exception {
+        writing.get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+        load.awaitOutput(PATIENCE);
+        stopJob(true);
+        return Outcome.of(kafka.bootstrapServers(), mongo.uri(), images());
+    }
+
+    private Path images() {
+        return folder.resolve("images");
+    }
+
+    @Override
+    public void close() throws IOException {
+        flink.close();
+        mongo.close();
+        kafka.close();
+    }
+}
