@@ -18,7 +18,8 @@ usage() {
 Usage: ./furrow soak bad-records [OPTION VALUE]…
 Writes good events, half of them native notifications, half records of data.raw, and among them bad records of the kinds of
 src/test/resources/io/furrow/soak/bad-records.txt, to a Kafka of its own, and runs normalise and ingest on a Flink of its
-own, all in one JVM. Then every good event must have come out once, and every bad record be a dead letter with its reason.
+own, all in one JVM. Then every good event must have come out once, and every bad record be a dead letter with its reason;
+brought back to their topics, all must become the same dead letters again.
 
   --good N  Good events. Default: $good.
   --bad N   Bad records. Default: $bad.

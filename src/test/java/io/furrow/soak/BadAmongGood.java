@@ -1,5 +1,6 @@
 package io.furrow.soak;
 
+import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -11,6 +12,8 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Properties;
+import java.util.Set;
 import java.util.TreeMap;
 
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
@@ -33,6 +36,7 @@ import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.ingest.normalise.NormaliseJob;
 import io.furrow.ingest.normalise.NormaliseOptions;
+import io.furrow.launcher.dead.Refeed;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;
 
@@ -88,6 +92,7 @@ public final class BadAmongGood implements AutoCloseable {
             run.write(good, bad);
             System.out.printf("wrote %d good and %d bad records of %d kinds%n", good, bad, run.kinds.size());
             faults = run.faults(good, bad, Duration.ofMinutes(20));
+            faults.addAll(run.faultsAfterRefeeding(good, bad, Duration.ofMinutes(5)));
         } finally {
             try (var files = Files.walk(directory)) {
                 files.sorted(java.util.Comparator.reverseOrder())
@@ -176,16 +181,46 @@ public final class BadAmongGood implements AutoCloseable {
             faults.add("of " + good + " good events " + (good - seen.cardinality()) + " did not come out, " + repeated
                     + " came out more than once");
         }
-        faults.addAll(wrongLetters(bad, until));
+        faults.addAll(wrongLetters(bad, 1, until));
         return faults;
     }
 
-    private List<String> wrongLetters(int bad, long until) {
+    /** Brings the letters back. Nothing has been repaired: each must become the same letter again, and no good event come twice. */
+    List<String> faultsAfterRefeeding(int good, int bad, Duration patience) throws IOException {
+        long until = System.nanoTime() + patience.toNanos();
+        Properties kafkaProperties = new Properties();
+        kafkaProperties.putAll(client());
+        List<String> faults = new ArrayList<>();
+        long fed = 0;
+        for (String topic : DEAD) {
+            String origin = Topics.ofDeadLetters(topic).orElseThrow();
+            fed += new Refeed(kafkaProperties, new Refeed.Wish(topic, origin, Set.of(), false, false))
+                    .run()
+                    .total();
+        }
+        System.out.printf("%d dead letters were brought back%n", fed);
+        if (fed != bad) {
+            faults.add(fed + " dead letters were brought back instead of " + bad);
+        }
+        faults.addAll(wrongLetters(bad, 2, until));
+        try (var consumer = consumer(List.of(OUT))) {
+            long out = consumer.endOffsets(consumer.assignment()).values().stream()
+                    .mapToLong(Long::longValue)
+                    .sum();
+            if (out != good) {
+                faults.add(out + " records are out instead of " + good);
+            }
+        }
+        return faults;
+    }
+
+    /** @param times how often each bad record should have become a letter */
+    private List<String> wrongLetters(int bad, int times, long until) {
         Map<String, Integer> letters = new TreeMap<>();
         List<String> faults = new ArrayList<>();
         int read = 0;
         try (var consumer = consumer(DEAD)) {
-            while (read < bad && System.nanoTime() < until) {
+            while (read < bad * times && System.nanoTime() < until) {
                 for (ConsumerRecord<byte[], byte[]> letter : consumer.poll(Duration.ofMillis(500))) {
                     read++;
                     letters.merge(header(letter, KIND), 1, Integer::sum);
@@ -194,7 +229,7 @@ public final class BadAmongGood implements AutoCloseable {
             }
         }
         for (int i = 0; i < kinds.size(); i++) {
-            int wanted = bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0);
+            int wanted = times * (bad / kinds.size() + (i < bad % kinds.size() ? 1 : 0));
             int found = letters.getOrDefault(kinds.get(i).kind(), 0);
             System.out.printf(
                     "%6d %-16s %s%n", found, kinds.get(i).reason(), kinds.get(i).kind());

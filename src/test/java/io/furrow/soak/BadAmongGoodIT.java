@@ -16,12 +16,14 @@ class BadAmongGoodIT {
     Path directory;
 
     @Test
-    void setsAsideEveryBadRecordWithItsReasonAndPassesEveryGoodOne() throws Exception {
+    void setsAsideEveryBadRecordWithItsReasonPassesEveryGoodOneAndTakesTheBadOnesBack() throws Exception {
         assertThat(BadRecord.all()).hasSizeGreaterThanOrEqualTo(20);
         try (BadAmongGood run = BadAmongGood.start(directory)) {
             run.write(10_000, 240);
 
             assertThat(run.faults(10_000, 240, Duration.ofSeconds(90))).isEmpty();
+            assertThat(run.faultsAfterRefeeding(10_000, 240, Duration.ofSeconds(60)))
+                    .isEmpty();
         }
     }
 }

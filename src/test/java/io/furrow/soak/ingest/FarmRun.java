@@ -7,6 +7,7 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.JobID;
+import org.apache.flink.api.common.JobStatus;
 import org.apache.flink.core.execution.RecoveryClaimMode;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.checkpoint.CheckpointStatsCounts;
@@ -75,6 +76,8 @@ final class FarmRun implements AutoCloseable {
                     SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
         }
         job = flink.submit(graph);
+        // Of a job that is being initialized nothing else is told.
+        await().atMost(PATIENCE).until(() -> flink.status(job) != JobStatus.INITIALIZING);
     }
 
     void awaitWritten(int records) {
