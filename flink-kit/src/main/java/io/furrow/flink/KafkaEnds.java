@@ -9,10 +9,12 @@ import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.connector.base.DeliveryGuarantee;
+import org.apache.flink.connector.kafka.sink.KafkaRecordSerializationSchema;
 import org.apache.flink.connector.kafka.sink.KafkaSink;
 import org.apache.flink.connector.kafka.source.KafkaSource;
 import org.apache.flink.connector.kafka.source.KafkaSourceBuilder;
 import org.apache.flink.connector.kafka.source.enumerator.initializer.OffsetsInitializer;
+import org.apache.flink.connector.kafka.source.reader.deserializer.KafkaRecordDeserializationSchema;
 import org.apache.kafka.clients.consumer.OffsetResetStrategy;
 
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
@@ -27,9 +29,14 @@ public final class KafkaEnds {
      * Reads the job's input from where the group {@code furrow-<job>} left off, else from the beginning; only committed
      * records. Record timestamps are the event times.
      */
-    @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
     public static KafkaSource<TopicRecord> source(JobOptions options) {
-        return source(options, "furrow-" + options.jobName())
+        return source(options, new TopicRecordFormat());
+    }
+
+    /** The same for records in another form. */
+    @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
+    public static <T> KafkaSource<T> source(JobOptions options, KafkaRecordDeserializationSchema<T> form) {
+        return source(options, form, "furrow-" + options.jobName())
                 .setTopics(options.input())
                 .setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
                 .build();
@@ -37,37 +44,43 @@ public final class KafkaEnds {
 
     /** Reads a topic from its beginning and all that comes; a topic that is not there yet is awaited. */
     public static KafkaSource<TopicRecord> wholeTopic(JobOptions options, String topic) {
-        return source(options, "furrow-" + options.jobName() + "-" + topic)
+        return source(options, new TopicRecordFormat(), "furrow-" + options.jobName() + "-" + topic)
                 .setTopicPattern(Pattern.compile(Pattern.quote(topic)))
                 .setStartingOffsets(OffsetsInitializer.earliest())
                 .build();
     }
 
-    private static KafkaSourceBuilder<TopicRecord> source(JobOptions options, String group) {
+    private static <T> KafkaSourceBuilder<T> source(
+            JobOptions options, KafkaRecordDeserializationSchema<T> form, String group) {
         Properties properties = options.kafkaProperties();
         properties.setProperty("isolation.level", "read_committed");
         properties.setProperty("partition.discovery.interval.ms", "10000");
-        return KafkaSource.<TopicRecord>builder()
+        return KafkaSource.<T>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setGroupId(group)
                 .setClientIdPrefix(group)
                 .setProperties(properties)
-                .setDeserializer(new TopicRecordFormat());
+                .setDeserializer(form);
     }
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> sink(JobOptions options) {
-        return sinkOf(options, "furrow-" + options.jobName(), guarantee(options));
+        return sinkOf(options, new TopicRecordFormat(), "furrow-" + options.jobName(), guarantee(options));
     }
 
     /** The same for one of several sinks of a job, told apart by name: their transactions are. */
     static KafkaSink<TopicRecord> sink(JobOptions options, String name) {
-        return sinkOf(options, "furrow-" + options.jobName() + "-" + name, guarantee(options));
+        return sink(options, name, new TopicRecordFormat());
+    }
+
+    /** The same for records in another form. */
+    public static <T> KafkaSink<T> sink(JobOptions options, String name, KafkaRecordSerializationSchema<T> form) {
+        return sinkOf(options, form, "furrow-" + options.jobName() + "-" + name, guarantee(options));
     }
 
     /** The same without transactions, for the dead letters of a sink: a writer of it can work inside another sink's. */
     public static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
-        return sinkOf(options, "furrow-" + options.jobName(), DeliveryGuarantee.AT_LEAST_ONCE);
+        return sinkOf(options, new TopicRecordFormat(), "furrow-" + options.jobName(), DeliveryGuarantee.AT_LEAST_ONCE);
     }
 
     private static DeliveryGuarantee guarantee(JobOptions options) {
@@ -77,13 +90,17 @@ public final class KafkaEnds {
         };
     }
 
-    private static KafkaSink<TopicRecord> sinkOf(JobOptions options, String transactions, DeliveryGuarantee guarantee) {
-        return KafkaSink.<TopicRecord>builder()
+    private static <T> KafkaSink<T> sinkOf(
+            JobOptions options,
+            KafkaRecordSerializationSchema<T> form,
+            String transactions,
+            DeliveryGuarantee guarantee) {
+        return KafkaSink.<T>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setKafkaProducerConfig(producerProperties(options))
                 .setDeliveryGuarantee(guarantee)
                 .setTransactionalIdPrefix(transactions)
-                .setRecordSerializer(new TopicRecordFormat())
+                .setRecordSerializer(form)
                 .build();
     }
 

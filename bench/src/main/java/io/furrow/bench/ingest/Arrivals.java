@@ -1,0 +1,66 @@
+package io.furrow.bench.ingest;
+
+import java.lang.management.ManagementFactory;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.sun.management.OperatingSystemMXBean;
+
+/** How many records could be read at which time, and what processor time this JVM had used by then. */
+final class Arrivals {
+    private static final double FROM = 0.1;
+    private static final double TO = 0.9;
+
+    private static final OperatingSystemMXBean SYSTEM =
+            (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
+
+    private final long expected;
+    private final List<Look> looks = new ArrayList<>();
+
+    /** @param expected how many there will be */
+    Arrivals(long expected) {
+        this.expected = expected;
+    }
+
+    private record Look(long nanos, long processorNanos, long records) {}
+
+    void add(long records) {
+        add(System.nanoTime(), SYSTEM.getProcessCpuTime(), records);
+    }
+
+    void add(long nanos, long processorNanos, long records) {
+        looks.add(new Look(nanos, processorNanos, records));
+    }
+
+    boolean areAll() {
+        return !looks.isEmpty() && looks.get(looks.size() - 1).records() >= expected;
+    }
+
+    /** What passed between two looks. */
+    record Pace(double perSecond, double processorMicrosEach) {}
+
+    /**
+     * Between the looks at which a tenth and nine tenths were there: without the start of the job, and without the wait for
+     * the checkpoint after the last record, which with exactly-once would count for the slower job.
+     *
+     * @throws IllegalStateException if both were there at the same look
+     */
+    Pace pace() {
+        Look from = firstWith(FROM);
+        Look to = firstWith(TO);
+        if (from == to) {
+            throw new IllegalStateException("all records came at once; measure more of them (--records)");
+        }
+        double records = to.records() - from.records();
+        return new Pace(
+                records * 1e9 / (to.nanos() - from.nanos()),
+                (to.processorNanos() - from.processorNanos()) / 1e3 / records);
+    }
+
+    private Look firstWith(double share) {
+        return looks.stream()
+                .filter(look -> look.records() >= share * expected)
+                .findFirst()
+                .orElseThrow();
+    }
+}

@@ -1,0 +1,158 @@
+package io.furrow.bench.ingest;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+import java.util.stream.IntStream;
+
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+
+import io.furrow.flink.Delivery;
+import io.furrow.flink.JobCommandLine;
+import io.furrow.ingest.IngestJob;
+import io.furrow.ingest.IngestOptions;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Lets the job ingest and jobs that only copy bytes read the same topic by turns, and tells how fast each was. */
+public final class IngestMeasurement {
+    private static final int PARTITIONS = 4;
+    private static final short REPLICAS = 1;
+    private static final long LOOK_MS = 20;
+    private static final Duration PATIENCE = Duration.ofMinutes(5);
+
+    private final IngestPlan plan;
+    private final Properties kafka;
+    private final Path checkpoints;
+    private final Jobs flink;
+    private final Consumer<String> progress;
+
+    /** A Flink cluster. */
+    public interface Jobs {
+        Running start(String name, StreamExecutionEnvironment job) throws Exception;
+    }
+
+    /** A job on it. */
+    public interface Running {
+        /** Returns when it has ended. */
+        void cancel() throws Exception;
+    }
+
+    /** Where it is measured. */
+    public record Cluster(Properties kafka, Jobs flink, Path checkpoints) {}
+
+    /** @param progress is told after each job's turn */
+    public IngestMeasurement(IngestPlan plan, Cluster cluster, Consumer<String> progress) {
+        this.plan = plan;
+        this.kafka = cluster.kafka();
+        this.flink = cluster.flink();
+        this.checkpoints = cluster.checkpoints();
+        this.progress = progress;
+    }
+
+    /** One turn of all jobs does not count, because the JVM is cold. */
+    public List<IngestRun> run(List<Peer> peers, List<Delivery> deliveries) throws Exception {
+        fill();
+        List<IngestRun> counted = new ArrayList<>();
+        for (int turn = 0; turn <= plan.turns(); turn++) {
+            for (Delivery delivery : deliveries) {
+                for (Peer peer : peers) {
+                    IngestRun run = run(peer, delivery, turn);
+                    progress.accept("%s  %-13s  %-34s %,9.0f records/s %7.1f µs"
+                            .formatted(
+                                    turn == 0 ? "warm-up" : "turn " + turn + " ",
+                                    words(delivery),
+                                    peer.title(),
+                                    run.recordsPerSecond(),
+                                    run.processorMicros()));
+                    if (turn > 0) {
+                        counted.add(run);
+                    }
+                }
+            }
+        }
+        return counted;
+    }
+
+    private void fill() throws InterruptedException, ExecutionException, UnreadableException {
+        progress.accept("%,d records of %,d bytes to %s".formatted(plan.records(), plan.bytes(), Topics.RAW));
+        try (Admin admin = Admin.create(kafka)) {
+            admin.createTopics(List.of(new NewTopic(Topics.RAW, PARTITIONS, REPLICAS)))
+                    .all()
+                    .get();
+        }
+        new ReportedEntities(plan)
+                .writeTo(Topics.RAW, kafka, written -> progress.accept("%,d written".formatted(written)));
+    }
+
+    private IngestRun run(Peer peer, Delivery delivery, int turn) throws Exception {
+        List<String> topics = new ArrayList<>(List.of(Topics.realtime(ReportedEntities.DOMAIN)));
+        topics.addAll(missionTopics());
+        long expected = (long) plan.records() * peer.writes();
+        String name = "%s-%s-%d".formatted(peer, delivery, turn).toLowerCase(Locale.ROOT);
+        try (WrittenTopics written =
+                new WrittenTopics(kafka, topics, PARTITIONS, List.of(Topics.LATEST, Topics.CATALOG))) {
+            Arrivals arrivals = new Arrivals(expected);
+            Running job = flink.start(name, job(name, peer, delivery));
+            try {
+                long end = System.nanoTime() + PATIENCE.toNanos();
+                while (!arrivals.areAll()) {
+                    if (System.nanoTime() > end) {
+                        throw new IllegalStateException("%s: %d of %d records after %d s"
+                                .formatted(name, written.readable(), expected, PATIENCE.toSeconds()));
+                    }
+                    TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+                    arrivals.add(written.readable());
+                }
+                long missing = expected - written.counted(expected, PATIENCE);
+                Arrivals.Pace pace = arrivals.pace();
+                return new IngestRun(
+                        peer,
+                        delivery,
+                        turn,
+                        pace.perSecond() / peer.writes(),
+                        pace.processorMicrosEach() * peer.writes(),
+                        missing);
+            } finally {
+                job.cancel();
+                written.delete();
+            }
+        }
+    }
+
+    /** Under a name of its own each reads from the beginning and has its own transactions. */
+    private StreamExecutionEnvironment job(String name, Peer peer, Delivery delivery) {
+        List<String> args = new ArrayList<>(peer.options());
+        args.addAll(List.of("--bootstrap-servers", kafka.getProperty("bootstrap.servers")));
+        args.addAll(List.of("--delivery", words(delivery)));
+        args.addAll(List.of("--parallelism", Integer.toString(plan.parallelism())));
+        args.addAll(List.of("--checkpoint-interval", plan.checkpointInterval().toMillis() + "ms"));
+        args.addAll(
+                List.of("--checkpoint-dir", checkpoints.resolve(name).toUri().toString()));
+        IngestOptions options = new IngestOptions();
+        JobCommandLine.of(options).setCommandName(name).parseArgs(args.toArray(String[]::new));
+        return switch (peer) {
+            case COPY_ONCE -> CopyJob.assemble(options, Topics.realtime(ReportedEntities.DOMAIN), List.of());
+            case COPY_TWICE -> CopyJob.assemble(options, Topics.realtime(ReportedEntities.DOMAIN), missionTopics());
+            case ROUTES, INGEST -> IngestJob.assemble(options);
+        };
+    }
+
+    private List<String> missionTopics() {
+        return IntStream.range(0, plan.missions())
+                .mapToObj(number -> Topics.realtime(ReportedEntities.DOMAIN, ReportedEntities.mission(number)))
+                .toList();
+    }
+
+    static String words(Delivery delivery) {
+        return delivery.name().toLowerCase(Locale.ROOT).replace('_', '-');
+    }
+}

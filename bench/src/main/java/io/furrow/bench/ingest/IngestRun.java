@@ -1,0 +1,14 @@
+package io.furrow.bench.ingest;
+
+import io.furrow.flink.Delivery;
+
+/**
+ * What one job did in one turn.
+ *
+ * @param turn from 1 on; the runs of one turn are compared
+ * @param recordsPerSecond read, by when what becomes of them could be read
+ * @param processorMicros that each of them took of this JVM, brokers included
+ * @param missing records that are not on the topics of domain and missions; negative where some are there more than once
+ */
+public record IngestRun(
+        Peer peer, Delivery delivery, int turn, double recordsPerSecond, double processorMicros, long missing) {}

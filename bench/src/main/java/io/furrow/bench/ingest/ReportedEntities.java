@@ -1,0 +1,106 @@
+package io.furrow.bench.ingest;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.Properties;
+import java.util.concurrent.atomic.AtomicReference;
+
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.Origin;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** The records of the input topic: what thermometers report through an IoT Agent, as the NGSI source writes it. */
+final class ReportedEntities {
+    /** The domain of all of them. */
+    static final String DOMAIN = "bench";
+
+    private static final FiwareScope SCOPE = new FiwareScope("farm", "/");
+    private static final Duration DELAY = Duration.ofMillis(7);
+    private static final int RECORDS_PER_LINE = 100_000;
+
+    private final IngestPlan plan;
+    private final Instant first;
+
+    ReportedEntities(IngestPlan plan) {
+        this.plan = plan;
+        this.first = Instant.now().minusSeconds(plan.records() / plan.devices() + 1L);
+    }
+
+    static String mission(int number) {
+        return "mission-" + number;
+    }
+
+    /** @param progress is told how many are written, now and then */
+    void writeTo(String topic, Properties kafka, java.util.function.IntConsumer progress) throws UnreadableException {
+        AtomicReference<Exception> failed = new AtomicReference<>();
+        Properties properties = new Properties();
+        properties.putAll(kafka);
+        properties.setProperty("batch.size", "131072");
+        properties.setProperty("max.in.flight.requests.per.connection", "1"); // the topic was made just now
+        try (var producer = new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+            for (int number = 0; number < plan.records(); number++) {
+                producer.send(record(topic, number), (done, failure) -> failed.compareAndSet(null, failure));
+                if (number % RECORDS_PER_LINE == RECORDS_PER_LINE - 1) {
+                    progress.accept(number + 1);
+                }
+            }
+        }
+        if (failed.get() != null) {
+            throw new IllegalStateException("topic " + topic + " could not be filled", failed.get());
+        }
+    }
+
+    private ProducerRecord<byte[], byte[]> record(String topic, int number) throws UnreadableException {
+        int device = number % plan.devices();
+        Instant time = first.plusMillis(number * 1000L / plan.devices());
+        Entity entity = Entity.parse(json(device, number, time).getBytes(StandardCharsets.UTF_8));
+        EntityEvent event = EntityEvent.of(entity, SCOPE, time.plus(DELAY), Duration.ofMinutes(5), Origin.NOTIFICATION);
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
+                topic, null, time.toEpochMilli(), entity.id().getBytes(StandardCharsets.UTF_8), entity.toBytes());
+        event.headers("/ngsi-source/bench")
+                .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
+        return record;
+    }
+
+    /** Six measures with the time that the IoT Agent gives each, and a text that fills the rest. */
+    private String json(int device, int number, Instant time) {
+        StringBuilder json = new StringBuilder(plan.bytes() + 100)
+                .append("{\"id\":\"urn:ngsi-ld:Thermometer:%05d\",\"type\":\"Thermometer\"".formatted(device));
+        attribute(json, "Domain", "String", '"' + DOMAIN + '"', null);
+        attribute(json, "Mission", "String", '"' + mission(device % plan.missions()) + '"', null);
+        attribute(json, "Time", "Integer", Long.toString(time.toEpochMilli()), null);
+        attribute(json, "Temperature", "Float", 15 + number % 200 / 10.0 + "", time);
+        attribute(json, "Latitude", "Float", "40.31%04d".formatted(number % 10_000), time);
+        attribute(json, "Longitude", "Float", "-3.48%04d".formatted(device % 10_000), time);
+        attribute(json, "Status", "Boolean", "true", time);
+        attribute(json, "Battery", "Float", "0.%02d".formatted(99 - number % 50), time);
+        String empty = attribute(new StringBuilder(), "Location", "String", "\"\"", null)
+                .toString();
+        int missing = plan.bytes() - json.length() - empty.length() - 1;
+        attribute(json, "Location", "String", '"' + "x".repeat(Math.max(0, missing)) + '"', null);
+        return json.append('}').toString();
+    }
+
+    private static StringBuilder attribute(StringBuilder json, String name, String type, String value, Instant time) {
+        json.append(",\"")
+                .append(name)
+                .append("\":{\"type\":\"")
+                .append(type)
+                .append("\",\"value\":")
+                .append(value);
+        json.append(",\"metadata\":{");
+        if (time != null) {
+            json.append("\"TimeInstant\":{\"type\":\"DateTime\",\"value\":\"")
+                    .append(time)
+                    .append("\"}");
+        }
+        return json.append("}}");
+    }
+}
