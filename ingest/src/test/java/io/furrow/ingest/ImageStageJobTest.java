@@ -181,7 +181,7 @@ class ImageStageJobTest {
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestJob.Inputs(source, noDevices, KnownDevices.of()), out, options);
+        IngestJob.define(new IngestInputs(source, noDevices, KnownDevices.of()), out, options);
         return out.run();
     }
 

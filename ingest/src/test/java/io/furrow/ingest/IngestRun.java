@@ -38,7 +38,7 @@ final class IngestRun {
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestJob.Inputs(source, deviceRecords, devices), out, options);
+        IngestJob.define(new IngestInputs(source, deviceRecords, devices), out, options);
         return out.run();
     }
 }

@@ -1,0 +1,91 @@
+package io.furrow.ingest;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.datastream.DataStreamUtils;
+import org.apache.flink.streaming.api.datastream.KeyedStream;
+import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
+
+import io.furrow.flink.DeadLetters;
+import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.catalog.CatalogStage;
+import io.furrow.ingest.image.ImageStage;
+import io.furrow.ingest.latest.MergeLatest;
+import io.furrow.ingest.mission.MissionEvent;
+import io.furrow.ingest.mission.MissionStage;
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.ingest.route.RouteEvents;
+
+/**
+ * What is made of events, each as far as the options ask for it. A branch sees every event once, with domain, mission and
+ * stamps.
+ */
+final class IngestBranches {
+    private final KafkaOutput kafka;
+    private final IngestOptions options;
+    private final List<DataStream<TopicRecord>> dead = new ArrayList<>();
+
+    IngestBranches(KafkaOutput kafka, IngestOptions options) {
+        this.kafka = kafka;
+        this.options = options;
+    }
+
+    void route(DataStream<ReportedEvent> events) {
+        SingleOutputStreamOperator<TopicRecord> routed = events.process(new RouteEvents(options.writesRoutes()))
+                .uid("route-events")
+                .name("Route by domain and mission");
+
+        kafka.write("routes", routed);
+    }
+
+    void keepLatest(DataStream<ReportedEvent> events) {
+        if (options.writesLatest()) {
+            SingleOutputStreamOperator<TopicRecord> latest = keyed(events)
+                    .process(new MergeLatest(options.repeatWindow(), options.latestKey()))
+                    .uid("merge-latest")
+                    .name("Merge the newest of each entity");
+
+            kafka.write("latest", latest);
+        }
+    }
+
+    void listImages(SingleOutputStreamOperator<ReportedEvent> moved) {
+        if (options.images().areMoved()) {
+            kafka.write("images", moved.getSideOutput(ImageStage.MANIFEST));
+        }
+    }
+
+    void keepCatalog(DataStream<ReportedEvent> events) {
+        if (options.writesCatalog()) {
+            kafka.write("catalog", CatalogStage.keep(keyed(events), options.catalogInterval()));
+        }
+    }
+
+    void keepMissions(DataStream<ReportedEvent> events) {
+        if (options.missions().isOn()) {
+            DataStream<MissionEvent> ofMissions = events.map(event -> new MissionEvent(event.mission(), event.record()))
+                    .returns(MissionEvent.class)
+                    .uid("name-missions")
+                    .name("Name the mission");
+
+            dead.add(MissionStage.keep(ofMissions, options.missions(), KafkaEnds.atLeastOnceSink(options)));
+        }
+    }
+
+    /** The dead letters of these stages, and of missions where they are kept already. */
+    void setAside(SingleOutputStreamOperator<?>... stages) {
+        for (SingleOutputStreamOperator<?> stage : stages) {
+            dead.add(stage.getSideOutput(DeadLetters.TAG));
+        }
+        kafka.write("dead-letters", dead.stream().reduce(DataStream::union).orElseThrow());
+    }
+
+    /** They are at the subtask of their key already: nothing is sent again. */
+    static KeyedStream<ReportedEvent, String> keyed(DataStream<ReportedEvent> events) {
+        return DataStreamUtils.reinterpretAsKeyedStream(events, ReportedEvent::identity);
+    }
+}

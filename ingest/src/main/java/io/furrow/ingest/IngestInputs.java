@@ -1,0 +1,32 @@
+package io.furrow.ingest;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.route.DevicesAtStart;
+import io.furrow.ingest.route.DevicesTopic;
+
+/**
+ * What comes in.
+ *
+ * @param records reported events, as on {@code data.raw}
+ * @param devices the records of {@code service.devices}
+ * @param devicesAtStart those that are known before the first event
+ */
+record IngestInputs(DataStream<TopicRecord> records, DataStream<TopicRecord> devices, DevicesAtStart devicesAtStart) {
+    /** The topics that the options name. */
+    static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
+        DataStream<TopicRecord> records = env.fromSource(
+                        KafkaEnds.source(options), KafkaEnds.watermarks(options), "Read reported events")
+                .uid("read-events");
+
+        DataStream<TopicRecord> devices = env.fromSource(
+                        KafkaEnds.wholeTopic(options, options.devices()), KafkaEnds.noHindrance(), "Read devices")
+                .uid("read-devices")
+                .setParallelism(1);
+
+        return new IngestInputs(records, devices, new DevicesTopic(options, options.devices()));
+    }
+}
