@@ -1,8 +1,9 @@
 package io.furrow.flink;
 
 import java.nio.charset.StandardCharsets;
-import java.util.HashMap;
 import java.util.Map;
+
+import org.apache.flink.api.common.typeinfo.TypeInfo;
 
 /**
  * A record read from, or to be written to, a Kafka topic.
@@ -13,6 +14,7 @@ import java.util.Map;
  * @param value null for a deletion
  * @param headers UTF-8 text; of a repeated header the last
  */
+@TypeInfo(TopicRecordType.Factory.class)
 public record TopicRecord(
         String topic,
         int partition,
@@ -46,9 +48,14 @@ public record TopicRecord(
 
     /** The same record with more headers. */
     public TopicRecord with(Map<String, String> more) {
-        Map<String, String> all = new HashMap<>(headers);
-        all.putAll(more);
-        return new TopicRecord(topic, partition, offset, timestamp, key, value, all);
+        return new TopicRecord(
+                topic,
+                partition,
+                offset,
+                timestamp,
+                key,
+                value,
+                HeaderTexts.of(headers).with(more));
     }
 
     /** {@code <topic>-<partition>@<offset>}. */

@@ -1,5 +1,6 @@
 package io.furrow.flink;
 
+import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
 import java.util.Optional;
@@ -7,8 +8,8 @@ import java.util.Optional;
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeutils.TypeSerializer;
-import org.apache.flink.api.java.typeutils.GenericTypeInfo;
-import org.apache.flink.api.java.typeutils.PojoTypeInfo;
+import org.apache.flink.api.common.typeutils.TypeSerializerSnapshot;
+import org.apache.flink.api.java.typeutils.runtime.PojoSerializerSnapshot;
 import org.apache.flink.core.memory.DataInputDeserializer;
 import org.apache.flink.core.memory.DataOutputSerializer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -21,24 +22,10 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class TopicRecordTest {
     private static final TypeInformation<TopicRecord> TYPE = TypeInformation.of(TopicRecord.class);
-
-    @Test
-    void isAPojoWithoutAnyGenericType() {
-        PojoTypeInfo<TopicRecord> pojo = (PojoTypeInfo<TopicRecord>) TYPE;
-
-        assertThat(pojo.getFieldNames())
-                .containsExactlyInAnyOrder("topic", "partition", "offset", "timestamp", "key", "value", "headers");
-        for (int i = 0; i < pojo.getArity(); i++) {
-            TypeInformation<?> field = pojo.getTypeAt(i);
-            assertThat(field).as(pojo.getFieldNames()[i]).isNotInstanceOf(GenericTypeInfo.class);
-            assertThat(field.getGenericParameters().values())
-                    .as(pojo.getFieldNames()[i])
-                    .noneMatch(GenericTypeInfo.class::isInstance);
-        }
-    }
 
     @Test
     void comesBackFromItsSerializerAlsoWithoutKeyAndValue() throws Exception {
@@ -54,6 +41,40 @@ class TopicRecordTest {
             assertThat(read).usingRecursiveComparison().isEqualTo(record);
             assertThat(serializer.copy(record)).usingRecursiveComparison().isEqualTo(record);
         }
+    }
+
+    @Test
+    void isReadInTheFormThatASavepointHolds() throws Exception {
+        TypeSerializerSnapshot<TopicRecord> now =
+                TYPE.createSerializer(new SerializerConfigImpl()).snapshotConfiguration();
+        DataOutputSerializer savepoint = new DataOutputSerializer(64);
+        TypeSerializerSnapshot.writeVersionedSnapshot(savepoint, now);
+        byte[] said = savepoint.getCopyOfBuffer();
+
+        TypeSerializerSnapshot<TopicRecord> stored =
+                TypeSerializerSnapshot.readVersionedSnapshot(new DataInputDeserializer(said), loader());
+
+        assertThat(now.resolveSchemaCompatibility(stored).isCompatibleAsIs()).isTrue();
+        assertThat(now.resolveSchemaCompatibility(new PojoSerializerSnapshot<>())
+                        .isCompatibleAfterMigration())
+                .as("what savepoints held before")
+                .isTrue();
+    }
+
+    @Test
+    void isNotReadInAFormThatIsNotKnown() {
+        TypeSerializerSnapshot<TopicRecord> snapshot =
+                TYPE.createSerializer(new SerializerConfigImpl()).snapshotConfiguration();
+
+        assertThatThrownBy(() -> snapshot.readSnapshot(2, new DataInputDeserializer(new byte[0]), loader()))
+                .isInstanceOf(IOException.class)
+                .hasMessage(
+                        "records of form 2: this build reads form 1; restore the savepoint with the build that wrote"
+                                + " it, or a newer one");
+    }
+
+    private static ClassLoader loader() {
+        return TopicRecordTest.class.getClassLoader();
     }
 
     @Test

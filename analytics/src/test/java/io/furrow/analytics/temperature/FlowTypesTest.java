@@ -24,7 +24,9 @@ class FlowTypesTest {
         assertThat(publicRecords())
                 .contains(Reading.class, FieldReading.class, DeviceReadings.class, DeviceVote.class, TopicRecord.class);
         for (Class<?> type : publicRecords()) {
-            assertThat(TypeInformation.of(type)).isInstanceOf(PojoTypeInfo.class);
+            if (type != TopicRecord.class) { // which has a serializer of its own
+                assertThat(TypeInformation.of(type)).isInstanceOf(PojoTypeInfo.class);
+            }
             assertThat(TypeInformation.of(type).createSerializer(withoutGenericTypes()))
                     .isNotNull();
         }

@@ -46,6 +46,10 @@ final class RouteMeters {
     }
 
     private static boolean isNumber(String text) {
-        return !text.isEmpty() && text.length() <= 18 && text.chars().allMatch(sign -> sign >= '0' && sign <= '9');
+        boolean number = !text.isEmpty() && text.length() <= 18;
+        for (int i = 0; number && i < text.length(); i++) {
+            number = text.charAt(i) >= '0' && text.charAt(i) <= '9';
+        }
+        return number;
     }
 }

@@ -4,7 +4,6 @@ import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
-import java.util.regex.Pattern;
 
 /**
  * The part of a topic's name that a domain or mission becomes. Names of 1 to 64 of {@code A-Z a-z 0-9 _ -} stand as they
@@ -22,14 +21,23 @@ import java.util.regex.Pattern;
  * takes the dead letters of {@code data.a.realtime}.
  */
 public final class TopicName {
-    private static final Pattern PLAIN = Pattern.compile("[A-Za-z0-9_-]{1,64}");
+    private static final int LONGEST_PLAIN = 64;
     private static final int LONGEST = 100;
 
     private TopicName() {}
 
     /** Whether a manager would accept the name for a domain or mission. */
     public static boolean isLegal(String name) {
-        return PLAIN.matcher(name).matches();
+        boolean legal = !name.isEmpty() && name.length() <= LONGEST_PLAIN;
+        for (int i = 0; legal && i < name.length(); i++) {
+            char sign = name.charAt(i);
+            legal = isAlphanumeric(sign) || sign == '_' || sign == '-';
+        }
+        return legal;
+    }
+
+    private static boolean isAlphanumeric(int sign) {
+        return sign >= '0' && sign <= '9' || sign >= 'A' && sign <= 'Z' || sign >= 'a' && sign <= 'z';
     }
 
     public static String of(String name) {
@@ -41,8 +49,7 @@ public final class TopicName {
     private static String encoded(String name) {
         StringBuilder encoded = new StringBuilder("_x-");
         for (byte b : name.getBytes(StandardCharsets.UTF_8)) {
-            boolean alphanumeric = b >= '0' && b <= '9' || b >= 'A' && b <= 'Z' || b >= 'a' && b <= 'z';
-            encoded.append(alphanumeric ? String.valueOf((char) b) : String.format("-%02X", b));
+            encoded.append(isAlphanumeric(b) ? String.valueOf((char) b) : String.format("-%02X", b));
         }
         return encoded.length() <= LONGEST ? encoded.toString() : "_h-" + sha256(name);
     }
