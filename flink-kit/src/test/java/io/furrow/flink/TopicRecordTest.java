@@ -111,6 +111,19 @@ class TopicRecordTest {
     }
 
     @Test
+    void hasOneTextForEachHeader() {
+        TopicRecord record = TopicRecord.of("t", 0, "k", null, Map.of("a", "1", "b", "2"));
+
+        TopicRecord other = record.with("b", "3").with("c", "4");
+
+        assertThat(other.headers()).isEqualTo(Map.of("a", "1", "b", "3", "c", "4"));
+        assertThat(other.headers().get("c")).isEqualTo("4");
+        assertThat(other.headers().get("d")).isNull();
+        assertThat(other.headers()).containsKey("a").doesNotContainKey("d");
+        assertThat(record.headers()).isEqualTo(Map.of("a", "1", "b", "2"));
+    }
+
+    @Test
     void keepsTheOriginalBytesAsADeadLetter() {
         TopicRecord record = new TopicRecord("data.raw", 1, 42, 77, null, utf8("{"), Map.of("origin", "kafka"));
 

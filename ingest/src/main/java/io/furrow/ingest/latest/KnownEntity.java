@@ -2,10 +2,11 @@ package io.furrow.ingest.latest;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
+import java.util.SortedMap;
 import java.util.TreeMap;
 
+import com.fasterxml.jackson.core.io.JsonStringEncoder;
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
@@ -52,14 +53,18 @@ public record KnownEntity(long time, boolean deleted, String type, Map<String, K
     byte[] toBytes(String id) {
         StringBuilder json = new StringBuilder("{\"id\":").append(quoted(id));
         json.append(",\"type\":").append(quoted(type));
-        for (Map.Entry<String, KnownAttribute> attribute : new TreeMap<>(attributes).entrySet()) {
+        Map<String, KnownAttribute> byName = attributes instanceof SortedMap ? attributes : new TreeMap<>(attributes);
+        for (Map.Entry<String, KnownAttribute> attribute : byName.entrySet()) {
             json.append(',').append(quoted(attribute.getKey())).append(':');
             json.append(attribute.getValue().json());
         }
         return json.append('}').toString().getBytes(StandardCharsets.UTF_8);
     }
 
-    private static String quoted(String text) {
-        return new String(NgsiJson.write(TextNode.valueOf(text)), StandardCharsets.UTF_8);
+    private static StringBuilder quoted(String text) {
+        return new StringBuilder(text.length() + 2)
+                .append('"')
+                .append(JsonStringEncoder.getInstance().quoteAsString(text))
+                .append('"');
     }
 }
