@@ -10,6 +10,9 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+
 /**
  * Tells the life of each encounter: started, ongoing, ended. Key: the pair.
  *

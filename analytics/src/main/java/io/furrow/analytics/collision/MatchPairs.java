@@ -8,6 +8,9 @@ import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+
 /**
  * Finds the close pairs of each grid cell. Key: the cell's id.
  *

@@ -31,7 +31,8 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
     private static final String OWN_TYPES = "Analytics:";
 
     private static final Set<String> WANTED = Stream.concat(
-                    PositionReading.ATTRIBUTES.stream(), Stream.of("Mission", "carriedBy", "refRobot"))
+                    PositionReading.ATTRIBUTES.stream(),
+                    Stream.of("Mission", "carriedBy", "refRobot", "speed", "heading"))
             .collect(Collectors.toUnmodifiableSet());
 
     private transient Counter rejected;
@@ -82,12 +83,18 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
         String carrier =
                 entity.text("carriedBy").or(() -> entity.text("refRobot")).orElse("");
         return new PositionFix(
+                record.topic(),
                 scope.identity(entity.id()),
                 entity.id(),
+                entity.type(),
                 entity.text("Mission").orElse(""),
                 carrier.isEmpty() ? "" : scope.identity(carrier),
                 position.latitude(),
                 position.longitude(),
+                entity.number("speed").filter(speed -> speed >= 0).orElse(Double.NaN),
+                entity.number("heading")
+                        .filter(degrees -> degrees >= 0 && degrees <= 360)
+                        .orElse(Double.NaN),
                 record.timestamp());
     }
 }

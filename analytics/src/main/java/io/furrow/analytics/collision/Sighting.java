@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import io.furrow.analytics.eventtime.Timed;
+
 /**
  * What one grid cell saw of a pair at an instant at which either device reported or left.
  *

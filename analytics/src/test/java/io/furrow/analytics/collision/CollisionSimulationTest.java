@@ -66,14 +66,7 @@ class CollisionSimulationTest {
             CollisionRules rules = rules(i, 20);
             double angle = 90 + i;
             List<PositionFix> turned = fixes.stream()
-                    .map(fix -> new PositionFix(
-                            fix.identity(),
-                            fix.id(),
-                            fix.mission(),
-                            fix.carrier(),
-                            fix.latitude(),
-                            Worlds.wrapped(fix.longitude() + angle),
-                            fix.time()))
+                    .map(fix -> Fixes.turned(fix, Worlds.wrapped(fix.longitude() + angle)))
                     .toList();
             assertThat(Simulation.encounters(turned, rules, new Random(i)).stream()
                             .map(CollisionSimulationTest::withoutPlace))

@@ -7,7 +7,13 @@ final class Fixes {
     private Fixes() {}
 
     static PositionFix at(String device, double latitude, double longitude, long time) {
-        return new PositionFix("farm|/|" + device, device, "m", "", latitude, longitude, time);
+        return of("farm|/|" + device, device, "m", latitude, longitude, time);
+    }
+
+    /** A robot of the usual topic that no one carries, of unknown speed and heading. */
+    static PositionFix of(String identity, String id, String mission, double latitude, double longitude, long time) {
+        return new PositionFix(
+                "data.raw", identity, id, "ROBOT", mission, "", latitude, longitude, Double.NaN, Double.NaN, time);
     }
 
     /** On the equator, so many metres east of 10° E. */
@@ -16,13 +22,26 @@ final class Fixes {
     }
 
     static PositionFix carriedBy(String carrier, PositionFix fix) {
+        return carriedByIdentity("farm|/|" + carrier, fix);
+    }
+
+    static PositionFix carriedByIdentity(String carrier, PositionFix fix) {
         return new PositionFix(
+                fix.topic(),
                 fix.identity(),
                 fix.id(),
+                fix.type(),
                 fix.mission(),
-                "farm|/|" + carrier,
+                carrier,
                 fix.latitude(),
                 fix.longitude(),
+                fix.speed(),
+                fix.heading(),
                 fix.time());
+    }
+
+    static PositionFix turned(PositionFix fix, double longitude) {
+        return carriedByIdentity(
+                fix.carrier(), of(fix.identity(), fix.id(), fix.mission(), fix.latitude(), longitude, fix.time()));
     }
 }

@@ -15,6 +15,8 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.apache.flink.util.OutputTag;
 
+import io.furrow.analytics.eventtime.Timed;
+
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
 final class Stage<K, I extends Timed, O> {
     private final Supplier<KeyedProcessFunction<K, I, O>> function;

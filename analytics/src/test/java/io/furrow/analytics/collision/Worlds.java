@@ -57,7 +57,8 @@ final class Worlds {
             while (step < STEPS) {
                 double[] place = place(centre, east, north);
                 long time = start + step * STEP;
-                fixes.add(new PositionFix(identity, id, "m" + random.nextInt(2), carrier, place[0], place[1], time));
+                PositionFix fix = Fixes.of(identity, id, "m" + random.nextInt(2), place[0], place[1], time);
+                fixes.add(Fixes.carriedByIdentity(carrier, fix));
                 boolean stays = random.nextInt(4) == 0;
                 east += stays ? 0 : room * random.nextGaussian() / 3;
                 north += stays ? 0 : room * random.nextGaussian() / 3;

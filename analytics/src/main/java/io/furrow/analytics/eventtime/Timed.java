@@ -1,7 +1,7 @@
-package io.furrow.analytics.collision;
+package io.furrow.analytics.eventtime;
 
 /** What happened at an instant of event time. */
-interface Timed {
+public interface Timed {
     /** Epoch milliseconds. */
     long time();
 }

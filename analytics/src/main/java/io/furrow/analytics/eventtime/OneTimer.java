@@ -1,4 +1,4 @@
-package io.furrow.analytics.collision;
+package io.furrow.analytics.eventtime;
 
 import java.io.IOException;
 
@@ -8,15 +8,18 @@ import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.TimerService;
 
-/** The only event-time timer of a key: it rings at the earliest instant that was asked for since it last rang. */
-final class OneTimer {
+/**
+ * The only event-time timer of a key: it rings at the earliest instant that was asked for since it last rang. State: the
+ * value {@code timer}, empty while none is set.
+ */
+public final class OneTimer {
     private final ValueState<Long> set;
 
-    OneTimer(RuntimeContext context) {
+    public OneTimer(RuntimeContext context) {
         set = context.getState(new ValueStateDescriptor<>("timer", Types.LONG));
     }
 
-    void ask(long time, TimerService timers) throws IOException {
+    public void ask(long time, TimerService timers) throws IOException {
         Long known = set.value();
         if (known != null && known <= time) {
             return;
@@ -29,7 +32,7 @@ final class OneTimer {
     }
 
     /** To be called first when it rings. */
-    void rang() {
+    public void rang() {
         set.clear();
     }
 }

@@ -1,4 +1,4 @@
-package io.furrow.analytics.collision;
+package io.furrow.analytics.eventtime;
 
 import java.util.ArrayList;
 import java.util.Comparator;
@@ -9,25 +9,28 @@ import org.apache.flink.api.common.state.ListState;
 import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.streaming.api.TimerService;
 
-/** What came in for a key and waits for the watermark; the key's timer is set to the earliest of it. */
-final class Inbox<T extends Timed> {
+/**
+ * What came in for a key and waits for the watermark; the key's timer is set to the earliest of it. State: the list
+ * {@code waiting}.
+ */
+public final class Inbox<T extends Timed> {
     private final ListState<T> waiting;
     private final Comparator<T> sequence;
     private final OneTimer timer;
 
-    Inbox(RuntimeContext context, Class<T> type, Comparator<T> sequence, OneTimer timer) {
+    public Inbox(RuntimeContext context, Class<T> type, Comparator<T> sequence, OneTimer timer) {
         waiting = context.getListState(new ListStateDescriptor<>("waiting", type));
         this.sequence = sequence;
         this.timer = timer;
     }
 
-    void add(T message, TimerService timers) throws Exception {
+    public void add(T message, TimerService timers) throws Exception {
         waiting.add(message);
         timer.ask(message.time(), timers);
     }
 
     /** Removes what the watermark has passed and returns it in sequence. */
-    List<T> takeDue(TimerService timers) throws Exception {
+    public List<T> takeDue(TimerService timers) throws Exception {
         List<T> due = new ArrayList<>();
         List<T> later = new ArrayList<>();
         for (T message : waiting.get()) {
