@@ -12,7 +12,9 @@ import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.KafkaTopicAtStart;
 import io.furrow.flink.PassOnce;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
@@ -21,8 +23,6 @@ import io.furrow.ingest.mission.MissionEvent;
 import io.furrow.ingest.mission.MissionStage;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.DeviceChange;
-import io.furrow.ingest.route.DevicesAtStart;
-import io.furrow.ingest.route.DevicesTopic;
 import io.furrow.ingest.route.ReadDevices;
 import io.furrow.ingest.route.RecognizeEvents;
 import io.furrow.ingest.route.ReportedEvent;
@@ -39,7 +39,7 @@ public final class IngestJob {
      * @param devices the records of {@code service.devices}
      * @param devicesAtStart those that are known before the first event
      */
-    record Inputs(DataStream<TopicRecord> records, DataStream<TopicRecord> devices, DevicesAtStart devicesAtStart) {}
+    record Inputs(DataStream<TopicRecord> records, DataStream<TopicRecord> devices, TopicAtStart devicesAtStart) {}
 
     private IngestJob() {}
 
@@ -57,7 +57,7 @@ public final class IngestJob {
                 .setParallelism(1);
 
         define(
-                new Inputs(records, devices, new DevicesTopic(options, options.devices())),
+                new Inputs(records, devices, new KafkaTopicAtStart(options, options.devices())),
                 KafkaOutput.of(options, options.topics().settings(Set.of(Topics.LATEST, Topics.CATALOG))),
                 options);
 

@@ -19,6 +19,7 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.ngsi.UnreadableException;
@@ -48,13 +49,13 @@ public final class AssignMission
      */
     public record Rule(Duration kept, String defaultDomain, String defaultMission) implements Serializable {}
 
-    private final DevicesAtStart devicesAtStart;
+    private final TopicAtStart devicesAtStart;
     private final Rule rule;
     private transient Map<String, List<DeviceChange>> atStart;
     private transient int changesUntilSweep;
     private transient ValueState<KnownRoute> route;
 
-    public AssignMission(DevicesAtStart devicesAtStart, Rule rule) {
+    public AssignMission(TopicAtStart devicesAtStart, Rule rule) {
         this.devicesAtStart = devicesAtStart;
         this.rule = rule;
     }

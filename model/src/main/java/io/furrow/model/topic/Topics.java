@@ -13,6 +13,8 @@ public final class Topics {
     public static final String NOTIFICATIONS = "ngsi.notifications";
     /** To whom each device belongs, see {@code DeviceVersion}; compacted. */
     public static final String DEVICES = "service.devices";
+    /** The fields of the farm, version by version, see {@code FieldVersion}; compacted. */
+    public static final String FIELDS = "service.fields";
 
     public static final String TEMPERATURE = "data.temperature";
     public static final String TEMPERATURE_LATE = "data.temperature.late";

@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.flink;
 
 import java.io.IOException;
 import java.time.Duration;
@@ -14,18 +14,15 @@ import org.apache.kafka.common.PartitionInfo;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicRecord;
-
-/** Reads the topic from its beginning to where it ended when the reading began; a missing topic has no devices. */
-public final class DevicesTopic implements DevicesAtStart {
+/** Reads the topic from its beginning to where it ended when the reading began; a missing topic has no records. */
+public final class KafkaTopicAtStart implements TopicAtStart {
     private static final long serialVersionUID = 1L;
     private static final Duration PATIENCE = Duration.ofMinutes(1);
 
     private final Properties client;
     private final String topic;
 
-    public DevicesTopic(JobOptions options, String topic) {
+    public KafkaTopicAtStart(JobOptions options, String topic) {
         this.topic = topic;
         this.client = options.kafkaProperties();
         client.setProperty(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
@@ -49,7 +46,7 @@ public final class DevicesTopic implements DevicesAtStart {
             consumer.seekToBeginning(consumer.assignment());
             return read(consumer, consumer.endOffsets(consumer.assignment(), PATIENCE));
         } catch (KafkaException e) {
-            throw new IOException("the devices on " + topic + " could not be read", e);
+            throw new IOException("topic " + topic + " could not be read", e);
         }
     }
 
