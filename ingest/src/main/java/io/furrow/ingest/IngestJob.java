@@ -16,14 +16,14 @@ import io.furrow.flink.KafkaTopicAtStart;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceChange;
+import io.furrow.flink.device.ReadDevices;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
 import io.furrow.ingest.mission.MissionEvent;
 import io.furrow.ingest.mission.MissionStage;
 import io.furrow.ingest.route.AssignMission;
-import io.furrow.ingest.route.DeviceChange;
-import io.furrow.ingest.route.ReadDevices;
 import io.furrow.ingest.route.RecognizeEvents;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.RouteEvents;
@@ -72,7 +72,7 @@ public final class IngestJob {
                 .name("Recognize events");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
-                .process(new ReadDevices())
+                .process(new ReadDevices("ingest"))
                 .setParallelism(1) // a device's versions stay in order
                 .uid("recognize-devices")
                 .name("Recognize devices");

@@ -17,6 +17,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceChange;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 

@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.flink.device;
 
 import org.junit.jupiter.api.Test;
 
@@ -6,10 +6,10 @@ import io.furrow.model.device.DeviceVersion;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-class DeviceHistoryTest {
+class DeviceVersionsTest {
     @Test
     void knowsTheMissionAsOfATime() {
-        DeviceHistory history = DeviceHistory.EMPTY.with(change("a", 100, 1)).with(change("b", 200, 2));
+        DeviceVersions history = DeviceVersions.EMPTY.with(change("a", 100, 1)).with(change("b", 200, 2));
 
         assertThat(history.at(99)).isEmpty();
         assertThat(missionAt(history, 100)).isEqualTo("a");
@@ -21,8 +21,9 @@ class DeviceHistoryTest {
     @Test
     void knowsNoMissionBetweenAnEndAndTheNextBeginning() {
         DeviceVersion ending = new DeviceVersion("r", "", "/", "d", "a", 100, 150L, 1, null);
-        DeviceHistory history =
-                DeviceHistory.EMPTY.with(new DeviceChange("|/|r", 0, 0, ending)).with(change("b", 200, 2));
+        DeviceVersions history = DeviceVersions.EMPTY
+                .with(new DeviceChange("|/|r", 0, 0, ending))
+                .with(change("b", 200, 2));
 
         assertThat(missionAt(history, 149)).isEqualTo("a");
         assertThat(history.at(150)).isEmpty();
@@ -31,7 +32,7 @@ class DeviceHistoryTest {
 
     @Test
     void letsANewerVersionSayOtherwiseOfATimeThatAnOlderOneSpokeOf() {
-        DeviceHistory history = DeviceHistory.EMPTY
+        DeviceVersions history = DeviceVersions.EMPTY
                 .with(change("a", 100, 1))
                 .with(change("b", 200, 2))
                 .with(change("c", 150, 3));
@@ -43,7 +44,7 @@ class DeviceHistoryTest {
 
     @Test
     void passesOverAVersionThatIsOutOfDateAndARepeatedOne() {
-        DeviceHistory history = DeviceHistory.EMPTY.with(change("a", 100, 5)).with(change("b", 200, 7));
+        DeviceVersions history = DeviceVersions.EMPTY.with(change("a", 100, 5)).with(change("b", 200, 7));
 
         assertThat(history.with(change("old", 50, 6))).isEqualTo(history);
         assertThat(history.with(change("b", 200, 7))).isEqualTo(history);
@@ -51,8 +52,8 @@ class DeviceHistoryTest {
 
     @Test
     void endsWithTheDeletionAndKeepsWhatWasBeforeIt() {
-        DeviceHistory history =
-                DeviceHistory.EMPTY.with(change("a", 100, 1)).with(new DeviceChange("|/|r", 0, 300, null));
+        DeviceVersions history =
+                DeviceVersions.EMPTY.with(change("a", 100, 1)).with(new DeviceChange("|/|r", 0, 300, null));
 
         assertThat(missionAt(history, 299)).isEqualTo("a");
         assertThat(history.at(300)).isEmpty();
@@ -60,7 +61,7 @@ class DeviceHistoryTest {
 
     @Test
     void forgetsWhatHadEndedAtATime() {
-        DeviceHistory history = DeviceHistory.EMPTY.with(change("a", 100, 1)).with(change("b", 200, 2));
+        DeviceVersions history = DeviceVersions.EMPTY.with(change("a", 100, 1)).with(change("b", 200, 2));
 
         assertThat(history.since(199)).isSameAs(history);
         assertThat(history.since(200).versions()).hasSize(1);
@@ -71,7 +72,7 @@ class DeviceHistoryTest {
                 .isTrue();
     }
 
-    private static String missionAt(DeviceHistory history, long time) {
+    private static String missionAt(DeviceVersions history, long time) {
         return history.at(time).orElseThrow().mission();
     }
 

@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.flink.device;
 
 import java.nio.charset.StandardCharsets;
 
@@ -14,14 +14,22 @@ import io.furrow.model.ngsi.UnreadableException;
 /** Reads the records of {@code service.devices}; emits dead letters for those that are no devices. */
 public final class ReadDevices extends ProcessFunction<TopicRecord, DeviceChange> {
     private static final long serialVersionUID = 1L;
-    private static final String STAGE = "ingest";
+
+    private final String stage;
+
+    /**
+     * @param stage who sets bad records aside, for instance {@code ingest}
+     */
+    public ReadDevices(String stage) {
+        this.stage = stage;
+    }
 
     @Override
     public void processElement(TopicRecord record, Context context, Collector<DeviceChange> out) {
         try {
             out.collect(read(record));
         } catch (UnreadableException e) {
-            context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
+            context.output(DeadLetters.TAG, DeadLetters.of(record, e, stage));
         }
     }
 

@@ -1,4 +1,4 @@
-package io.furrow.ingest.route;
+package io.furrow.flink.device;
 
 import io.furrow.model.device.DeviceVersion;
 
