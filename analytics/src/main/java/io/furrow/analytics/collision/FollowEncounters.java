@@ -36,7 +36,7 @@ public final class FollowEncounters extends KeyedProcessFunction<String, Sightin
     private transient Counter violations;
 
     FollowEncounters(CollisionRules rules) {
-        follower = new Follower(rules);
+        follower = new Follower(rules.exact());
     }
 
     @Override

@@ -50,7 +50,7 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
     private transient Counter late;
 
     TrackDevices(CollisionRules rules) {
-        tracker = new Tracker(rules);
+        tracker = new Tracker(rules.exact());
     }
 
     @Override
