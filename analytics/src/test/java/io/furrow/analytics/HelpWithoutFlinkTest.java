@@ -45,9 +45,9 @@ class HelpWithoutFlinkTest {
 
     @Test
     void saysWhatIsMissing() throws Exception {
-        Finished refused = analytics("temperature");
+        Finished refused = analytics("temperature", "--fields");
 
-        assertThat(refused.output()).contains("Missing required option: '--fields=FILE'");
+        assertThat(refused.output()).contains("Missing required parameter for option '--fields'");
         assertThat(refused.exitCode()).isNotZero();
     }
 

@@ -35,6 +35,28 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
     private static final DateTimeFormatter UTC_MILLIS =
             new DateTimeFormatterBuilder().appendInstant(3).toFormatter();
 
+    /** What tells the versions of all fields apart. */
+    public record Key(String id, long validFrom) {
+        /**
+         * Reads a record's key, its time in ISO 8601 with any offset.
+         *
+         * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}
+         */
+        public static Key parse(String key) throws UnreadableException {
+            int at = key.lastIndexOf('@');
+            if (at < 1) {
+                throw refused("the key '" + key + "' is no <field id>@<time>");
+            }
+            return new Key(key.substring(0, at), time(key.substring(at + 1)));
+        }
+
+        /** In its one spelling, the time in UTC with milliseconds. */
+        @Override
+        public String toString() {
+            return id + "@" + iso(validFrom);
+        }
+    }
+
     public FieldVersion {
         Objects.requireNonNull(id);
         Objects.requireNonNull(properties);
@@ -96,20 +118,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
 
     /** The record's key: {@code <id>@<validFrom>}, the time in UTC with milliseconds. */
     public String key() {
-        return id + "@" + UTC_MILLIS.format(Instant.ofEpochMilli(validFrom));
-    }
-
-    /**
-     * The key that a record's key stands for, its time written as {@link #key()} writes it.
-     *
-     * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}
-     */
-    public static String key(String key) throws UnreadableException {
-        int at = key.lastIndexOf('@');
-        if (at < 1) {
-            throw refused("the key '" + key + "' is no <field id>@<time>");
-        }
-        return new FieldVersion(key.substring(0, at), time(key.substring(at + 1)), null, none()).key();
+        return new Key(id, validFrom).toString();
     }
 
     /** Whether the field ends here. */
@@ -131,9 +140,13 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
     public byte[] toBytes() {
         ObjectNode feature = none().put("type", "Feature").put("id", id);
         feature.set("geometry", geometry);
-        ObjectNode all = none().put(VALID_FROM, UTC_MILLIS.format(Instant.ofEpochMilli(validFrom)));
+        ObjectNode all = none().put(VALID_FROM, iso(validFrom));
         feature.set("properties", all.setAll(properties));
         return NgsiJson.write(feature);
+    }
+
+    private static String iso(long time) {
+        return UTC_MILLIS.format(Instant.ofEpochMilli(time));
     }
 
     private static ObjectNode none() {

@@ -1,4 +1,4 @@
-package io.furrow.analytics.temperature;
+package io.furrow.analytics.field;
 
 /** A file of fields that a job cannot start with; the message names the file, the feature and the remedy. */
 final class UnusableFieldsException extends Exception {

@@ -1,4 +1,4 @@
-package io.furrow.analytics.temperature;
+package io.furrow.analytics.field;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -13,18 +13,15 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class FieldFileTest {
     private static final String SQUARE = """
-            {"type": "Feature", "id": "square",
-             "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]]}}""";
+        {"type": "Feature", "id": "square",
+         "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]]}}\
+        """;
 
     @TempDir
     private Path dir;
 
     @ParameterizedTest(name = "{0}")
-    @CsvFileSource(
-            resources = "/temperature/unusable-fields.csv",
-            delimiter = ';',
-            numLinesToSkip = 1,
-            quoteCharacter = '`')
+    @CsvFileSource(resources = "/field/unusable-fields.csv", delimiter = ';', numLinesToSkip = 1, quoteCharacter = '`')
     void refusesAFeatureAndSaysWhichAndWhy(String what, String feature, String reason) throws Exception {
         assertThat(FieldFile.read(file(SQUARE))).hasSize(1);
         Path file = file(SQUARE + "," + feature);
