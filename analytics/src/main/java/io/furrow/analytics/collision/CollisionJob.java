@@ -35,11 +35,12 @@ public final class CollisionJob {
 
     /**
      * @param records entities with event time as their timestamp
-     * @return encounters, late positions and dead letters; each record names its topic
+     * @return encounters, late positions, crowded cells and dead letters; each record names its topic
      */
     static DataStream<TopicRecord> define(DataStream<TopicRecord> records, CollisionOptions options) {
         String output = options.output();
         String lateOutput = options.lateOutput();
+        String overflowOutput = options.overflowOutput();
 
         SingleOutputStreamOperator<PositionFix> fixes =
                 records.process(new ReadPositions()).uid("read-positions").name("Read positions");
@@ -58,6 +59,12 @@ public final class CollisionJob {
                 .uid("describe-late-positions")
                 .name("Describe late positions as entities");
 
-        return encounters.union(late, fixes.getSideOutput(DeadLetters.TAG));
+        DataStream<TopicRecord> overflows = detection
+                .overflows()
+                .map(overflow -> CollisionRecord.overflow(overflow, overflowOutput))
+                .uid("describe-overflows")
+                .name("Describe crowded cells as entities");
+
+        return encounters.union(late, overflows, fixes.getSideOutput(DeadLetters.TAG));
     }
 }

@@ -1,6 +1,8 @@
 package io.furrow.analytics.collision;
 
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
@@ -14,10 +16,12 @@ import org.apache.flink.streaming.api.graph.StreamNode;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.JobUids;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
@@ -34,6 +38,9 @@ class CollisionJobTest {
             .setNumberTaskManagers(1)
             .setNumberSlotsPerTaskManager(2)
             .build());
+
+    @TempDir
+    private Path folder;
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     private static final long START = 1_700_000_000_000L;
@@ -77,6 +84,52 @@ class CollisionJobTest {
         TopicRecord[] apart = {robot("r1", 0, 0), robot("r2", 7, 0)};
         assertThat(run(options("--threshold", "10"), apart)).hasSize(2);
         assertThat(run(options(), apart)).isEmpty();
+    }
+
+    @Test
+    void goesByTheTypesZonesAndLimitsOfItsOptions() throws Exception {
+        PositionFix corner = Fixes.east("", 20, 0);
+        Path yard = Files.writeString(folder.resolve("yard.geojson"), """
+                {"features": [{"geometry": {"type": "Polygon", "coordinates":
+                  [[[%1$s, -1], [11, -1], [11, 1], [%1$s, 1], [%1$s, -1]]]}}]}""".formatted(corner.longitude()));
+        TopicRecord[] reported = {
+            robot("r1", 0, 0), robot("r2", 7, 0), robot("r3", 100, 0), robot("r4", 100, 0), robot("r5", 7, 1000)
+        };
+        String[] all = {"--threshold-of", "ROBOT=10", "--zones", yard.toString(), "--pairs-per-cell", "1"};
+
+        List<TopicRecord> written = run(options(all), reported);
+
+        assertThat(written)
+                .filteredOn(record -> record.topic().equals("data.collision"))
+                .as("r3 and r4 are in the yard, r1 and r2 were there before r5")
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsOnly("r1-r2");
+        TopicRecord overflow = written.stream()
+                .filter(record -> record.topic().equals("data.collision.overflow"))
+                .findFirst()
+                .orElseThrow();
+        assertThat(overflow.timestamp()).isEqualTo(START + 1000);
+        assertThat(entity(overflow).type()).isEqualTo("Analytics:CollisionOverflow");
+        assertThat(entity(overflow).number("pairs")).hasValue(3.0);
+        assertThat(entity(overflow).number("pairsLeftOut")).hasValue(2.0);
+        assertThat(entity(overflow).number("devices")).hasValue(3.0);
+        assertThat(entity(overflow).id())
+                .isEqualTo("Analytics:CollisionOverflow:"
+                        + entity(overflow).text("cell").orElseThrow());
+    }
+
+    @Test
+    void addsAStageWhereEncountersAreToBeSteady() throws Exception {
+        TopicRecord[] passing = {robot("r1", 0, 0), robot("r2", 4, 0), robot("r2", 9, 500), robot("r2", 11, 1000)};
+        assertThat(run(options("--leave-factor", "2"), passing))
+                .extracting(TopicRecord::timestamp)
+                .containsExactly(START, START + 1000);
+        assertThat(run(options("--leave-factor", "2", "--dwell", "900ms"), passing))
+                .extracting(TopicRecord::timestamp)
+                .containsExactly(START + 900, START + 1000);
+        assertThat(run(options("--leave-factor", "2", "--dwell", "1s"), passing))
+                .isEmpty();
+        assertThat(JobUids.of(CollisionJob.assemble(options("--dwell", "1s")))).contains("steady-encounters");
     }
 
     @Test
@@ -140,6 +193,9 @@ class CollisionJobTest {
         assertThatThrownBy(() -> options("--cell", "1").rules())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("the cell must be at least as high as the threshold");
+        assertThatThrownBy(() -> options("--zones", "/nowhere/yard.geojson").rules())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--zones /nowhere/yard.geojson: cannot be read");
         assertThat(options().rules()).isEqualTo(CollisionRules.DEFAULT);
     }
 
@@ -153,6 +209,7 @@ class CollisionJobTest {
                         "Sink Committer: write-topics",
                         "describe-encounters",
                         "describe-late-positions",
+                        "describe-overflows",
                         "follow-encounters",
                         "match-pairs",
                         "read-positions",

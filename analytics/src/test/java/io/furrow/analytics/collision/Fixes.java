@@ -40,8 +40,34 @@ final class Fixes {
                 fix.time());
     }
 
+    static PositionFix ofType(String type, PositionFix fix) {
+        return new PositionFix(
+                fix.topic(),
+                fix.identity(),
+                fix.id(),
+                type,
+                fix.mission(),
+                fix.carrier(),
+                fix.latitude(),
+                fix.longitude(),
+                fix.speed(),
+                fix.heading(),
+                fix.time());
+    }
+
+    /** The same in another tenant, so that worlds at one time do not share devices. */
+    static PositionFix ofFarm(String farm, PositionFix fix) {
+        String carrier = fix.carrier().isEmpty() ? "" : farm + fix.carrier();
+        PositionFix there =
+                of(farm + fix.identity(), fix.id(), fix.mission(), fix.latitude(), fix.longitude(), fix.time());
+        return ofType(fix.type(), carriedByIdentity(carrier, there));
+    }
+
     static PositionFix turned(PositionFix fix, double longitude) {
-        return carriedByIdentity(
-                fix.carrier(), of(fix.identity(), fix.id(), fix.mission(), fix.latitude(), longitude, fix.time()));
+        return ofType(
+                fix.type(),
+                carriedByIdentity(
+                        fix.carrier(),
+                        of(fix.identity(), fix.id(), fix.mission(), fix.latitude(), longitude, fix.time())));
     }
 }

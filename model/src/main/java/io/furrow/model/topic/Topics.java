@@ -20,6 +20,8 @@ public final class Topics {
     public static final String TEMPERATURE_LATE = "data.temperature.late";
     public static final String COLLISION = "data.collision";
     public static final String COLLISION_LATE = "data.collision.late";
+    /** Where so many pairs were close that not all are followed. */
+    public static final String COLLISION_OVERFLOW = "data.collision.overflow";
 
     /** Where each stored image is. */
     public static final String IMAGES = "data.images";
