@@ -33,6 +33,7 @@ class ArchitectureTest {
                     io.furrow.connect    | io.furrow.model
                     io.furrow.ingest     | io.furrow.model, io.furrow.flink
                     io.furrow.analytics  | io.furrow.model, io.furrow.flink
+                    io.furrow.control    | io.furrow.model
                     io.furrow.simulators | io.furrow.model
                     io.furrow.bench      | io.furrow.model, io.furrow.flink, io.furrow.connect, io.furrow.ingest, io.furrow.analytics, io.furrow.simulators
                     """)
@@ -116,6 +117,7 @@ class ArchitectureTest {
                         "io.furrow.connect.source",
                         "io.furrow.ingest.route",
                         "io.furrow.analytics.collision",
+                        "io.furrow.control.field",
                         "io.furrow.simulators.fiware",
                         "io.furrow.bench.load",
                         "io.furrow.launcher");

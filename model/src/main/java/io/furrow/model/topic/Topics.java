@@ -23,6 +23,9 @@ public final class Topics {
     /** Where so many pairs were close that not all are followed. */
     public static final String COLLISION_OVERFLOW = "data.collision.overflow";
 
+    public static final String PRESENCE = "data.presence";
+    public static final String PRESENCE_LATE = "data.presence.late";
+
     /** Where each stored image is. */
     public static final String IMAGES = "data.images";
 
