@@ -21,6 +21,15 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
     private final RuleOptions rules = new RuleOptions();
 
     @Option(
+            names = "--devices",
+            paramLabel = "TOPIC",
+            defaultValue = Topics.DEVICES,
+            description =
+                    "Topic that says which devices are carried by another and do not collide with it; it need not "
+                            + "be there. Default: ${DEFAULT-VALUE}.")
+    private String devices;
+
+    @Option(
             names = "--output",
             paramLabel = "TOPIC",
             defaultValue = Topics.COLLISION,
@@ -53,6 +62,10 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
         } catch (IllegalArgumentException e) {
             throw refused(e.getMessage(), e);
         }
+    }
+
+    public String devices() {
+        return devices;
     }
 
     public String output() {

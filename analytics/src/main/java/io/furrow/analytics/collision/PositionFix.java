@@ -58,6 +58,11 @@ public record PositionFix(
         return new FiwareScope(parts[0], parts[1]);
     }
 
+    /** The same device at the same place, carried by another. */
+    public PositionFix carriedBy(String other) {
+        return new PositionFix(topic, identity, id, type, mission, other, latitude, longitude, speed, heading, time);
+    }
+
     /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
     public boolean sharesAggregateWith(PositionFix other) {
         return carrier.equals(other.identity)

@@ -9,6 +9,7 @@ import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
@@ -22,11 +23,15 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceInput;
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -44,6 +49,11 @@ class CollisionJobTest {
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     private static final long START = 1_700_000_000_000L;
+
+    /** A laser on the robot r1; until the test's start it was on r2. */
+    private static final TopicAtStart DEVICES = () -> List.of(
+            device(new DeviceVersion("l1", "farm", "/north", "", "", 0, null, 1, "r2")),
+            device(new DeviceVersion("l1", "farm", "/north", "", "", START, null, 2, "r1")));
 
     @Test
     void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
@@ -186,6 +196,19 @@ class CollisionJobTest {
     }
 
     @Test
+    void asksServiceDevicesWhatCarriesADevice() throws Exception {
+        List<TopicRecord> written = run(options(), robot("r1", 0, 0), robot("l1", 1, 0), robot("r2", 2, 0));
+        assertThat(written)
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactlyInAnyOrder("l1-r2", "l1-r2", "r1-r2", "r1-r2");
+        List<TopicRecord> before = run(options(), robot("r1", 0, -9), robot("l1", 1, -9), robot("r2", 2, -9));
+        assertThat(before)
+                .as("as of the position's time")
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactlyInAnyOrder("l1-r1", "l1-r1", "r1-r2", "r1-r2");
+    }
+
+    @Test
     void refusesRulesThatCannotBeKept() {
         assertThatThrownBy(() -> options("--threshold", "0").rules())
                 .isInstanceOf(ParameterException.class)
@@ -207,12 +230,15 @@ class CollisionJobTest {
                         .map(StreamNode::getTransformationUID))
                 .containsExactly(
                         "Sink Committer: write-topics",
+                        "assign-carriers",
                         "describe-encounters",
                         "describe-late-positions",
                         "describe-overflows",
                         "follow-encounters",
                         "match-pairs",
+                        "read-devices",
                         "read-positions",
+                        "recognize-devices",
                         "reported-changes",
                         "track-devices",
                         "write-topics");
@@ -229,9 +255,25 @@ class CollisionJobTest {
                                 .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .setParallelism(1)
                 .uid("timestamps");
-        List<TopicRecord> written = CollisionJob.define(source, options).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        DataStream<TopicRecord> devices = env.fromData(DEVICES.read(), TypeInformation.of(TopicRecord.class))
+                .uid("read-devices")
+                .setParallelism(1);
+        List<TopicRecord> written = CollisionJob.define(
+                        new CollisionJob.Inputs(source, new DeviceInput(devices, DEVICES)), options)
+                .executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
         written.sort(Comparator.comparingLong(TopicRecord::timestamp));
         return written;
+    }
+
+    private static TopicRecord device(DeviceVersion version) {
+        return new TopicRecord(
+                Topics.DEVICES,
+                0,
+                version.sequence(),
+                version.from(),
+                version.key().getBytes(StandardCharsets.UTF_8),
+                version.toBytes(),
+                Map.of());
     }
 
     private static CollisionOptions options(String... args) {
