@@ -30,7 +30,9 @@ public final class KafkaAccess implements AutoCloseable {
             Topics.TEMPERATURE,
             Topics.TEMPERATURE_LATE,
             Topics.COLLISION,
-            Topics.COLLISION_LATE);
+            Topics.COLLISION_LATE,
+            Topics.PRESENCE,
+            Topics.PRESENCE_LATE);
 
     private final String bootstrapServers;
     private final Path propertiesFile;
