@@ -4,6 +4,7 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.presence.PresenceOptions;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.JobCommandLine;
 
@@ -12,7 +13,7 @@ import io.furrow.flink.JobCommandLine;
         name = "furrow-analytics",
         synopsisSubcommandLabel = "JOB",
         description = "Answers one question about what devices report, per job.",
-        subcommands = {CollisionOptions.class, TemperatureOptions.class})
+        subcommands = {CollisionOptions.class, PresenceOptions.class, TemperatureOptions.class})
 public final class AnalyticsJobs {
     @Option(
             names = {"-h", "--help"},

@@ -36,18 +36,29 @@ class HelpWithoutFlinkTest {
     }
 
     @Test
+    void explainsTheOptionsOfThePresenceJob() throws Exception {
+        Finished help = analytics("presence", "--help");
+
+        assertThat(help.output())
+                .contains("--fields-topic=TOPIC", "--dwell=DURATION", "--time-to-live=DURATION")
+                .contains("Default: 5min.", "Default: data.presence.")
+                .doesNotContain("Exception");
+        assertThat(help.exitCode()).isZero();
+    }
+
+    @Test
     void namesTheJobs() throws Exception {
         Finished help = analytics("--help");
 
-        assertThat(help.output()).contains("temperature").doesNotContain("Exception");
+        assertThat(help.output()).contains("temperature", "presence").doesNotContain("Exception");
         assertThat(help.exitCode()).isZero();
     }
 
     @Test
     void saysWhatIsMissing() throws Exception {
-        Finished refused = analytics("temperature");
+        Finished refused = analytics("temperature", "--fields");
 
-        assertThat(refused.output()).contains("Missing required option: '--fields=FILE'");
+        assertThat(refused.output()).contains("Missing required parameter for option '--fields'");
         assertThat(refused.exitCode()).isNotZero();
     }
 

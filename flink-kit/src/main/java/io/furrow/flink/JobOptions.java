@@ -73,9 +73,17 @@ public abstract class JobOptions {
             paramLabel = "DURATION",
             defaultValue = "10s",
             description =
-                    "After this time without a record a partition no longer holds up event time. The one switch that "
-                            + "depends on the wall clock. Default: ${DEFAULT-VALUE}.")
+                    "After this time without a record a partition no longer holds up event time. Depends on the wall "
+                            + "clock. Default: ${DEFAULT-VALUE}.")
     private Duration idleTimeout;
+
+    @Option(
+            names = "--idle-advance",
+            description =
+                    "Let event time go on with the wall clock where no record has come for --idle-timeout, so that "
+                            + "what is open ends without further traffic. What comes after that can be late: the one switch with "
+                            + "which the same input does not always give the same result.")
+    private boolean idleAdvance;
 
     @Option(
             names = "--checkpoint-interval",
@@ -148,6 +156,10 @@ public abstract class JobOptions {
 
     public Duration idleTimeout() {
         return idleTimeout;
+    }
+
+    public boolean idleAdvance() {
+        return idleAdvance;
     }
 
     /** At least 10 ms, Flink's own limit. */

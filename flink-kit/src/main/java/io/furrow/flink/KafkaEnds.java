@@ -118,10 +118,11 @@ public final class KafkaEnds {
         return properties;
     }
 
-    /** Event time = record timestamp, behind by the job's out-of-orderness; quiet partitions do not hold it up. */
+    /** Event time = record timestamp, behind by the job's out-of-orderness; see {@link ReceiptBoundWatermarks}. */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
-        return WatermarkStrategy.<TopicRecord>forBoundedOutOfOrderness(options.outOfOrderness())
-                .withIdleness(options.idleTimeout());
+        return WatermarkStrategy.forGenerator(new ReceiptBoundWatermarks.Supplier(
+                options.outOfOrderness(),
+                new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance())));
     }
 
     /** For a stream beside the events that has no event time of its own: it never holds theirs up. */

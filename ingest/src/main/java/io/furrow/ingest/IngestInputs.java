@@ -4,9 +4,9 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.KafkaTopicAtStart;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
-import io.furrow.ingest.route.DevicesAtStart;
-import io.furrow.ingest.route.DevicesTopic;
 
 /**
  * What comes in.
@@ -15,7 +15,7 @@ import io.furrow.ingest.route.DevicesTopic;
  * @param devices the records of {@code service.devices}
  * @param devicesAtStart those that are known before the first event
  */
-record IngestInputs(DataStream<TopicRecord> records, DataStream<TopicRecord> devices, DevicesAtStart devicesAtStart) {
+record IngestInputs(DataStream<TopicRecord> records, DataStream<TopicRecord> devices, TopicAtStart devicesAtStart) {
     /** The topics that the options name. */
     static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
         DataStream<TopicRecord> records = env.fromSource(
@@ -27,6 +27,6 @@ record IngestInputs(DataStream<TopicRecord> records, DataStream<TopicRecord> dev
                 .uid("read-devices")
                 .setParallelism(1);
 
-        return new IngestInputs(records, devices, new DevicesTopic(options, options.devices()));
+        return new IngestInputs(records, devices, new KafkaTopicAtStart(options, options.devices()));
     }
 }

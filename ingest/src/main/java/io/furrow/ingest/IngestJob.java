@@ -8,10 +8,10 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaOutput;
 import io.furrow.flink.PassOnce;
+import io.furrow.flink.device.DeviceChange;
+import io.furrow.flink.device.ReadDevices;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.route.AssignMission;
-import io.furrow.ingest.route.DeviceChange;
-import io.furrow.ingest.route.ReadDevices;
 import io.furrow.ingest.route.RecognizeEvents;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.StampIngest;
@@ -41,7 +41,7 @@ public final class IngestJob {
                 .name("Recognize events");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
-                .process(new ReadDevices())
+                .process(new ReadDevices("ingest"))
                 .setParallelism(1) // a device's versions stay in order
                 .uid("recognize-devices")
                 .name("Recognize devices");

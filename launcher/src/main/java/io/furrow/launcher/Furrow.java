@@ -17,6 +17,7 @@ import io.furrow.flink.JobCommandLine;
             MissionCommand.class,
             ImagesCommand.class,
             CatalogCommand.class,
+            FieldsCommand.class,
             DeadLettersCommand.class,
             BenchCommand.class
         })

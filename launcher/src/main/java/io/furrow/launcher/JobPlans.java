@@ -15,6 +15,8 @@ import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.presence.PresenceJob;
+import io.furrow.analytics.presence.PresenceOptions;
 import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.flink.JobCommandLine;
@@ -76,6 +78,9 @@ final class JobPlans {
                         "--window",
                         settings.window())));
         plans.put("collision", CollisionJob.assemble(parsed("collision", new CollisionOptions())));
+        plans.put(
+                "presence",
+                PresenceJob.assemble(parsed("presence", new PresenceOptions(), "--fields", fields().toString())));
         return plans;
     }
 

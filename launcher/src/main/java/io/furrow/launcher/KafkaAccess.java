@@ -30,7 +30,9 @@ public final class KafkaAccess implements AutoCloseable {
             Topics.TEMPERATURE,
             Topics.TEMPERATURE_LATE,
             Topics.COLLISION,
-            Topics.COLLISION_LATE);
+            Topics.COLLISION_LATE,
+            Topics.PRESENCE,
+            Topics.PRESENCE_LATE);
 
     private final String bootstrapServers;
     private final Path propertiesFile;
@@ -46,6 +48,17 @@ public final class KafkaAccess implements AutoCloseable {
 
     /** @param propertiesFile for every client; null for none */
     static KafkaAccess to(String bootstrapServers, Path propertiesFile) {
+        return new KafkaAccess(bootstrapServers, propertiesFile, read(propertiesFile));
+    }
+
+    /** For one client of a command that needs no more than that. */
+    static Properties clientProperties(String bootstrapServers, Path propertiesFile) {
+        Properties properties = read(propertiesFile);
+        properties.setProperty("bootstrap.servers", bootstrapServers);
+        return properties;
+    }
+
+    private static Properties read(Path propertiesFile) {
         Properties properties = new Properties();
         if (propertiesFile != null) {
             try (Reader reader = Files.newBufferedReader(propertiesFile)) {
@@ -57,7 +70,7 @@ public final class KafkaAccess implements AutoCloseable {
                         e);
             }
         }
-        return new KafkaAccess(bootstrapServers, propertiesFile, properties);
+        return properties;
     }
 
     public String bootstrapServers() {

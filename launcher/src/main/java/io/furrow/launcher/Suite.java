@@ -184,7 +184,7 @@ public final class Suite implements AutoCloseable {
         Connectors connectors = new Connectors(connect.uri());
         progress.step("NGSI source and sink", () -> {
             connectors.source(port, directory.resolve("journal"), contextBroker, settings.fiwareService());
-            connectors.sink(contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION));
+            connectors.sink(contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE));
             return listener;
         });
     }

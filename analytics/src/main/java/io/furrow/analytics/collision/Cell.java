@@ -23,6 +23,11 @@ public record Cell(Map<String, Member> members) {
         return members.isEmpty();
     }
 
+    /** How many devices are in the cell, halo copies included. */
+    int devices() {
+        return members.size();
+    }
+
     /**
      * Applies updates instant by instant and tells what that means for pairs.
      *

@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import io.furrow.analytics.eventtime.Timed;
+
 /**
  * What becomes of a device in one grid cell.
  *

@@ -1,6 +1,8 @@
 package io.furrow.analytics.collision;
 
+import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
 /**
@@ -8,8 +10,10 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
  *
  * @param encounters every start and end, and what lies between at a limited rate; a pair's in order of time
  * @param late positions that came after the watermark had passed them and were not counted
+ * @param overflows cells in which more pairs were close than the rules let be followed
  */
-public record CollisionDetection(DataStream<Encounter> encounters, DataStream<PositionFix> late) {
+public record CollisionDetection(
+        DataStream<Encounter> encounters, DataStream<PositionFix> late, DataStream<CellOverflow> overflows) {
     /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
     public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules) {
         SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::identity)
@@ -17,7 +21,7 @@ public record CollisionDetection(DataStream<Encounter> encounters, DataStream<Po
                 .uid("track-devices")
                 .name("Track devices through the grid");
 
-        DataStream<Sighting> sightings = updates.keyBy(CellUpdate::cell)
+        SingleOutputStreamOperator<Sighting> sightings = updates.keyBy(CellUpdate::cell)
                 .process(new MatchPairs(rules))
                 .uid("match-pairs")
                 .name("Match pairs in each cell");
@@ -28,6 +32,17 @@ public record CollisionDetection(DataStream<Encounter> encounters, DataStream<Po
                 .uid("follow-encounters")
                 .name("Follow encounters of each pair");
 
-        return new CollisionDetection(encounters, updates.getSideOutput(TrackDevices.LATE));
+        return new CollisionDetection(
+                rules.steadiness().isNone() ? encounters : steady(encounters, rules),
+                updates.getSideOutput(TrackDevices.LATE),
+                sightings.getSideOutput(MatchPairs.OVERFLOWS));
+    }
+
+    /** A pair's records stay where they are: the key is that of the stage before. */
+    private static DataStream<Encounter> steady(DataStream<Encounter> encounters, CollisionRules rules) {
+        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, Types.STRING)
+                .process(new SteadyEncounters(rules))
+                .uid("steady-encounters")
+                .name("Steady encounters of each pair");
     }
 }

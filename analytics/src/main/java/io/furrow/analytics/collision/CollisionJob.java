@@ -8,9 +8,19 @@ import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceChange;
+import io.furrow.flink.device.DeviceInput;
+import io.furrow.flink.device.ReadDevices;
 
 /** The job {@code collision}: encounters of devices, from the first instant at which they are close to the last. */
 public final class CollisionJob {
+    /**
+     * What comes in.
+     *
+     * @param records entities with event time as their timestamp
+     */
+    record Inputs(DataStream<TopicRecord> records, DeviceInput devices) {}
+
     private CollisionJob() {}
 
     /** Runs the job until it ends, which it does not by itself. */
@@ -26,7 +36,7 @@ public final class CollisionJob {
                         KafkaEnds.source(options), KafkaEnds.watermarks(options), "Reported changes")
                 .uid("reported-changes");
 
-        define(records, options)
+        define(new Inputs(records, DeviceInput.of(env, options, options.devices())), options)
                 .sinkTo(KafkaEnds.sink(options))
                 .uid("write-topics")
                 .name("Write encounters, late positions and dead letters");
@@ -34,17 +44,32 @@ public final class CollisionJob {
     }
 
     /**
-     * @param records entities with event time as their timestamp
-     * @return encounters, late positions and dead letters; each record names its topic
+     * @return encounters, late positions, crowded cells and dead letters; each record names its topic
      */
-    static DataStream<TopicRecord> define(DataStream<TopicRecord> records, CollisionOptions options) {
+    static DataStream<TopicRecord> define(Inputs in, CollisionOptions options) {
+        SingleOutputStreamOperator<PositionFix> read =
+                in.records().process(new ReadPositions()).uid("read-positions").name("Read positions");
+
+        SingleOutputStreamOperator<DeviceChange> devices = in.devices()
+                .records()
+                .process(new ReadDevices("collision"))
+                .setParallelism(1) // a device's versions stay in order
+                .uid("recognize-devices")
+                .name("Recognize devices");
+
+        SingleOutputStreamOperator<PositionFix> fixes = read.connect(devices.broadcast(AssignCarriers.DEVICES))
+                .process(new AssignCarriers(in.devices().atStart()))
+                .uid("assign-carriers")
+                .name("Assign carriers");
+
+        return results(CollisionDetection.define(fixes, options.rules()), options)
+                .union(read.getSideOutput(DeadLetters.TAG), devices.getSideOutput(DeadLetters.TAG));
+    }
+
+    private static DataStream<TopicRecord> results(CollisionDetection detection, CollisionOptions options) {
         String output = options.output();
         String lateOutput = options.lateOutput();
-
-        SingleOutputStreamOperator<PositionFix> fixes =
-                records.process(new ReadPositions()).uid("read-positions").name("Read positions");
-
-        CollisionDetection detection = CollisionDetection.define(fixes, options.rules());
+        String overflowOutput = options.overflowOutput();
 
         DataStream<TopicRecord> encounters = detection
                 .encounters()
@@ -58,6 +83,12 @@ public final class CollisionJob {
                 .uid("describe-late-positions")
                 .name("Describe late positions as entities");
 
-        return encounters.union(late, fixes.getSideOutput(DeadLetters.TAG));
+        DataStream<TopicRecord> overflows = detection
+                .overflows()
+                .map(overflow -> CollisionRecord.overflow(overflow, overflowOutput))
+                .uid("describe-overflows")
+                .name("Describe crowded cells as entities");
+
+        return encounters.union(late, overflows);
     }
 }

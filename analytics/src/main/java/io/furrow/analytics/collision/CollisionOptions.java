@@ -1,9 +1,9 @@
 package io.furrow.analytics.collision;
 
-import java.time.Duration;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.flink.JobOptions;
@@ -17,45 +17,17 @@ import io.furrow.model.topic.Topics;
                 "Which devices are closer to each other than a threshold, from when to when. Exact in event time: the "
                         + "same at any parallelism, in any order of arrival and in a second pass.")
 public final class CollisionOptions extends JobOptions implements Callable<Integer> {
-    private static final int THRESHOLDS_PER_CELL = 20;
+    @Mixin
+    private final RuleOptions rules = new RuleOptions();
 
     @Option(
-            names = "--threshold",
-            paramLabel = "METERS",
-            defaultValue = "5",
-            description = "Up to this distance two devices are close, 0.1 to 100000 m. Default: ${DEFAULT-VALUE}.")
-    private double threshold;
-
-    @Option(
-            names = "--time-to-live",
-            paramLabel = "DURATION",
-            defaultValue = "30s",
-            description = "How long a position counts when no newer one comes. At least twice the time between two "
-                    + "reports of a device, or encounters break up. Default: ${DEFAULT-VALUE}.")
-    private Duration timeToLive;
-
-    @Option(
-            names = "--max-skew",
-            paramLabel = "DURATION",
-            defaultValue = "0s",
-            description = "Positions further apart in time are not compared. 0s compares all. Set it where devices "
-                    + "move far between two reports. Default: ${DEFAULT-VALUE}.")
-    private Duration maxSkew;
-
-    @Option(
-            names = "--ongoing-every",
-            paramLabel = "DURATION",
-            defaultValue = "1s",
-            description = "Least event time between two records of a lasting encounter; starts and ends are always "
-                    + "told. 0s tells every sighting. Default: ${DEFAULT-VALUE}.")
-    private Duration ongoingEvery;
-
-    @Option(
-            names = "--cell",
-            paramLabel = "METERS",
-            description = "Height of a grid cell, at least --threshold. Changes speed only: smaller where devices "
-                    + "crowd, larger where they are sparse. Default: 20 times --threshold.")
-    private Double cell;
+            names = "--devices",
+            paramLabel = "TOPIC",
+            defaultValue = Topics.DEVICES,
+            description =
+                    "Topic that says which devices are carried by another and do not collide with it; it need not "
+                            + "be there. Default: ${DEFAULT-VALUE}.")
+    private String devices;
 
     @Option(
             names = "--output",
@@ -71,6 +43,13 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
             description = "Topic of the positions that came too late to count. Default: ${DEFAULT-VALUE}.")
     private String lateOutput;
 
+    @Option(
+            names = "--overflow-output",
+            paramLabel = "TOPIC",
+            defaultValue = Topics.COLLISION_OVERFLOW,
+            description = "Topic of what --pairs-per-cell left out. Default: ${DEFAULT-VALUE}.")
+    private String overflowOutput;
+
     @Override
     public Integer call() throws Exception {
         CollisionJob.run(this);
@@ -78,16 +57,23 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
     }
 
     public CollisionRules rules() {
-        double cellMeters = cell == null ? THRESHOLDS_PER_CELL * threshold : cell;
         try {
-            return new CollisionRules(threshold, timeToLive, maxSkew, ongoingEvery, cellMeters);
+            return rules.rules();
         } catch (IllegalArgumentException e) {
             throw refused(e.getMessage(), e);
         }
     }
 
+    public String devices() {
+        return devices;
+    }
+
     public String output() {
         return output;
+    }
+
+    public String overflowOutput() {
+        return overflowOutput;
     }
 
     public String lateOutput() {

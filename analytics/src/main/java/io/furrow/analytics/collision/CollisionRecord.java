@@ -1,13 +1,17 @@
 package io.furrow.analytics.collision;
 
+import java.util.HexFormat;
+
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
 
-/** What the job writes about encounters and about positions that it could not count. */
+/** What the job writes about encounters, about crowded cells and about positions that it could not count. */
 final class CollisionRecord {
     private static final String SOURCE = "/analytics/collision";
     private static final String LATE_TYPE = "Analytics:LatePosition";
+
+    private static final String OVERFLOW_TYPE = "Analytics:CollisionOverflow";
 
     private CollisionRecord() {}
 
@@ -20,6 +24,21 @@ final class CollisionRecord {
                 encounter.first().scope(),
                 encounter.time(),
                 SOURCE);
+    }
+
+    /** One entity per cell; timestamp = when. */
+    static TopicRecord overflow(CellOverflow overflow, String topic) {
+        String cell = HexFormat.of().toHexDigits(overflow.cell());
+        Entity entity = Entity.builder(OVERFLOW_TYPE + ":" + cell, OVERFLOW_TYPE)
+                .text("cell", cell)
+                .number("Latitude", overflow.latitude())
+                .number("Longitude", overflow.longitude())
+                .integer("time", overflow.time())
+                .integer("devices", overflow.devices())
+                .integer("pairs", overflow.pairs())
+                .integer("pairsLeftOut", overflow.pairsLeftOut())
+                .build();
+        return ResultRecord.of(topic, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
     }
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */

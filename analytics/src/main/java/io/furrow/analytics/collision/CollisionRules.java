@@ -6,39 +6,80 @@ import java.time.Duration;
 /**
  * What counts as an encounter, and how it is reported.
  *
- * @param thresholdMeters up to which distance two devices are close, 0.1 to 100,000
- * @param timeToLive how long a position counts when no newer one comes, at least 1 ms
- * @param maxSkew how far apart in time the positions of a close pair may be; zero for any
+ * @param thresholds up to which distance two devices are close
+ * @param positions which positions count
+ * @param steadiness what keeps encounters from flickering
  * @param ongoingEvery least event time between two records of a lasting encounter; zero reports every sighting
- * @param cellMeters height of a grid cell, at least the threshold; no result depends on it, only speed
+ * @param cells how the Earth is cut into cells, each at least as high as the threshold at which encounters end
  */
 public record CollisionRules(
-        double thresholdMeters, Duration timeToLive, Duration maxSkew, Duration ongoingEvery, double cellMeters)
+        Thresholds thresholds, PositionRules positions, Steadiness steadiness, Duration ongoingEvery, CellRules cells)
         implements Serializable {
     /** 5 m, 30 s, any skew, a record a second, cells of 20 thresholds: about 1.1 copies of each position. */
     public static final CollisionRules DEFAULT =
             new CollisionRules(5, Duration.ofSeconds(30), Duration.ZERO, Duration.ofSeconds(1), 100);
 
-    /** Below this the rounding of unit vectors would leave the guard band of {@link Proximity}. */
-    private static final double LEAST_THRESHOLD = 0.1;
-
-    private static final double GREATEST_THRESHOLD = 100_000;
-
     public CollisionRules {
-        require(
-                thresholdMeters >= LEAST_THRESHOLD && thresholdMeters <= GREATEST_THRESHOLD,
-                "the threshold must be 0.1 to 100000 metres, not " + thresholdMeters);
-        require(timeToLive.toMillis() > 0, "the time-to-live must be at least 1 ms, not " + timeToLive);
-        require(!maxSkew.isNegative(), "the greatest skew must not be negative: " + maxSkew);
-        require(!ongoingEvery.isNegative(), "the time between ongoing records must not be negative: " + ongoingEvery);
-        require(
-                cellMeters >= thresholdMeters && Double.isFinite(cellMeters),
-                "the cell must be at least as high as the threshold, not " + cellMeters + " metres");
+        if (ongoingEvery.isNegative()) {
+            throw new IllegalArgumentException(
+                    "the time between ongoing records must not be negative: " + ongoingEvery);
+        }
+        double reach = thresholds.times(steadiness.leaveFactor()).greatest();
+        if (cells.meters() < reach) {
+            throw new IllegalArgumentException("the cell must be at least as high as the threshold at which encounters "
+                    + "end, " + reach + " metres, not " + cells.meters());
+        }
     }
 
-    private static void require(boolean met, String otherwise) {
-        if (!met) {
-            throw new IllegalArgumentException(otherwise);
-        }
+    /** One threshold for all types, no zones, no steadiness, no limit. */
+    public CollisionRules(
+            double thresholdMeters, Duration timeToLive, Duration maxSkew, Duration ongoingEvery, double cellMeters) {
+        this(
+                Thresholds.of(thresholdMeters),
+                new PositionRules(timeToLive, maxSkew, ExclusionZones.NONE),
+                Steadiness.NONE,
+                ongoingEvery,
+                new CellRules(cellMeters, 0));
+    }
+
+    public CollisionRules with(Thresholds other) {
+        return new CollisionRules(other, positions, steadiness, ongoingEvery, cells);
+    }
+
+    public CollisionRules with(PositionRules other) {
+        return new CollisionRules(thresholds, other, steadiness, ongoingEvery, cells);
+    }
+
+    public CollisionRules with(Steadiness other) {
+        return new CollisionRules(thresholds, positions, other, ongoingEvery, cells);
+    }
+
+    public CollisionRules with(CellRules other) {
+        return new CollisionRules(thresholds, positions, steadiness, ongoingEvery, other);
+    }
+
+    /** What the exact stages go by: encounters up to where they end, and everything of them for the stage behind. */
+    CollisionRules exact() {
+        return steadiness.isNone()
+                ? this
+                : new CollisionRules(
+                        thresholds.times(steadiness.leaveFactor()), positions, Steadiness.NONE, Duration.ZERO, cells);
+    }
+
+    /** The greatest threshold of any pair. */
+    public double thresholdMeters() {
+        return thresholds.greatest();
+    }
+
+    public Duration timeToLive() {
+        return positions.timeToLive();
+    }
+
+    public Duration maxSkew() {
+        return positions.maxSkew();
+    }
+
+    public double cellMeters() {
+        return cells.meters();
     }
 }

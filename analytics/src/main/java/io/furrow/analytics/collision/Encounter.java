@@ -24,6 +24,16 @@ public record Encounter(
         return pairId() + "@" + startTime;
     }
 
+    /** The same pair and places in another phase, or of an encounter with another start. */
+    Encounter of(Phase other, double distance, double closest, long start, long time) {
+        return new Encounter(other, first, second, distance, closest, start, time);
+    }
+
+    /** One text per pair, the same as of its sightings. */
+    String pair() {
+        return Sighting.pair(first, second);
+    }
+
     /** 32 hexadecimal digits that stand for the pair. */
     public String pairId() {
         return PairId.of(first.identity(), second.identity());

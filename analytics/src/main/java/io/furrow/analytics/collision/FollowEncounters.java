@@ -10,6 +10,9 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+
 /**
  * Tells the life of each encounter: started, ongoing, ended. Key: the pair.
  *
@@ -33,7 +36,7 @@ public final class FollowEncounters extends KeyedProcessFunction<String, Sightin
     private transient Counter violations;
 
     FollowEncounters(CollisionRules rules) {
-        follower = new Follower(rules);
+        follower = new Follower(rules.exact());
     }
 
     @Override

@@ -62,6 +62,16 @@ final class Grid implements Serializable {
         return Arrays.copyOf(cells, count);
     }
 
+    /** Latitude and longitude of the centre of the home cell of a position; degrees. */
+    double[] centre(double latitude, double longitude) {
+        int band = band(Math.toRadians(latitude));
+        int columns = columns(band);
+        int column = Math.floorMod(column(Math.toRadians(longitude), columns), columns);
+        return new double[] {
+            Math.toDegrees((band + 0.5) * height - POLE), Math.toDegrees((column + 0.5) * CIRCLE / columns - Math.PI)
+        };
+    }
+
     /** How far east and west the circle reaches, in radians of longitude: all around where it holds a pole. */
     private double halfWidth(double phi) {
         boolean holdsPole = Math.abs(phi) + reach >= POLE;

@@ -2,41 +2,69 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import io.furrow.analytics.eventtime.Timed;
 import io.furrow.model.event.FiwareScope;
 
 /**
  * Where a device was at an instant. Texts are empty, never null, where nothing is known.
  *
- * @param identity tenant, service path and id: what makes the device unique
+ * @param topic the topic that tells of it; devices of two topics never meet
+ * @param identity tenant, service path and id: what makes the device unique within the topic
  * @param id the entity id
+ * @param type the entity type
  * @param mission the mission it works for
  * @param carrier identity of the device that carries it
  * @param latitude degrees, −90 to 90
  * @param longitude degrees, −180 to 180
+ * @param speed metres per second as reported; NaN where nothing is known
+ * @param heading degrees clockwise from north as reported, 0 to 360; NaN where nothing is known
  * @param time epoch milliseconds
  */
 public record PositionFix(
-        String identity, String id, String mission, String carrier, double latitude, double longitude, long time)
+        String topic,
+        String identity,
+        String id,
+        String type,
+        String mission,
+        String carrier,
+        double latitude,
+        double longitude,
+        double speed,
+        double heading,
+        long time)
         implements Timed {
     /** The order in which a pair is named: by id, then by identity. */
-    static final Comparator<PositionFix> NAMING =
+    public static final Comparator<PositionFix> NAMING =
             Comparator.comparing(PositionFix::id).thenComparing(PositionFix::identity);
 
     /** By time; of two fixes of one device and instant the later in this order counts. */
-    static final Comparator<PositionFix> SEQUENCE = Comparator.comparingLong(PositionFix::time)
+    public static final Comparator<PositionFix> SEQUENCE = Comparator.comparingLong(PositionFix::time)
             .thenComparingDouble(PositionFix::latitude)
             .thenComparingDouble(PositionFix::longitude)
             .thenComparing(PositionFix::mission)
-            .thenComparing(PositionFix::carrier);
+            .thenComparing(PositionFix::carrier)
+            .thenComparing(PositionFix::type)
+            .thenComparingDouble(PositionFix::speed)
+            .thenComparingDouble(PositionFix::heading);
+
+    /** One text per device of a topic. A topic's name has no {@code |}. */
+    public String key() {
+        return topic + '|' + identity;
+    }
 
     /** The tenant and service path that the identity begins with. */
-    FiwareScope scope() {
+    public FiwareScope scope() {
         String[] parts = identity.split("\\|", 3);
         return new FiwareScope(parts[0], parts[1]);
     }
 
+    /** The same device at the same place, carried by another. */
+    public PositionFix carriedBy(String other) {
+        return new PositionFix(topic, identity, id, type, mission, other, latitude, longitude, speed, heading, time);
+    }
+
     /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
-    boolean sharesAggregateWith(PositionFix other) {
+    public boolean sharesAggregateWith(PositionFix other) {
         return carrier.equals(other.identity)
                 || other.carrier.equals(identity)
                 || !carrier.isEmpty() && carrier.equals(other.carrier);

@@ -1,6 +1,8 @@
 package io.furrow.analytics.collision;
 
 import java.io.Serializable;
+import java.util.HashMap;
+import java.util.Map;
 
 /**
  * Whether two devices of a cell are close. The squared chord between unit vectors answers nearly always; within a
@@ -11,29 +13,49 @@ final class Proximity implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final double GUARD_BAND = 1e-6;
 
-    private final double threshold;
+    private final Thresholds thresholds;
     private final long maxSkewMillis;
-    private final double surelyClose;
-    private final double surelyApart;
+    private final Limit greatest;
+    /** By types; null where all have one threshold. Grows with the pairs of types that are met. */
+    private final Map<String, Map<String, Limit>> limits;
+
+    /** A threshold in metres, and the squared chords below and above which it need not be asked. */
+    private record Limit(double meters, double surelyClose, double surelyApart) implements Serializable {
+        static Limit of(double meters) {
+            double chord = 2 * Math.sin(meters / Geodesy.EARTH_RADIUS_METERS / 2);
+            return new Limit(meters, chord * chord * (1 - GUARD_BAND), chord * chord * (1 + GUARD_BAND));
+        }
+    }
 
     Proximity(CollisionRules rules) {
-        threshold = rules.thresholdMeters();
+        thresholds = rules.thresholds();
         maxSkewMillis =
                 rules.maxSkew().isZero() ? Long.MAX_VALUE : rules.maxSkew().toMillis();
-        double chord = 2 * Math.sin(threshold / Geodesy.EARTH_RADIUS_METERS / 2);
-        surelyClose = chord * chord * (1 - GUARD_BAND);
-        surelyApart = chord * chord * (1 + GUARD_BAND);
+        greatest = Limit.of(thresholds.greatest());
+        limits = thresholds.ofTypes().isEmpty() ? null : new HashMap<>();
     }
 
     /** Two halo copies are not compared here: they meet in a cell where one of them is at home. */
     boolean holds(Member a, Member b) {
         double squaredChord =
                 Geodesy.square(a.x() - b.x()) + Geodesy.square(a.y() - b.y()) + Geodesy.square(a.z() - b.z());
-        if (squaredChord > surelyApart || !a.resident() && !b.resident()) {
+        if (squaredChord > greatest.surelyApart || !a.resident() && !b.resident()) {
             return false;
         }
-        return (squaredChord < surelyClose || Geodesy.distance(a.fix(), b.fix()) <= threshold)
+        return within(limit(a.fix().type(), b.fix().type()), squaredChord, a, b)
                 && Math.abs(a.fix().time() - b.fix().time()) <= maxSkewMillis
                 && !a.fix().sharesAggregateWith(b.fix());
+    }
+
+    private static boolean within(Limit limit, double squaredChord, Member a, Member b) {
+        return squaredChord < limit.surelyClose
+                || squaredChord <= limit.surelyApart && Geodesy.distance(a.fix(), b.fix()) <= limit.meters;
+    }
+
+    private Limit limit(String type, String other) {
+        return limits == null
+                ? greatest
+                : limits.computeIfAbsent(type, first -> new HashMap<>())
+                        .computeIfAbsent(other, second -> Limit.of(thresholds.between(type, second)));
     }
 }

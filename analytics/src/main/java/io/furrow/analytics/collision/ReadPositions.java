@@ -1,8 +1,6 @@
 package io.furrow.analytics.collision;
 
 import java.util.Set;
-import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.metrics.Counter;
@@ -14,7 +12,7 @@ import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.Position;
 import io.furrow.model.ngsi.PositionReading;
 import io.furrow.model.ngsi.UnreadableException;
@@ -30,16 +28,16 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
     /** The results of Furrow itself, which come back through the context broker. */
     private static final String OWN_TYPES = "Analytics:";
 
-    private static final Set<String> WANTED = Stream.concat(
-                    PositionReading.ATTRIBUTES.stream(), Stream.of("Mission", "carriedBy", "refRobot"))
-            .collect(Collectors.toUnmodifiableSet());
+    private static final Set<String> ATTRIBUTES = Set.of("Mission", "carriedBy", "refRobot", "speed", "heading");
 
+    private transient EntityReader entity;
     private transient Counter rejected;
     private transient Counter skipped;
     private transient Counter faulty;
 
     @Override
     public void open(OpenContext context) {
+        entity = new EntityReader(ATTRIBUTES);
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         rejected = metrics.counter("rejected");
         skipped = metrics.counter("skipped");
@@ -53,11 +51,11 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
             return;
         }
         try {
-            Entity entity = Entity.parse(record.value(), WANTED);
+            entity.read(record.value());
             if (entity.type().startsWith(OWN_TYPES)) {
                 skipped.inc();
             } else {
-                located(entity, record, out);
+                located(record, out);
             }
         } catch (UnreadableException e) {
             rejected.inc();
@@ -65,10 +63,10 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
         }
     }
 
-    private void located(Entity entity, TopicRecord record, Collector<PositionFix> out) {
-        PositionReading reading = PositionReading.of(entity);
+    private void located(TopicRecord record, Collector<PositionFix> out) {
+        PositionReading reading = entity.position();
         if (reading instanceof PositionReading.Located located) {
-            out.collect(fix(entity, located.position(), record));
+            out.collect(fix(located.position(), record));
         } else if (reading instanceof PositionReading.Faulty) {
             faulty.inc();
         } else {
@@ -76,18 +74,26 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
         }
     }
 
-    private static PositionFix fix(Entity entity, Position position, TopicRecord record) {
+    private PositionFix fix(Position position, TopicRecord record) {
         FiwareScope scope = FiwareScope.of(
                 record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
         String carrier =
                 entity.text("carriedBy").or(() -> entity.text("refRobot")).orElse("");
         return new PositionFix(
+                record.topic(),
                 scope.identity(entity.id()),
                 entity.id(),
+                entity.type(),
                 entity.text("Mission").orElse(""),
                 carrier.isEmpty() ? "" : scope.identity(carrier),
                 position.latitude(),
                 position.longitude(),
+                within(entity.number("speed"), Double.MAX_VALUE),
+                within(entity.number("heading"), 360),
                 record.timestamp());
+    }
+
+    private static double within(double number, double greatest) {
+        return number >= 0 && number <= greatest ? number : Double.NaN;
     }
 }

@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import io.furrow.analytics.eventtime.Timed;
+
 /**
  * What one grid cell saw of a pair at an instant at which either device reported or left.
  *
@@ -21,6 +23,10 @@ public record Sighting(PositionFix first, PositionFix second, long time, int cha
 
     /** One text per pair; the length before it keeps two pairs from ever sharing one. */
     String pair() {
+        return pair(first, second);
+    }
+
+    static String pair(PositionFix first, PositionFix second) {
         return first.identity().length() + ":" + first.identity() + second.identity();
     }
 }

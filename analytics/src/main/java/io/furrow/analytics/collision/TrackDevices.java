@@ -16,6 +16,9 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+
 /**
  * Puts each device into the grid cells that have to know of it. Key: the device's identity.
  *
@@ -47,7 +50,7 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
     private transient Counter late;
 
     TrackDevices(CollisionRules rules) {
-        tracker = new Tracker(rules);
+        tracker = new Tracker(rules.exact());
     }
 
     @Override

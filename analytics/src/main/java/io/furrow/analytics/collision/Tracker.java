@@ -7,11 +7,14 @@ import java.util.function.Consumer;
 /** Moves a device through the grid: what its positions, and their end, mean for which cell at which instant. */
 final class Tracker implements Serializable {
     private static final long serialVersionUID = 1L;
+    private static final long[] NO_CELLS = {};
 
     private final Grid grid;
+    private final ExclusionZones zones;
     private final long timeToLive;
 
     Tracker(CollisionRules rules) {
+        zones = rules.positions().zones();
         grid = new Grid(rules);
         timeToLive = rules.timeToLive().toMillis();
     }
@@ -50,7 +53,8 @@ final class Tracker implements Serializable {
     }
 
     private Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
-        long[] cells = grid.cells(fix.latitude(), fix.longitude());
+        boolean excluded = zones.cover(fix.latitude(), fix.longitude());
+        long[] cells = excluded ? NO_CELLS : grid.cells(fix.latitude(), fix.longitude());
         for (long left : track.cells()) {
             if (!contains(cells, left)) {
                 out.accept(new CellUpdate(left, fix.time(), Presence.GONE, track.last()));

@@ -1,39 +1,62 @@
 package io.furrow.analytics.temperature;
 
-import java.util.ArrayList;
+import java.io.IOException;
 import java.util.List;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.functions.RichFlatMapFunction;
 import org.apache.flink.metrics.Counter;
+import org.apache.flink.metrics.MetricGroup;
+import org.apache.flink.streaming.api.functions.co.BroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 
-/** Gives a reading to every field that covers its position; readings outside of all fields are counted as {@code outside}. */
-final class AssignFields extends RichFlatMapFunction<Reading, FieldReading> {
+import io.furrow.analytics.field.Field;
+import io.furrow.analytics.field.KnownFields;
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+
+/**
+ * Gives a reading to every field that covers its position at its time.
+ *
+ * <p>State: none of Flink's, see {@link KnownFields}. Late: a version that comes after a reading of its time does not change
+ * where that went. Emits: a reading once per field; counted are {@code inside} and {@code outside} of all fields, and {@code
+ * field-changes}.
+ */
+public final class AssignFields extends BroadcastProcessFunction<Reading, TopicRecord, FieldReading> {
     private static final long serialVersionUID = 1L;
 
-    private final ArrayList<Field> fields; // by its class, because it travels serialized
-    private transient FieldIndex index;
+    private final TopicAtStart atStart;
+    private transient KnownFields fields;
+    private transient Counter inside;
     private transient Counter outside;
+    private transient Counter changes;
 
-    AssignFields(List<Field> fields) {
-        this.fields = new ArrayList<>(fields);
+    public AssignFields(TopicAtStart atStart) {
+        this.atStart = atStart;
     }
 
     @Override
-    public void open(OpenContext context) {
-        index = new FieldIndex(fields);
-        outside = getRuntimeContext().getMetricGroup().counter("outside");
+    public void open(OpenContext context) throws IOException {
+        fields = KnownFields.read(atStart);
+        MetricGroup metrics = getRuntimeContext().getMetricGroup();
+        inside = metrics.counter("inside");
+        outside = metrics.counter("outside");
+        changes = metrics.counter("field-changes");
     }
 
     @Override
-    public void flatMap(Reading reading, Collector<FieldReading> out) {
-        List<Field> covering = index.covering(reading.position());
-        if (covering.isEmpty()) {
-            outside.inc();
-        }
+    public void processElement(Reading reading, ReadOnlyContext context, Collector<FieldReading> out) {
+        List<Field> covering =
+                fields.covering(reading.position(), reading.record().timestamp());
+        (covering.isEmpty() ? outside : inside).inc();
         for (Field field : covering) {
-            out.collect(new FieldReading(field.id(), field.domain(), reading));
+            out.collect(new FieldReading(field.id(), field.domain(), field.validFrom(), reading));
+        }
+    }
+
+    @Override
+    public void processBroadcastElement(TopicRecord record, Context context, Collector<FieldReading> out) {
+        if (fields.take(record)) {
+            changes.inc();
         }
     }
 }

@@ -33,13 +33,18 @@ final class AverageVotes implements WindowFunction<DeviceVote, TopicRecord, Stri
     @Override
     public void apply(String field, TimeWindow window, Iterable<DeviceVote> votes, Collector<TopicRecord> out) {
         Map<String, Double> latest = new HashMap<>();
-        DeviceVote any = null;
+        DeviceVote newest = null; // by the version of the field: whose domain counts
         for (DeviceVote vote : votes) {
             latest.put(vote.device(), vote.value());
-            any = vote;
+            newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
         }
         FieldTemperature result = new FieldTemperature(
-                any.field(), any.domain(), any.windowStart(), any.windowEnd(), RobustMean.of(latest, madFloor));
-        out.collect(ResultRecord.of(topic, result.field(), result.entity(), any.scope(), result.timestamp(), SOURCE));
+                newest.field(),
+                newest.domain(),
+                newest.windowStart(),
+                newest.windowEnd(),
+                RobustMean.of(latest, madFloor));
+        out.collect(
+                ResultRecord.of(topic, result.field(), result.entity(), newest.scope(), result.timestamp(), SOURCE));
     }
 }

@@ -22,6 +22,7 @@ final class CastVote implements WindowFunction<DeviceReadings, DeviceVote, Strin
             out.collect(new DeviceVote(
                     readings.field(),
                     readings.domain(),
+                    readings.validFrom(),
                     readings.scope(),
                     readings.device(),
                     median,

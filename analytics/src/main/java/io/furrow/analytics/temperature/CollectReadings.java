@@ -10,14 +10,21 @@ final class CollectReadings implements AggregateFunction<FieldReading, DeviceRea
 
     @Override
     public DeviceReadings createAccumulator() {
-        return new DeviceReadings(null, null, null, null, new ArrayList<>());
+        return new DeviceReadings(null, null, Long.MIN_VALUE, null, null, new ArrayList<>());
     }
 
     @Override
     public DeviceReadings add(FieldReading from, DeviceReadings so) {
         Reading reading = from.reading();
         so.values().add(reading.value());
-        return new DeviceReadings(from.field(), from.domain(), reading.scope(), reading.device(), so.values());
+        boolean newer = from.validFrom() >= so.validFrom();
+        return new DeviceReadings(
+                from.field(),
+                newer ? from.domain() : so.domain(),
+                newer ? from.validFrom() : so.validFrom(),
+                reading.scope(),
+                reading.device(),
+                so.values());
     }
 
     @Override
@@ -25,9 +32,9 @@ final class CollectReadings implements AggregateFunction<FieldReading, DeviceRea
         return readings;
     }
 
+    /** Only session windows merge. */
     @Override
     public DeviceReadings merge(DeviceReadings one, DeviceReadings other) {
-        one.values().addAll(other.values());
-        return one;
+        throw new UnsupportedOperationException("windows of a fixed length do not merge");
     }
 }

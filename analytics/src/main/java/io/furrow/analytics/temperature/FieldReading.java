@@ -5,8 +5,9 @@ package io.furrow.analytics.temperature;
  *
  * @param field id of the field
  * @param domain of the field; empty where it belongs to none
+ * @param validFrom since when the field is as it is, epoch ms
  */
-public record FieldReading(String field, String domain, Reading reading) {
+public record FieldReading(String field, String domain, long validFrom, Reading reading) {
     /** The device in this field, among those of all tenants; the length makes it unambiguous. */
     public String voter() {
         return field.length() + ":" + field + reading.deviceIdentity();

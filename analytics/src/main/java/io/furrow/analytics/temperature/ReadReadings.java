@@ -2,10 +2,7 @@ package io.furrow.analytics.temperature;
 
 import java.time.Instant;
 import java.util.Map;
-import java.util.Optional;
 import java.util.Set;
-import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.metrics.Counter;
@@ -19,6 +16,7 @@ import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.PositionReading;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -36,7 +34,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
     private static final double GREATEST = 1e100;
 
     private final String attribute;
-    private transient Set<String> wanted;
+    private transient EntityReader entity;
     private transient Counter accepted;
     private transient Counter rejected;
     private transient Counter skipped;
@@ -49,8 +47,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
 
     @Override
     public void open(OpenContext context) {
-        wanted = Stream.concat(PositionReading.ATTRIBUTES.stream(), Stream.of(attribute))
-                .collect(Collectors.toUnmodifiableSet());
+        entity = new EntityReader(Set.of(attribute));
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         accepted = metrics.counter("accepted");
         rejected = metrics.counter("rejected");
@@ -66,11 +63,11 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
             return;
         }
         try {
-            Entity entity = Entity.parse(record.value(), wanted);
-            if (entity.type().startsWith(OWN_TYPES) || entity.value(attribute).isEmpty()) {
+            entity.read(record.value());
+            if (entity.type().startsWith(OWN_TYPES) || !entity.has(attribute)) {
                 skipped.inc();
             } else {
-                measured(entity, record, out);
+                measured(record, out);
             }
         } catch (UnreadableException e) {
             rejected.inc();
@@ -78,10 +75,10 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
         }
     }
 
-    private void measured(Entity entity, TopicRecord record, Collector<Reading> out) throws UnreadableException {
-        Optional<Double> value = entity.number(attribute).filter(number -> Math.abs(number) <= GREATEST);
-        PositionReading place = PositionReading.of(entity);
-        if (value.isEmpty() || place instanceof PositionReading.Faulty) {
+    private void measured(TopicRecord record, Collector<Reading> out) throws UnreadableException {
+        double value = entity.number(attribute);
+        PositionReading place = entity.position();
+        if (!(Math.abs(value) <= GREATEST) || place instanceof PositionReading.Faulty) {
             faulty.inc();
         } else if (place instanceof PositionReading.Located located) {
             accepted.inc();
@@ -90,7 +87,7 @@ final class ReadReadings extends ProcessFunction<TopicRecord, Reading> {
             String eventId = headers.containsKey(HeaderNames.CE_ID)
                     ? headers.get(HeaderNames.CE_ID)
                     : EventId.of(scope, Entity.parse(record.value()), Instant.ofEpochMilli(record.timestamp()));
-            out.collect(new Reading(entity.id(), scope, located.position(), value.get(), eventId, record));
+            out.collect(new Reading(entity.id(), scope, located.position(), value, eventId, record));
         } else {
             unlocated.inc();
         }

@@ -7,6 +7,9 @@ import org.apache.flink.streaming.api.windowing.assigners.SlidingEventTimeWindow
 import org.apache.flink.streaming.api.windowing.assigners.TumblingEventTimeWindows;
 import org.apache.flink.util.OutputTag;
 
+import io.furrow.analytics.field.FieldInput;
+import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.field.RecognizeFields;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
@@ -18,6 +21,13 @@ public final class TemperatureJob {
     private static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
         private static final long serialVersionUID = 1L;
     };
+
+    /**
+     * What comes in.
+     *
+     * @param records entities with event time as their timestamp
+     */
+    record Inputs(DataStream<TopicRecord> records, FieldInput fields) {}
 
     private TemperatureJob() {}
 
@@ -34,28 +44,34 @@ public final class TemperatureJob {
                         KafkaEnds.source(options), KafkaEnds.watermarks(options), "Reported changes")
                 .uid("reported-changes");
 
-        define(records, options)
+        define(new Inputs(records, FieldInput.of(env, options, options.fields())), options)
                 .sinkTo(KafkaEnds.sink(options))
                 .uid("write-topics")
                 .name("Write results, late and dead records");
         return env;
     }
 
-    /**
-     * @param records entities with event time as their timestamp
-     * @return results, late readings and dead letters; each record names its topic
-     */
-    static DataStream<TopicRecord> define(DataStream<TopicRecord> records, TemperatureOptions options) {
-        SingleOutputStreamOperator<Reading> readings = records.process(new ReadReadings(options.attribute()))
+    /** Results, late readings and dead letters; each record names its topic. */
+    static DataStream<TopicRecord> define(Inputs in, TemperatureOptions options) {
+        SingleOutputStreamOperator<Reading> readings = in.records()
+                .process(new ReadReadings(options.attribute()))
                 .uid("read-readings")
                 .name("Read readings");
+
+        SingleOutputStreamOperator<TopicRecord> fields = in.fields()
+                .records()
+                .process(new RecognizeFields("temperature"))
+                .setParallelism(1) // a version's records stay in order
+                .uid("recognize-fields")
+                .name("Recognize fields");
 
         SingleOutputStreamOperator<FieldReading> fieldReadings = readings.keyBy(Reading::deviceIdentity)
                 .process(new PassOnce<>(options.repeatWindow(), Reading::eventId))
                 .returns(Reading.class)
                 .uid("pass-once")
                 .name("Let each event pass once")
-                .flatMap(new AssignFields(options.fields()))
+                .connect(fields.broadcast(KnownFields.BROADCAST))
+                .process(new AssignFields(in.fields().atStart()))
                 .uid("assign-fields")
                 .name("Assign readings to fields");
 
@@ -82,6 +98,6 @@ public final class TemperatureJob {
                 .uid("name-late-window")
                 .name("Name the window of late readings");
 
-        return results.union(late, readings.getSideOutput(DeadLetters.TAG));
+        return results.union(late, readings.getSideOutput(DeadLetters.TAG), fields.getSideOutput(DeadLetters.TAG));
     }
 }

@@ -1,13 +1,13 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.file.Path;
 import java.time.Duration;
-import java.util.List;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.field.FieldOptions;
 import io.furrow.flink.JobOptions;
 import io.furrow.model.topic.Topics;
 
@@ -19,14 +19,8 @@ import io.furrow.model.topic.Topics;
                 "The average temperature of each field in event-time windows. Each device has one vote per window, "
                         + "its median; devices that are far from the others are set aside and named as suspects.")
 public final class TemperatureOptions extends JobOptions implements Callable<Integer> {
-    @Option(
-            names = "--fields",
-            paramLabel = "FILE",
-            required = true,
-            description =
-                    "GeoJSON FeatureCollection of the fields: Polygons and MultiPolygons with an id, and a property "
-                            + "Domain where they belong to one. Read where the job is started.")
-    private Path fields;
+    @Mixin
+    private final FieldOptions fields = new FieldOptions();
 
     @Option(
             names = "--attribute",
@@ -63,9 +57,9 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
             names = "--mad-floor",
             paramLabel = "NUMBER",
             defaultValue = "0",
-            description =
-                    "Least median absolute deviation to judge devices by, in the attribute's unit. Raise it where "
-                            + "thermometers agree so well that a tenth of a degree makes one suspect. Default: ${DEFAULT-VALUE}.")
+            description = "Least median absolute deviation to judge devices by, in the attribute's unit. Raise it where"
+                    + " thermometers agree so well that a tenth of a degree makes one suspect. Default:"
+                    + " ${DEFAULT-VALUE}.")
     private double madFloor;
 
     @Option(
@@ -95,12 +89,9 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
         return 0;
     }
 
-    List<Field> fields() {
-        try {
-            return FieldFile.read(fields);
-        } catch (UnusableFieldsException e) {
-            throw refused(e.getMessage(), e);
-        }
+    /** Where the job learns of the fields. */
+    FieldOptions fields() {
+        return fields;
     }
 
     public String attribute() {

@@ -3,25 +3,19 @@ package io.furrow.analytics.collision;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.apache.flink.api.common.JobExecutionResult;
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.configuration.Configuration;
-import org.apache.flink.configuration.PipelineOptions;
-import org.apache.flink.metrics.Counter;
-import org.apache.flink.metrics.Metric;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
-import org.apache.flink.util.CloseableIterator;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+/**
+ * The stages on a cluster against the definition. More cases than in a build: {@code ./furrow soak collision-cases}, which
+ * sets {@code furrow.collision.cases}, and {@code furrow.collision.seed} to see a failure again.
+ */
 class CollisionDetectionTest {
     private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
 
@@ -31,100 +25,129 @@ class CollisionDetectionTest {
             .setNumberSlotsPerTaskManager(4)
             .build());
 
-    private static final int WORLDS_PER_JOB = 25;
-    private static final long BOUND = 1500;
+    private static final int CASES = Integer.getInteger("furrow.collision.cases", 1000);
+    private static final int CASES_PER_JOB = CASES > 10_000 ? 500 : 100;
     private static final long START = 1_700_000_000_000L;
-    /** A world lasts 20 s and its last position 3 s: no world sees anything of another. */
+    /** A world lasts 20 s, its last position 3 s and a dwell 2 s: no world sees anything of another. */
     private static final long WORLD_MILLIS = 60_000;
 
-    @ParameterizedTest
-    @ValueSource(doubles = {0.5, 5, 50, 1000})
-    void agreesWithTheDefinitionAtAnyParallelism(double threshold) throws Exception {
-        long seed = System.nanoTime();
-        System.out.println("collision jobs for " + threshold + " m from seed " + seed);
-        List<PositionFix> fixes = worlds(threshold, seed);
-        CollisionRules rules = Worlds.rules(threshold, 20, false);
-        List<Encounter> expected = CollisionOracle.encounters(fixes, rules);
-        assertThat(expected).hasSizeGreaterThan(WORLDS_PER_JOB);
-        for (int parallelism : new int[] {1, 2, 4}) {
-            List<PositionFix> arrivals = new Worlds(seed + parallelism).shuffled(fixes, BOUND);
-            Detected detected = detect(arrivals, rules, parallelism);
-            assertThat(detected.late).isEmpty();
-            assertThat(CollisionOracle.difference(detected.encounters, expected))
-                    .as("parallelism %d, seed %d", parallelism, seed)
-                    .isEmpty();
-            assertThat(detected.violations).isZero();
-            assertThat(detected.accepted).isEqualTo(fixes.size());
+    @Test
+    void agreesWithTheDefinitionAtAnyParallelism() throws Exception {
+        long seed = Long.getLong("furrow.collision.seed", System.nanoTime());
+        System.out.println(CASES + " cases of collisions on a cluster from seed " + seed);
+        int records = 0;
+        int overflows = 0;
+        for (int job = 0; job * CASES_PER_JOB < CASES; job++) {
+            CollisionOracle.Result expected = assertAgreement(job, seed + 1000L * job);
+            records += expected.encounters().size();
+            overflows += expected.overflows().size();
         }
+        System.out.println(records + " records of encounters, " + overflows + " of crowded cells, no difference");
+        assertThat(records).as("something was compared").isGreaterThan(CASES);
+        assertThat(overflows).as("something was left out").isGreaterThan(CASES / 100);
+    }
+
+    /** Four jobs of ten have one threshold and nothing else; the others any rules. */
+    private static CollisionOracle.Result assertAgreement(int job, long seed) throws Exception {
+        double threshold = Worlds.THRESHOLDS[job % 4];
+        CollisionRules rules =
+                job % 10 < 4 ? Worlds.rules(threshold, 20, job % 20 > 10) : Worlds.anyRules(threshold, seed);
+        List<PositionFix> fixes = new ArrayList<>();
+        List<Encounter> encounters = new ArrayList<>();
+        List<CollisionOracle.Overflow> overflows = new ArrayList<>();
+        for (int i = 0; i < CASES_PER_JOB; i++) {
+            List<PositionFix> world = world(threshold, seed, i);
+            CollisionOracle.Result expected = CollisionOracle.result(world, rules);
+            fixes.addAll(world);
+            encounters.addAll(expected.encounters());
+            overflows.addAll(expected.overflows());
+        }
+        for (int parallelism : new int[] {1, 2, 4}) {
+            List<PositionFix> arrivals = new Worlds(seed + parallelism).shuffled(fixes, DetectionRun.BOUND);
+            DetectionRun run = DetectionRun.of(arrivals, rules, parallelism, METRICS);
+            String which = "job %d, parallelism %d, seed %d, %s".formatted(job, parallelism, seed, rules);
+            assertThat(run.late()).as(which).isEmpty();
+            assertThat(CollisionOracle.difference(run.encounters(), encounters))
+                    .as(which)
+                    .isEmpty();
+            assertThat(CollisionOracle.difference(run.toldOverflows(), overflows))
+                    .as(which)
+                    .isEmpty();
+            assertThat(run.total("violations")).as(which).isZero();
+            assertThat(run.total("accepted")).as(which).isEqualTo(fixes.size());
+        }
+        return new CollisionOracle.Result(encounters, overflows);
     }
 
     @Test
     void givesTheSameForAnotherCellSizeAndASecondPass() throws Exception {
         List<PositionFix> fixes = worlds(5, 31);
-        Detected first = detect(new Worlds(32).shuffled(fixes, BOUND), Worlds.rules(5, 1, true), 2);
-        Detected second = detect(new Worlds(33).shuffled(fixes, BOUND), Worlds.rules(5, 40, true), 2);
-        assertThat(first.encounters).isNotEmpty();
-        assertThat(CollisionOracle.difference(first.encounters, second.encounters))
+        DetectionRun first = run(new Worlds(32).shuffled(fixes, DetectionRun.BOUND), Worlds.rules(5, 1, true), 2);
+        DetectionRun second = run(new Worlds(33).shuffled(fixes, DetectionRun.BOUND), Worlds.rules(5, 40, true), 2);
+        assertThat(first.encounters()).isNotEmpty();
+        assertThat(CollisionOracle.difference(first.encounters(), second.encounters()))
                 .isEmpty();
-        assertThat(first.late).isEmpty();
-        assertThat(second.late).isEmpty();
+        assertThat(first.late()).isEmpty();
+        assertThat(second.late()).isEmpty();
     }
 
     @Test
     void setsLatePositionsAsideAndDetectsAmongTheRest() throws Exception {
         List<PositionFix> fixes = new ArrayList<>(List.of(
-                Fixes.east("a", 0, START), Fixes.east("b", 1, START), Fixes.east("c", 1000, START + BOUND + 10)));
+                Fixes.east("a", 0, START),
+                Fixes.east("b", 1, START),
+                Fixes.east("c", 1000, START + DetectionRun.BOUND + 10)));
         PositionFix late = Fixes.east("d", 2, START);
         List<Encounter> expected = CollisionOracle.encounters(fixes, CollisionRules.DEFAULT);
         fixes.add(late);
-        Detected detected = detect(fixes, CollisionRules.DEFAULT, 1);
-        assertThat(detected.late).containsExactly(late);
-        assertThat(detected.encounters).hasSize(2).isEqualTo(expected);
+        DetectionRun run = run(fixes, CollisionRules.DEFAULT, 1);
+        assertThat(run.late()).containsExactly(late);
+        assertThat(run.encounters()).hasSize(2).isEqualTo(expected);
+    }
+
+    /** Five devices on one spot are ten pairs; the first two come alone. */
+    @Test
+    void reportsAndCountsThePairsThatALimitLeavesOut() throws Exception {
+        List<PositionFix> fixes = new ArrayList<>(List.of(Fixes.east("d", 0, START), Fixes.east("e", 0, START)));
+        for (String device : List.of("c", "a", "b")) {
+            fixes.add(Fixes.east(device, 1, START + 100));
+        }
+        CollisionRules rules = CollisionRules.DEFAULT.with(new CellRules(100, 3));
+
+        DetectionRun run = run(fixes, rules, 1);
+
+        assertThat(run.encounters())
+                .as("d and e were there first, then the least names come in")
+                .filteredOn(encounter -> encounter.phase() == Phase.STARTED)
+                .extracting(
+                        encounter -> encounter.first().id() + encounter.second().id())
+                .containsExactly("de", "ab", "ac");
+        assertThat(run.overflows())
+                .extracting(CellOverflow::time, CellOverflow::devices, CellOverflow::pairs, CellOverflow::pairsLeftOut)
+                .containsExactly(
+                        org.assertj.core.groups.Tuple.tuple(START + 100, 5, 10, 7),
+                        org.assertj.core.groups.Tuple.tuple(START + 30_000, 3, 3, 1),
+                        org.assertj.core.groups.Tuple.tuple(START + 30_100, 0, 0, 0));
+        assertThat(run.total("pairs.left-out")).isEqualTo(7);
+        CellOverflow told = run.overflows().get(0);
+        PositionFix centre = Fixes.at("", told.latitude(), told.longitude(), 0);
+        assertThat(Geodesy.distance(centre, fixes.get(0))).isLessThan(100);
+    }
+
+    private static DetectionRun run(List<PositionFix> arrivals, CollisionRules rules, int parallelism)
+            throws Exception {
+        return DetectionRun.of(arrivals, rules, parallelism, METRICS);
     }
 
     private static List<PositionFix> worlds(double threshold, long seed) {
         List<PositionFix> fixes = new ArrayList<>();
-        for (int i = 0; i < WORLDS_PER_JOB; i++) {
-            fixes.addAll(new Worlds(seed + i).wander(Worlds.centre(i), threshold, START + i * WORLD_MILLIS));
+        for (int i = 0; i < 25; i++) {
+            fixes.addAll(world(threshold, seed, i));
         }
         return fixes;
     }
 
-    /** What came out of one job. */
-    private record Detected(List<Encounter> encounters, List<PositionFix> late, long violations, long accepted) {}
-
-    private static Detected detect(List<PositionFix> arrivals, CollisionRules rules, int parallelism) throws Exception {
-        Configuration settings = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
-        StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
-        env.setParallelism(parallelism);
-        DataStream<PositionFix> fixes = env.fromData(arrivals)
-                .rebalance()
-                .map(fix -> fix)
-                .returns(PositionFix.class)
-                .assignTimestampsAndWatermarks(
-                        WatermarkStrategy.<PositionFix>forGenerator(context -> new EachEvent<>(BOUND))
-                                .withTimestampAssigner((fix, previous) -> fix.time()));
-        CollisionDetection detection = CollisionDetection.define(fixes, rules);
-        CloseableIterator<Encounter> encounters = detection.encounters().collectAsync();
-        CloseableIterator<PositionFix> late = detection.late().collectAsync();
-        JobExecutionResult result = env.execute();
-        List<Encounter> sorted = new ArrayList<>();
-        encounters.forEachRemaining(sorted::add);
-        sorted.sort(CollisionOracle.ORDER);
-        List<PositionFix> all = new ArrayList<>();
-        late.forEachRemaining(all::add);
-        return new Detected(sorted, all, total("violations", result), total("accepted", result));
-    }
-
-    private static long total(String counter, JobExecutionResult result) {
-        var metrics = METRICS.findMetrics(result.getJobID(), ".*\\." + counter);
-        assertThat(metrics).isNotEmpty();
-        return metrics.values().stream()
-                .mapToLong(CollisionDetectionTest::count)
-                .sum();
-    }
-
-    private static long count(Metric metric) {
-        return ((Counter) metric).getCount();
+    private static List<PositionFix> world(double threshold, long seed, int i) {
+        return new Worlds(seed + i).wander(Worlds.centre(i), threshold, START + i * WORLD_MILLIS);
     }
 }

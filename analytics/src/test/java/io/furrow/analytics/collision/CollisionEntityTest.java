@@ -7,8 +7,8 @@ import io.furrow.model.ngsi.Entity;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CollisionEntityTest {
-    private static final PositionFix FIRST = new PositionFix("farm|/|r1", "r1", "hoe", "", 40.5, -3.25, 1000);
-    private static final PositionFix SECOND = new PositionFix("farm|/|r2", "r2", "", "", 40.5, -3.5, 2000);
+    private static final PositionFix FIRST = Fixes.of("farm|/|r1", "r1", "hoe", 40.5, -3.25, 1000);
+    private static final PositionFix SECOND = Fixes.of("farm|/|r2", "r2", "", 40.5, -3.5, 2000);
 
     private final Encounter encounter = new Encounter(Phase.ONGOING, FIRST, SECOND, 4.5, 1.5, 1500, 2000);
 
@@ -41,7 +41,7 @@ class CollisionEntityTest {
     void isOnePerPairWhateverTheEncounter() {
         Entity entity = CollisionEntity.of(encounter);
         Entity later = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, SECOND, 1, 1, 9000, 9000));
-        PositionFix elsewhere = new PositionFix("other|/|r2", "r2", "", "", 40.5, -3.5, 2000);
+        PositionFix elsewhere = Fixes.of("other|/|r2", "r2", "", 40.5, -3.5, 2000);
         Entity other = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, elsewhere, 1, 1, 9000, 9000));
         assertThat(later.id()).isEqualTo(entity.id());
         assertThat(later.text("encounter")).isNotEqualTo(entity.text("encounter"));

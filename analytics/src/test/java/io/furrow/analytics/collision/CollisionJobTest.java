@@ -1,12 +1,15 @@
 package io.furrow.analytics.collision;
 
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
@@ -14,15 +17,21 @@ import org.apache.flink.streaming.api.graph.StreamNode;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.JobUids;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceInput;
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -35,8 +44,16 @@ class CollisionJobTest {
             .setNumberSlotsPerTaskManager(2)
             .build());
 
+    @TempDir
+    private Path folder;
+
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     private static final long START = 1_700_000_000_000L;
+
+    /** A laser on the robot r1; until the test's start it was on r2. */
+    private static final TopicAtStart DEVICES = () -> List.of(
+            device(new DeviceVersion("l1", "farm", "/north", "", "", 0, null, 1, "r2")),
+            device(new DeviceVersion("l1", "farm", "/north", "", "", START, null, 2, "r1")));
 
     @Test
     void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
@@ -77,6 +94,52 @@ class CollisionJobTest {
         TopicRecord[] apart = {robot("r1", 0, 0), robot("r2", 7, 0)};
         assertThat(run(options("--threshold", "10"), apart)).hasSize(2);
         assertThat(run(options(), apart)).isEmpty();
+    }
+
+    @Test
+    void goesByTheTypesZonesAndLimitsOfItsOptions() throws Exception {
+        PositionFix corner = Fixes.east("", 20, 0);
+        Path yard = Files.writeString(folder.resolve("yard.geojson"), """
+                {"features": [{"geometry": {"type": "Polygon", "coordinates":
+                  [[[%1$s, -1], [11, -1], [11, 1], [%1$s, 1], [%1$s, -1]]]}}]}""".formatted(corner.longitude()));
+        TopicRecord[] reported = {
+            robot("r1", 0, 0), robot("r2", 7, 0), robot("r3", 100, 0), robot("r4", 100, 0), robot("r5", 7, 1000)
+        };
+        String[] all = {"--threshold-of", "ROBOT=10", "--zones", yard.toString(), "--pairs-per-cell", "1"};
+
+        List<TopicRecord> written = run(options(all), reported);
+
+        assertThat(written)
+                .filteredOn(record -> record.topic().equals("data.collision"))
+                .as("r3 and r4 are in the yard, r1 and r2 were there before r5")
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsOnly("r1-r2");
+        TopicRecord overflow = written.stream()
+                .filter(record -> record.topic().equals("data.collision.overflow"))
+                .findFirst()
+                .orElseThrow();
+        assertThat(overflow.timestamp()).isEqualTo(START + 1000);
+        assertThat(entity(overflow).type()).isEqualTo("Analytics:CollisionOverflow");
+        assertThat(entity(overflow).number("pairs")).hasValue(3.0);
+        assertThat(entity(overflow).number("pairsLeftOut")).hasValue(2.0);
+        assertThat(entity(overflow).number("devices")).hasValue(3.0);
+        assertThat(entity(overflow).id())
+                .isEqualTo("Analytics:CollisionOverflow:"
+                        + entity(overflow).text("cell").orElseThrow());
+    }
+
+    @Test
+    void addsAStageWhereEncountersAreToBeSteady() throws Exception {
+        TopicRecord[] passing = {robot("r1", 0, 0), robot("r2", 4, 0), robot("r2", 9, 500), robot("r2", 11, 1000)};
+        assertThat(run(options("--leave-factor", "2"), passing))
+                .extracting(TopicRecord::timestamp)
+                .containsExactly(START, START + 1000);
+        assertThat(run(options("--leave-factor", "2", "--dwell", "900ms"), passing))
+                .extracting(TopicRecord::timestamp)
+                .containsExactly(START + 900, START + 1000);
+        assertThat(run(options("--leave-factor", "2", "--dwell", "1s"), passing))
+                .isEmpty();
+        assertThat(JobUids.of(CollisionJob.assemble(options("--dwell", "1s")))).contains("steady-encounters");
     }
 
     @Test
@@ -133,6 +196,19 @@ class CollisionJobTest {
     }
 
     @Test
+    void asksServiceDevicesWhatCarriesADevice() throws Exception {
+        List<TopicRecord> written = run(options(), robot("r1", 0, 0), robot("l1", 1, 0), robot("r2", 2, 0));
+        assertThat(written)
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactlyInAnyOrder("l1-r2", "l1-r2", "r1-r2", "r1-r2");
+        List<TopicRecord> before = run(options(), robot("r1", 0, -9), robot("l1", 1, -9), robot("r2", 2, -9));
+        assertThat(before)
+                .as("as of the position's time")
+                .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactlyInAnyOrder("l1-r1", "l1-r1", "r1-r2", "r1-r2");
+    }
+
+    @Test
     void refusesRulesThatCannotBeKept() {
         assertThatThrownBy(() -> options("--threshold", "0").rules())
                 .isInstanceOf(ParameterException.class)
@@ -140,6 +216,9 @@ class CollisionJobTest {
         assertThatThrownBy(() -> options("--cell", "1").rules())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("the cell must be at least as high as the threshold");
+        assertThatThrownBy(() -> options("--zones", "/nowhere/yard.geojson").rules())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--zones /nowhere/yard.geojson: cannot be read");
         assertThat(options().rules()).isEqualTo(CollisionRules.DEFAULT);
     }
 
@@ -151,11 +230,15 @@ class CollisionJobTest {
                         .map(StreamNode::getTransformationUID))
                 .containsExactly(
                         "Sink Committer: write-topics",
+                        "assign-carriers",
                         "describe-encounters",
                         "describe-late-positions",
+                        "describe-overflows",
                         "follow-encounters",
                         "match-pairs",
+                        "read-devices",
                         "read-positions",
+                        "recognize-devices",
                         "reported-changes",
                         "track-devices",
                         "write-topics");
@@ -172,9 +255,25 @@ class CollisionJobTest {
                                 .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .setParallelism(1)
                 .uid("timestamps");
-        List<TopicRecord> written = CollisionJob.define(source, options).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        DataStream<TopicRecord> devices = env.fromData(DEVICES.read(), TypeInformation.of(TopicRecord.class))
+                .uid("read-devices")
+                .setParallelism(1);
+        List<TopicRecord> written = CollisionJob.define(
+                        new CollisionJob.Inputs(source, new DeviceInput(devices, DEVICES)), options)
+                .executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
         written.sort(Comparator.comparingLong(TopicRecord::timestamp));
         return written;
+    }
+
+    private static TopicRecord device(DeviceVersion version) {
+        return new TopicRecord(
+                Topics.DEVICES,
+                0,
+                version.sequence(),
+                version.from(),
+                version.key().getBytes(StandardCharsets.UTF_8),
+                version.toBytes(),
+                Map.of());
     }
 
     private static CollisionOptions options(String... args) {

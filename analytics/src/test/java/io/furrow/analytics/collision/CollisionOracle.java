@@ -7,6 +7,7 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.stream.Collectors;
@@ -19,20 +20,42 @@ final class CollisionOracle {
             .thenComparing(encounter -> encounter.second().identity());
 
     private final CollisionRules rules;
+    private final Grid grid;
     private final TreeMap<String, List<PositionFix>> devices;
-    private final Map<String, Open> open = new HashMap<>();
+    private final Map<String, Seen> close = new HashMap<>();
+    private final Map<String, List<Seen>> open = new HashMap<>();
+    private final Map<Long, Overflow> told = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
+    private final List<Overflow> overflows = new ArrayList<>();
 
-    /** An encounter that has not ended, with its newest record. */
-    private record Open(Encounter seen, long reported) {}
+    /** A close pair at an instant, and the cell in which it is found. */
+    private record Seen(PositionFix first, PositionFix second, double distance, long cell, long time) {
+        boolean isNew() {
+            return first.time() == time || second.time() == time;
+        }
+    }
+
+    /** What is told of a cell with too many pairs. */
+    record Overflow(long cell, long time, int pairs, int leftOut) {
+        static final Comparator<Overflow> ORDER =
+                Comparator.comparingLong(Overflow::time).thenComparingLong(Overflow::cell);
+    }
+
+    /** In their orders. */
+    record Result(List<Encounter> encounters, List<Overflow> overflows) {}
 
     private CollisionOracle(Collection<PositionFix> accepted, CollisionRules rules) {
         this.rules = rules;
+        this.grid = new Grid(rules.exact());
         this.devices = accepted.stream()
                 .collect(Collectors.groupingBy(PositionFix::identity, TreeMap::new, Collectors.toList()));
     }
 
     static List<Encounter> encounters(Collection<PositionFix> accepted, CollisionRules rules) {
+        return result(accepted, rules).encounters();
+    }
+
+    static Result result(Collection<PositionFix> accepted, CollisionRules rules) {
         CollisionOracle oracle = new CollisionOracle(accepted, rules);
         TreeSet<Long> instants = new TreeSet<>();
         for (PositionFix fix : accepted) {
@@ -41,83 +64,162 @@ final class CollisionOracle {
         }
         instants.forEach(oracle::evaluate);
         oracle.encounters.sort(ORDER);
-        return oracle.encounters;
+        oracle.overflows.sort(Overflow.ORDER);
+        return new Result(oracle.encounters, oracle.overflows);
     }
 
     /** The first records in which two sorted results differ; few, because a failing test prints them. */
-    static List<Encounter> difference(List<Encounter> some, List<Encounter> others) {
+    static <T> List<T> difference(List<T> some, List<T> others) {
         int at = 0;
         while (at < Math.min(some.size(), others.size()) && some.get(at).equals(others.get(at))) {
             at++;
         }
-        List<Encounter> found = new ArrayList<>();
+        List<T> found = new ArrayList<>();
         found.addAll(some.subList(at, Math.min(at + 2, some.size())));
         found.addAll(others.subList(at, Math.min(at + 2, others.size())));
         return found;
     }
 
     private void evaluate(long t) {
-        Map<String, PositionFix> last = new TreeMap<>();
-        devices.forEach((identity, fixes) -> last(fixes, t).ifPresent(fix -> last.put(identity, fix)));
-        for (String one : devices.keySet()) {
-            for (String other : devices.tailMap(one, false).keySet()) {
-                evaluate(one + " " + other, last.get(one), last.get(other), t);
+        Map<String, Seen> before = Map.copyOf(close);
+        close.clear();
+        List<PositionFix> last = devices.values().stream()
+                .flatMap(fixes -> last(fixes, t).stream())
+                .sorted(PositionFix.NAMING)
+                .toList();
+        for (int i = 0; i < last.size(); i++) {
+            for (PositionFix other : last.subList(i + 1, last.size())) {
+                closeAt(last.get(i), other, t)
+                        .ifPresent(seen -> close.put(Sighting.pair(seen.first, seen.second), seen));
             }
+        }
+        Set<String> followed = followed();
+        for (String pair : Set.copyOf(open.keySet())) {
+            if (!followed.contains(pair)) {
+                tell(open.remove(pair), t);
+            }
+        }
+        for (String pair : followed) {
+            Seen seen = close.get(pair);
+            if (seen.isNew() || !open.containsKey(pair)) {
+                open.computeIfAbsent(pair, key -> new ArrayList<>()).add(seen);
+            }
+        }
+        if (rules.cells().isLimited()) {
+            tellOverflows(before, followed, t);
         }
     }
 
+    /** The last position counts if it is not too old and in no zone. */
     private Optional<PositionFix> last(List<PositionFix> fixes, long t) {
         return fixes.stream()
                 .filter(fix -> fix.time() <= t)
                 .max(PositionFix.SEQUENCE)
-                .filter(fix -> t < fix.time() + rules.timeToLive().toMillis());
+                .filter(fix -> t < fix.time() + rules.timeToLive().toMillis())
+                .filter(fix -> !rules.positions().zones().cover(fix.latitude(), fix.longitude()));
     }
 
-    private void evaluate(String pair, PositionFix one, PositionFix other, long t) {
-        boolean close = one != null && other != null && close(one, other);
-        Open before = open.get(pair);
-        if (!close) {
-            if (before != null) {
-                encounters.add(record(Phase.ENDED, before.seen, before.seen.minDistance(), t));
-                open.remove(pair);
-            }
-            return;
-        }
-        Encounter here = ordered(one, other, t);
-        if (before == null) {
-            encounters.add(here);
-            open.put(pair, new Open(here, t));
-        } else if (one.time() == t || other.time() == t) {
-            double closest = Math.min(before.seen.minDistance(), here.distance());
-            Encounter there = new Encounter(
-                    Phase.ONGOING, here.first(), here.second(), here.distance(), closest, before.seen.startTime(), t);
-            boolean report = t - before.reported >= rules.ongoingEvery().toMillis();
-            if (report) {
-                encounters.add(there);
-            }
-            open.put(pair, new Open(there, report ? t : before.reported));
-        }
-    }
-
-    private boolean close(PositionFix a, PositionFix b) {
+    private Optional<Seen> closeAt(PositionFix a, PositionFix b, long t) {
         boolean inTime = rules.maxSkew().isZero()
                 || Math.abs(a.time() - b.time()) <= rules.maxSkew().toMillis();
         boolean together = a.identity().equals(b.carrier())
                 || b.identity().equals(a.carrier())
                 || !a.carrier().isEmpty() && a.carrier().equals(b.carrier());
-        return Geodesy.distance(a, b) <= rules.thresholdMeters() && inTime && !together;
+        double threshold = rules.thresholds().between(a.type(), b.type())
+                * rules.steadiness().leaveFactor();
+        double distance = Geodesy.distance(a, b);
+        long cell = Math.max(grid.cells(a.latitude(), a.longitude())[0], grid.cells(b.latitude(), b.longitude())[0]);
+        return distance <= threshold && inTime && !together
+                ? Optional.of(new Seen(a, b, distance, cell, t))
+                : Optional.empty();
     }
 
-    private static Encounter ordered(PositionFix one, PositionFix other, long t) {
-        int byId = one.id().compareTo(other.id());
-        boolean inOrder = byId < 0 || byId == 0 && one.identity().compareTo(other.identity()) < 0;
-        PositionFix first = inOrder ? one : other;
-        PositionFix second = inOrder ? other : one;
-        double distance = Geodesy.distance(first, second);
-        return new Encounter(Phase.STARTED, first, second, distance, distance, t, t);
+    /** Pairs that are followed stay so in their cell; then those seen now come in by name while there is room. */
+    private Set<String> followed() {
+        if (!rules.cells().isLimited()) {
+            return close.keySet();
+        }
+        Set<String> followed = new TreeSet<>();
+        open.forEach((pair, sightings) -> {
+            Seen newest = sightings.get(sightings.size() - 1);
+            if (close.containsKey(pair) && close.get(pair).cell == newest.cell) {
+                followed.add(pair);
+            }
+        });
+        Comparator<Seen> byName =
+                Comparator.comparing(Seen::first, PositionFix.NAMING).thenComparing(Seen::second, PositionFix.NAMING);
+        close.values().stream().filter(Seen::isNew).sorted(byName).forEach(seen -> {
+            long inCell = followed.stream()
+                    .filter(pair -> close.get(pair).cell == seen.cell)
+                    .count();
+            if (inCell < rules.cells().pairLimit()) {
+                followed.add(Sighting.pair(seen.first, seen.second));
+            }
+        });
+        return followed;
     }
 
-    private static Encounter record(Phase phase, Encounter seen, double closest, long t) {
-        return new Encounter(phase, seen.first(), seen.second(), seen.distance(), closest, seen.startTime(), t);
+    private void tellOverflows(Map<String, Seen> before, Set<String> followed, long t) {
+        Set<Long> seenIn = new TreeSet<>();
+        close.values().stream().filter(Seen::isNew).forEach(seen -> seenIn.add(seen.cell));
+        before.forEach((pair, seen) -> {
+            if (!close.containsKey(pair) || close.get(pair).cell != seen.cell) {
+                seenIn.add(seen.cell);
+            }
+        });
+        for (long cell : seenIn) {
+            int pairs = (int)
+                    close.values().stream().filter(seen -> seen.cell == cell).count();
+            int kept = (int) followed.stream()
+                    .filter(pair -> close.get(pair).cell == cell)
+                    .count();
+            Overflow now = new Overflow(cell, t, pairs, pairs - kept);
+            Overflow known = told.get(cell);
+            boolean was = known != null && known.leftOut > 0;
+            boolean rested = !was || t - known.time >= rules.ongoingEvery().toMillis();
+            if (now.leftOut > 0 ? rested : was) {
+                overflows.add(now);
+                told.put(cell, now);
+            }
+        }
+    }
+
+    /** A stretch of time in which a pair is close, from its first instant; {@code end} is the first after it. */
+    private void tell(List<Seen> stretch, long end) {
+        PositionFix one = stretch.get(0).first;
+        double threshold =
+                rules.thresholds().between(one.type(), stretch.get(0).second.type());
+        List<Seen> sightings =
+                stretch.stream().dropWhile(seen -> seen.distance > threshold).toList();
+        if (sightings.isEmpty()) {
+            return;
+        }
+        long start = sightings.get(0).time;
+        long due = start + rules.steadiness().dwell().toMillis();
+        if (end <= due) {
+            return;
+        }
+        long reported = due;
+        double closest = Double.POSITIVE_INFINITY;
+        Seen newest = null;
+        for (Seen seen : sightings) {
+            if (seen.time > due && newest.time <= due) {
+                encounters.add(record(Phase.STARTED, newest, closest, start, due));
+            }
+            newest = seen;
+            closest = Math.min(closest, seen.distance);
+            if (seen.time > due && seen.time - reported >= rules.ongoingEvery().toMillis()) {
+                encounters.add(record(Phase.ONGOING, seen, closest, start, seen.time));
+                reported = seen.time;
+            }
+        }
+        if (newest.time <= due) {
+            encounters.add(record(Phase.STARTED, newest, closest, start, due));
+        }
+        encounters.add(record(Phase.ENDED, newest, closest, start, end));
+    }
+
+    private static Encounter record(Phase phase, Seen seen, double closest, long start, long time) {
+        return new Encounter(phase, seen.first, seen.second, seen.distance, closest, start, time);
     }
 }

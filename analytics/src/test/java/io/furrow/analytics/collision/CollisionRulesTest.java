@@ -38,4 +38,24 @@ class CollisionRulesTest {
         assertThatThrownBy(() -> new CollisionRules(5, SECOND, SECOND, SECOND, 4.9))
                 .hasMessageContaining("cell");
     }
+
+    @Test
+    void refuseSteadinessAndLimitsThatMakeNoSense() {
+        assertThatThrownBy(() -> new Steadiness(0.9, SECOND)).hasMessage("the leave factor must be 1 to 100, not 0.9");
+        assertThatThrownBy(() -> new Steadiness(1, Duration.ofMillis(-1))).hasMessageContaining("dwell");
+        assertThatThrownBy(() -> new CellRules(100, -1)).hasMessageContaining("limit of pairs");
+        assertThatThrownBy(() -> CollisionRules.DEFAULT.with(new Steadiness(21, SECOND)))
+                .hasMessageContaining(
+                        "the cell must be at least as high as the threshold at which encounters end, 105.0");
+    }
+
+    @Test
+    void letTheExactStagesSeeEverythingUpToWhereEncountersEnd() {
+        CollisionRules exact =
+                CollisionRules.DEFAULT.with(new Steadiness(2, Duration.ZERO)).exact();
+        assertThat(exact.thresholdMeters()).isEqualTo(10);
+        assertThat(exact.ongoingEvery()).isZero();
+        assertThat(exact.exact()).isEqualTo(exact);
+        assertThat(CollisionRules.DEFAULT.exact()).isSameAs(CollisionRules.DEFAULT);
+    }
 }

@@ -29,6 +29,30 @@ class CollisionSimulationTest {
     }
 
     @Test
+    void agreesWithTheDefinitionUnderAnyRules() {
+        long seed = System.nanoTime();
+        System.out.println("collision worlds under any rules from seed " + seed);
+        int transitions = 0;
+        int overflows = 0;
+        for (int i = 0; i < CASES; i++) {
+            CollisionRules rules = Worlds.anyRules(Worlds.THRESHOLDS[i % 4], seed + i);
+            List<PositionFix> fixes = world(seed, i);
+            CollisionOracle.Result expected = CollisionOracle.result(fixes, rules);
+            CollisionOracle.Result found = Simulation.result(fixes, rules, new Random(seed));
+            assertThat(CollisionOracle.difference(found.encounters(), expected.encounters()))
+                    .as("case %d of seed %d", i, seed)
+                    .isEmpty();
+            assertThat(CollisionOracle.difference(found.overflows(), expected.overflows()))
+                    .as("overflows of case %d of seed %d", i, seed)
+                    .isEmpty();
+            transitions += expected.encounters().size();
+            overflows += expected.overflows().size();
+        }
+        assertThat(transitions).as("something was compared").isGreaterThan(CASES);
+        assertThat(overflows).as("something was left out").isGreaterThan(CASES / 10);
+    }
+
+    @Test
     void givesTheSameForAnyCellSize() {
         for (int i = 0; i < 60; i++) {
             List<PositionFix> fixes = world(17, i);
@@ -66,14 +90,7 @@ class CollisionSimulationTest {
             CollisionRules rules = rules(i, 20);
             double angle = 90 + i;
             List<PositionFix> turned = fixes.stream()
-                    .map(fix -> new PositionFix(
-                            fix.identity(),
-                            fix.id(),
-                            fix.mission(),
-                            fix.carrier(),
-                            fix.latitude(),
-                            Worlds.wrapped(fix.longitude() + angle),
-                            fix.time()))
+                    .map(fix -> Fixes.turned(fix, Worlds.wrapped(fix.longitude() + angle)))
                     .toList();
             assertThat(Simulation.encounters(turned, rules, new Random(i)).stream()
                             .map(CollisionSimulationTest::withoutPlace))

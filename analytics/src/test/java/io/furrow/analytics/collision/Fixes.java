@@ -7,7 +7,13 @@ final class Fixes {
     private Fixes() {}
 
     static PositionFix at(String device, double latitude, double longitude, long time) {
-        return new PositionFix("farm|/|" + device, device, "m", "", latitude, longitude, time);
+        return of("farm|/|" + device, device, "m", latitude, longitude, time);
+    }
+
+    /** A robot of the usual topic that no one carries, of unknown speed and heading. */
+    static PositionFix of(String identity, String id, String mission, double latitude, double longitude, long time) {
+        return new PositionFix(
+                "data.raw", identity, id, "ROBOT", mission, "", latitude, longitude, Double.NaN, Double.NaN, time);
     }
 
     /** On the equator, so many metres east of 10° E. */
@@ -16,13 +22,52 @@ final class Fixes {
     }
 
     static PositionFix carriedBy(String carrier, PositionFix fix) {
+        return carriedByIdentity("farm|/|" + carrier, fix);
+    }
+
+    static PositionFix carriedByIdentity(String carrier, PositionFix fix) {
         return new PositionFix(
+                fix.topic(),
                 fix.identity(),
                 fix.id(),
+                fix.type(),
                 fix.mission(),
-                "farm|/|" + carrier,
+                carrier,
                 fix.latitude(),
                 fix.longitude(),
+                fix.speed(),
+                fix.heading(),
                 fix.time());
+    }
+
+    static PositionFix ofType(String type, PositionFix fix) {
+        return new PositionFix(
+                fix.topic(),
+                fix.identity(),
+                fix.id(),
+                type,
+                fix.mission(),
+                fix.carrier(),
+                fix.latitude(),
+                fix.longitude(),
+                fix.speed(),
+                fix.heading(),
+                fix.time());
+    }
+
+    /** The same in another tenant, so that worlds at one time do not share devices. */
+    static PositionFix ofFarm(String farm, PositionFix fix) {
+        String carrier = fix.carrier().isEmpty() ? "" : farm + fix.carrier();
+        PositionFix there =
+                of(farm + fix.identity(), fix.id(), fix.mission(), fix.latitude(), fix.longitude(), fix.time());
+        return ofType(fix.type(), carriedByIdentity(carrier, there));
+    }
+
+    static PositionFix turned(PositionFix fix, double longitude) {
+        return ofType(
+                fix.type(),
+                carriedByIdentity(
+                        fix.carrier(),
+                        of(fix.identity(), fix.id(), fix.mission(), fix.latitude(), longitude, fix.time())));
     }
 }

@@ -26,7 +26,10 @@ class RecordTypesTest {
             new Encounter(Phase.ENDED, FIX, FIX, 4.5, 1.5, 500, 1000),
             new Cell(Map.of(FIX.identity(), Member.of(FIX, true))),
             Member.of(FIX, false),
-            new Meeting(500, 1.5, 1000)
+            new Meeting(500, 1.5, 1000),
+            new Course(new Encounter(Phase.STARTED, FIX, FIX, 4.5, 1.5, 500, 1000), true, 900),
+            new Crowd(Map.of("a", "a"), 3, true, 1000),
+            new CellOverflow(FIX, -7, 40, -3, 9, 4, 1, 1000)
         };
     }
 

@@ -18,9 +18,10 @@ class RestartedStagesTest {
         System.out.println("restarted stages from seed " + seed);
         Random random = new Random(seed);
         int compared = 0;
-        for (int i = 0; i < 12; i++) {
+        for (int i = 0; i < 40; i++) {
             double threshold = Worlds.THRESHOLDS[i % 4];
-            CollisionRules rules = Worlds.rules(threshold, 3, i % 3 == 0);
+            CollisionRules rules =
+                    i < 8 ? Worlds.rules(threshold, 3, i % 3 == 0) : Worlds.anyRules(threshold, seed + i);
             Worlds worlds = new Worlds(seed + i);
             List<PositionFix> fixes = worlds.wander(Worlds.centre(i), threshold, 1_700_000_000_000L);
             List<Encounter> expected = CollisionOracle.encounters(fixes, rules);
@@ -39,19 +40,22 @@ class RestartedStagesTest {
         var track = Stage.track(rules);
         var match = Stage.match(rules);
         var follow = Stage.follow(rules);
-        List<Stage<?, ?, ?>> stages = List.of(track, match, follow);
+        var steady = Stage.steady(rules);
+        List<Stage<?, ?, ?>> stages = List.of(track, match, follow, steady);
         long newest = Long.MIN_VALUE;
         for (PositionFix fix : arrivals) {
             track.receive(fix);
             newest = Math.max(newest, fix.time());
             if (random.nextInt(10) == 0) {
-                stages.get(random.nextInt(3)).restart();
+                stages.get(random.nextInt(4)).restart();
             }
             if (random.nextInt(4) == 0) {
-                encounters.addAll(advance(newest - BOUND - 1, random, track, match, follow));
+                List<Encounter> exact = advance(newest - BOUND - 1, random, track, match, follow);
+                encounters.addAll(steadied(exact, newest - BOUND - 1, rules, steady));
             }
         }
-        encounters.addAll(advance(Long.MAX_VALUE, random, track, match, follow));
+        List<Encounter> exact = advance(Long.MAX_VALUE, random, track, match, follow);
+        encounters.addAll(steadied(exact, Long.MAX_VALUE, rules, steady));
         assertThat(track.side(TrackDevices.LATE)).isEmpty();
         for (Stage<?, ?, ?> stage : stages) {
             assertThat(stage.stateEntries()).isZero();
@@ -61,6 +65,16 @@ class RestartedStagesTest {
 
         encounters.sort(CollisionOracle.ORDER);
         return encounters;
+    }
+
+    private static List<Encounter> steadied(
+            List<Encounter> exact, long watermark, CollisionRules rules, Stage<String, Encounter, Encounter> steady)
+            throws Exception {
+        if (rules.steadiness().isNone()) {
+            return exact;
+        }
+        steady.receive(exact);
+        return steady.advance(watermark);
     }
 
     private static List<Encounter> advance(

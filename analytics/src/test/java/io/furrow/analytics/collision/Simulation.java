@@ -8,26 +8,39 @@ import java.util.Optional;
 import java.util.Random;
 import java.util.function.Function;
 
-/** The three stages without Flink: watermarks at random instants, and within each all keys in random order. */
+/** All stages without Flink: watermarks at random instants, and within each all keys in random order. */
 final class Simulation {
     private final Tracker tracker;
     private final Proximity proximity;
+    private final Grid grid;
+    private final PairLimit limit;
     private final Follower follower;
+    private final Steadier steadier;
     private final Random random;
     private final Map<String, Track> tracks = new HashMap<>();
     private final Map<Long, Cell> cells = new HashMap<>();
+    private final Map<Long, Crowd> crowds = new HashMap<>();
     private final Map<String, Optional<Meeting>> meetings = new HashMap<>();
+    private final Map<String, Course> courses = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
+    private final List<CollisionOracle.Overflow> overflows = new ArrayList<>();
     private int violations;
 
     private Simulation(CollisionRules rules, Random random) {
-        tracker = new Tracker(rules);
-        proximity = new Proximity(rules);
-        follower = new Follower(rules);
+        tracker = new Tracker(rules.exact());
+        proximity = new Proximity(rules.exact());
+        grid = new Grid(rules.exact());
+        limit = new PairLimit(rules);
+        follower = new Follower(rules.exact());
+        steadier = rules.steadiness().isNone() ? null : new Steadier(rules);
         this.random = random;
     }
 
     static List<Encounter> encounters(List<PositionFix> fixes, CollisionRules rules, Random random) {
+        return result(fixes, rules, random).encounters();
+    }
+
+    static CollisionOracle.Result result(List<PositionFix> fixes, CollisionRules rules, Random random) {
         Simulation simulation = new Simulation(rules, random);
         List<PositionFix> waiting = new ArrayList<>(fixes);
         long watermark = fixes.stream().mapToLong(PositionFix::time).min().orElse(0);
@@ -39,8 +52,12 @@ final class Simulation {
         if (simulation.violations != 0) {
             throw new AssertionError(simulation.violations + " violations");
         }
+        if (!simulation.crowds.isEmpty() || !simulation.courses.isEmpty()) {
+            throw new AssertionError("something is remembered of pairs that are close no more");
+        }
         simulation.encounters.sort(CollisionOracle.ORDER);
-        return simulation.encounters;
+        simulation.overflows.sort(CollisionOracle.Overflow.ORDER);
+        return new CollisionOracle.Result(simulation.encounters, simulation.overflows);
     }
 
     private void advance(List<PositionFix> due, long until) {
@@ -54,17 +71,64 @@ final class Simulation {
             tracks.put(identity, tracker.advance(before, sorted, until, updates::add));
         });
         List<Sighting> sightings = new ArrayList<>();
-        grouped(updates, CellUpdate::cell).forEach((cell, of) -> {
-            of.sort(CellUpdate.SEQUENCE);
-            cells.computeIfAbsent(cell, id -> Cell.empty()).apply(of, proximity, sightings::add);
-        });
-        grouped(sightings, Sighting::pair).forEach((pair, of) -> {
-            of.sort(Sighting.SEQUENCE);
-            Optional<Meeting> before = meetings.getOrDefault(pair, Optional.empty());
-            Follower.Followed followed = follower.follow(before, of, encounters::add);
-            violations += followed.violations();
-            meetings.put(pair, followed.meeting());
-        });
+        grouped(updates, CellUpdate::cell).forEach((cell, of) -> match(cell, of, sightings));
+        grouped(sightings, Sighting::pair).forEach((pair, of) -> follow(pair, of, until));
+        for (String pair : List.copyOf(courses.keySet())) {
+            courses.put(pair, steadier.advance(courses.get(pair), until, encounters::add));
+        }
+    }
+
+    private void match(long cell, List<CellUpdate> updates, List<Sighting> out) {
+        updates.sort(CellUpdate.SEQUENCE);
+        Cell members = cells.computeIfAbsent(cell, id -> Cell.empty());
+        if (limit.isNone()) {
+            members.apply(updates, proximity, out::add);
+            return;
+        }
+        List<Sighting> seen = new ArrayList<>();
+        members.apply(updates, proximity, seen::add);
+        for (long time :
+                seen.stream().mapToLong(Sighting::time).distinct().sorted().toArray()) {
+            List<Sighting> atOnce =
+                    seen.stream().filter(each -> each.time() == time).toList();
+            crowds.compute(cell, (id, crowd) -> limit.apply(crowd, atOnce, new Limited(cell, out)));
+        }
+    }
+
+    private void follow(String pair, List<Sighting> sightings, long until) {
+        sightings.sort(Sighting.SEQUENCE);
+        List<Encounter> exact = steadier == null ? encounters : new ArrayList<>();
+        Optional<Meeting> before = meetings.getOrDefault(pair, Optional.empty());
+        Follower.Followed followed = follower.follow(before, sightings, exact::add);
+        violations += followed.violations();
+        meetings.put(pair, followed.meeting());
+        for (Encounter encounter : steadier == null ? List.<Encounter>of() : exact) {
+            courses.compute(pair, (key, course) -> steadier.next(course, encounter, encounters::add));
+        }
+    }
+
+    private final class Limited implements PairLimit.Output {
+        private final long cell;
+        private final List<Sighting> out;
+
+        Limited(long cell, List<Sighting> out) {
+            this.cell = cell;
+            this.out = out;
+        }
+
+        @Override
+        public void sighting(Sighting sighting) {
+            out.add(sighting);
+        }
+
+        @Override
+        public void overflow(Crowd crowd, Sighting cause) {
+            CellOverflow told = crowd.overflow(cause, 0, cell, grid);
+            overflows.add(new CollisionOracle.Overflow(told.cell(), told.time(), told.pairs(), told.pairsLeftOut()));
+        }
+
+        @Override
+        public void leftOut() {}
     }
 
     private <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key) {

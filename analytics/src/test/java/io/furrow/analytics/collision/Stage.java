@@ -3,6 +3,7 @@ package io.furrow.analytics.collision;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Supplier;
+import java.util.function.ToLongFunction;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
@@ -16,14 +17,20 @@ import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.apache.flink.util.OutputTag;
 
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
-final class Stage<K, I extends Timed, O> {
+final class Stage<K, I, O> {
+    private final ToLongFunction<I> time;
     private final Supplier<KeyedProcessFunction<K, I, O>> function;
     private final KeySelector<I, K> key;
     private final TypeInformation<K> keyType;
     private KeyedOneInputStreamOperatorTestHarness<K, I, O> harness;
 
-    private Stage(Supplier<KeyedProcessFunction<K, I, O>> function, KeySelector<I, K> key, TypeInformation<K> keyType)
+    private Stage(
+            Supplier<KeyedProcessFunction<K, I, O>> function,
+            KeySelector<I, K> key,
+            TypeInformation<K> keyType,
+            ToLongFunction<I> time)
             throws Exception {
+        this.time = time;
         this.function = function;
         this.key = key;
         this.keyType = keyType;
@@ -32,15 +39,19 @@ final class Stage<K, I extends Timed, O> {
     }
 
     static Stage<String, PositionFix, CellUpdate> track(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new TrackDevices(rules), PositionFix::identity, Types.STRING);
+        return new Stage<>(() -> new TrackDevices(rules), PositionFix::identity, Types.STRING, PositionFix::time);
     }
 
     static Stage<Long, CellUpdate, Sighting> match(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new MatchPairs(rules), CellUpdate::cell, Types.LONG);
+        return new Stage<>(() -> new MatchPairs(rules), CellUpdate::cell, Types.LONG, CellUpdate::time);
     }
 
     static Stage<String, Sighting, Encounter> follow(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new FollowEncounters(rules), Sighting::pair, Types.STRING);
+        return new Stage<>(() -> new FollowEncounters(rules), Sighting::pair, Types.STRING, Sighting::time);
+    }
+
+    static Stage<String, Encounter, Encounter> steady(CollisionRules rules) throws Exception {
+        return new Stage<>(() -> new SteadyEncounters(rules), Encounter::pair, Types.STRING, Encounter::time);
     }
 
     void receive(List<I> inputs) throws Exception {
@@ -50,7 +61,7 @@ final class Stage<K, I extends Timed, O> {
     }
 
     void receive(I input) throws Exception {
-        harness.processElement(input, input.time());
+        harness.processElement(input, time.applyAsLong(input));
     }
 
     /** What comes out on the way to the watermark. */

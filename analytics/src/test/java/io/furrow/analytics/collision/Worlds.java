@@ -8,6 +8,10 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 
+import org.locationtech.jts.geom.Envelope;
+import org.locationtech.jts.geom.Geometry;
+import org.locationtech.jts.geom.GeometryFactory;
+
 /** Made-up farms: a handful of devices that wander about a place, with silences, repetitions and shared instants. */
 final class Worlds {
     static final double[] THRESHOLDS = {0.5, 5, 50, 1000};
@@ -27,6 +31,45 @@ final class Worlds {
         Duration skew = skewed ? Duration.ofMillis(700) : Duration.ZERO;
         return new CollisionRules(
                 threshold, Duration.ofSeconds(3), skew, Duration.ofMillis(500), threshold * cellsPerThreshold);
+    }
+
+    /** Rules of any kind; the same for the same seed. */
+    static CollisionRules anyRules(double threshold, long seed) {
+        Random random = new Random(seed);
+        double factor = random.nextInt(3) == 0 ? 1 + random.nextDouble() : 1;
+        long dwell = random.nextInt(3) == 0 ? random.nextLong(2000) : 0;
+        Thresholds thresholds = random.nextBoolean()
+                ? Thresholds.of(threshold)
+                : new Thresholds(
+                        threshold,
+                        Map.of(
+                                "T0", threshold * (0.3 + random.nextDouble()),
+                                "T2+T1", threshold * (0.3 + 2 * random.nextDouble())));
+        Duration skew = random.nextInt(4) == 0 ? Duration.ofMillis(700) : Duration.ZERO;
+        ExclusionZones zones = random.nextInt(3) == 0 ? yards(threshold, random) : ExclusionZones.NONE;
+        int limit = random.nextInt(3) == 0 ? 1 + random.nextInt(3) : 0;
+        double reach = thresholds.greatest() * factor;
+        return new CollisionRules(
+                thresholds,
+                new PositionRules(Duration.ofSeconds(3), skew, zones),
+                new Steadiness(factor, Duration.ofMillis(dwell)),
+                Duration.ofMillis(500),
+                new CellRules(reach * (1 + random.nextInt(30)), limit));
+    }
+
+    /** A rectangle beside each centre, some thresholds wide. */
+    private static ExclusionZones yards(double threshold, Random random) {
+        double degrees = Math.toDegrees(threshold * 3 / Geodesy.EARTH_RADIUS_METERS);
+        List<Geometry> yards = new ArrayList<>();
+        for (int i = 0; i < 6; i++) {
+            double[] centre = centre(i);
+            double width = Math.abs(centre[0]) == 90 ? 120 : degrees;
+            double west = centre[1] - width * random.nextDouble();
+            double south = centre[0] - degrees * random.nextDouble();
+            Envelope yard = new Envelope(west, west + width, south, south + degrees);
+            yards.add(new GeometryFactory().toGeometry(yard.intersection(new Envelope(-180, 180, -90, 90))));
+        }
+        return new ExclusionZones(yards);
     }
 
     /** Where grids go wrong, and one place where they do not: latitude and longitude. */
@@ -50,6 +93,7 @@ final class Worlds {
             // Two tenants may know different devices by one id.
             String id = "urn:ngsi-ld:Robot:" + random.nextInt(devices);
             String identity = "farm" + device + "|/|" + id;
+            String type = "T" + random.nextInt(3);
             String carrier = device > 0 && random.nextInt(6) == 0 ? fixes.get(0).identity() : "";
             double east = room * random.nextGaussian();
             double north = room * random.nextGaussian();
@@ -57,7 +101,8 @@ final class Worlds {
             while (step < STEPS) {
                 double[] place = place(centre, east, north);
                 long time = start + step * STEP;
-                fixes.add(new PositionFix(identity, id, "m" + random.nextInt(2), carrier, place[0], place[1], time));
+                PositionFix fix = Fixes.of(identity, id, "m" + random.nextInt(2), place[0], place[1], time);
+                fixes.add(Fixes.ofType(type, Fixes.carriedByIdentity(carrier, fix)));
                 boolean stays = random.nextInt(4) == 0;
                 east += stays ? 0 : room * random.nextGaussian() / 3;
                 north += stays ? 0 : room * random.nextGaussian() / 3;

@@ -19,7 +19,7 @@ import io.furrow.model.topic.Topics;
 
 /** Records as a source writes them, from devices on the fields of {@code fields.geojson}. */
 final class Farm {
-    static final Path FIELDS = Path.of("src/test/resources/temperature/fields.geojson");
+    static final Path FIELDS = Path.of("src/test/resources/field/fields.geojson");
     static final FiwareScope SCOPE = new FiwareScope("farm", "/");
 
     static final List<TopicRecord> FOUR_DEVICES_ONE_DEFECTIVE =

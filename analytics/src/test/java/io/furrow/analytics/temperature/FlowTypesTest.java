@@ -12,6 +12,7 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.java.typeutils.PojoTypeInfo;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.analytics.field.Field;
 import io.furrow.flink.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -19,6 +19,7 @@ import org.apache.flink.configuration.RestartStrategyOptions;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.field.FieldInput;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
@@ -37,10 +38,15 @@ record JobRun(JobID id, List<TopicRecord> records) {
     static JobRun over(List<TopicRecord> arrivals, TemperatureOptions options) throws Exception {
         StreamExecutionEnvironment env = environment(options);
         Collected collected = new Collected();
-        TemperatureJob.define(source(env, arrivals, options), options)
+        TemperatureJob.define(inputs(env, arrivals, options), options)
                 .sinkTo(collected)
                 .uid("collect");
         return new JobRun(env.execute().getJobID(), collected.records());
+    }
+
+    static TemperatureJob.Inputs inputs(
+            StreamExecutionEnvironment env, List<TopicRecord> arrivals, TemperatureOptions options) {
+        return new TemperatureJob.Inputs(source(env, arrivals, options), FieldInput.of(env, options, options.fields()));
     }
 
     static StreamExecutionEnvironment environment(TemperatureOptions options) {
@@ -54,14 +60,19 @@ record JobRun(JobID id, List<TopicRecord> records) {
     static DataStream<TopicRecord> source(
             StreamExecutionEnvironment env, List<TopicRecord> arrivals, TemperatureOptions options) {
         long bound = options.outOfOrderness().toMillis();
-        return env.fromData(arrivals, TypeInformation.of(TopicRecord.class))
+        List<TopicRecord> all = new ArrayList<>(arrivals);
+        all.add(0, InTurn.BEGIN);
+        return env.fromData(all, TypeInformation.of(TopicRecord.class))
                 .setParallelism(1)
                 .uid("arrivals")
                 .assignTimestampsAndWatermarks(
                         WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
                                 .withTimestampAssigner((record, unused) -> record.timestamp()))
                 .setParallelism(1)
-                .uid("watermarks");
+                .uid("watermarks")
+                .filter(InTurn.readings(new int[arrivals.size()], env.getParallelism()))
+                .setParallelism(1)
+                .uid("in-turn");
     }
 
     List<TopicRecord> to(String topic) {
@@ -115,7 +126,7 @@ record JobRun(JobID id, List<TopicRecord> records) {
         @Override
         public void onEvent(TopicRecord record, long timestamp, WatermarkOutput output) {
             newest = Math.max(newest, timestamp);
-            output.emitWatermark(new Watermark(newest - bound - 1));
+            output.emitWatermark(new Watermark(Math.max(newest, InTurn.BEGIN.timestamp() + bound + 1) - bound - 1));
         }
 
         @Override

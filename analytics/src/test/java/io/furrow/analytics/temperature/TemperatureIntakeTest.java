@@ -5,10 +5,6 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.metrics.Counter;
-import org.apache.flink.runtime.testutils.InMemoryReporter;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -23,14 +19,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(60)
 class TemperatureIntakeTest {
-    private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
-
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
-            .build());
+    static final MiniClusterExtension FLINK = InTurn.cluster(2);
 
     @Test
     void countsReadingsFromOutsideOfAllFields() throws Exception {
@@ -144,8 +134,6 @@ class TemperatureIntakeTest {
     }
 
     private static long counted(JobRun run, String counter) {
-        return METRICS.findMetrics(run.id(), ".*\\." + counter).values().stream()
-                .mapToLong(metric -> ((Counter) metric).getCount())
-                .sum();
+        return InTurn.counted(run.id(), counter);
     }
 }

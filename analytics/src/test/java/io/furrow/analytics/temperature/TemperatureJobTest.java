@@ -8,7 +8,6 @@ import java.util.Map;
 import java.util.Random;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
@@ -27,27 +26,25 @@ import static org.assertj.core.api.Assertions.within;
 @Timeout(60)
 class TemperatureJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(2)
-            .build());
+    static final MiniClusterExtension FLINK = InTurn.cluster(2);
 
     @Test
     void averagesAFieldWithoutItsDefectiveThermometer() throws Exception {
         JobRun run = JobRun.over(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
 
         JsonNode expected = NgsiJson.read("""
-                {"id": "Analytics:FieldTemperature:north", "type": "Analytics:FieldTemperature",
-                 "field": {"type": "String", "value": "north", "metadata": {}},
-                 "averageTemperature": {"type": "Float", "value": 19.0, "metadata": {}},
-                 "plainMean": {"type": "Float", "value": 29.25, "metadata": {}},
-                 "spread": {"type": "Float", "value": 1.4826, "metadata": {}},
-                 "devices": {"type": "Integer", "value": 4, "metadata": {}},
-                 "suspects": {"type": "StructuredValue", "value": ["t4"], "metadata": {}},
-                 "windowStart": {"type": "Integer", "value": 0, "metadata": {}},
-                 "windowEnd": {"type": "Integer", "value": 60000, "metadata": {}},
-                 "quality": {"type": "String", "value": "robust", "metadata": {}},
-                 "Domain": {"type": "String", "value": "canary", "metadata": {}}}""".getBytes(StandardCharsets.UTF_8));
+            {"id": "Analytics:FieldTemperature:north", "type": "Analytics:FieldTemperature",
+             "field": {"type": "String", "value": "north", "metadata": {}},
+             "averageTemperature": {"type": "Float", "value": 19.0, "metadata": {}},
+             "plainMean": {"type": "Float", "value": 29.25, "metadata": {}},
+             "spread": {"type": "Float", "value": 1.4826, "metadata": {}},
+             "devices": {"type": "Integer", "value": 4, "metadata": {}},
+             "suspects": {"type": "StructuredValue", "value": ["t4"], "metadata": {}},
+             "windowStart": {"type": "Integer", "value": 0, "metadata": {}},
+             "windowEnd": {"type": "Integer", "value": 60000, "metadata": {}},
+             "quality": {"type": "String", "value": "robust", "metadata": {}},
+             "Domain": {"type": "String", "value": "canary", "metadata": {}}}\
+            """.getBytes(StandardCharsets.UTF_8));
         assertThat(run.records()).hasSize(1);
         TopicRecord result = run.records().get(0);
         assertThat(NgsiJson.read(result.value())).isEqualTo(expected);

@@ -102,11 +102,14 @@ class WindowStateTest {
     private static FieldReading inField(String device, double value, long time) {
         TopicRecord record = Farm.north(device, value, time);
         return new FieldReading(
-                "north", "canary", new Reading(device, Farm.SCOPE, new Position(52, 12), value, "id-" + time, record));
+                "north",
+                "canary",
+                0,
+                new Reading(device, Farm.SCOPE, new Position(52, 12), value, "id-" + time, record));
     }
 
     private static DeviceVote vote(String device, double value) {
-        return new DeviceVote("north", "canary", Farm.SCOPE, device, value, 0, MINUTE);
+        return new DeviceVote("north", "canary", 0, Farm.SCOPE, device, value, 0, MINUTE);
     }
 
     private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> operator(String uid) throws Exception {
@@ -127,7 +130,7 @@ class WindowStateTest {
     private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> outOfTheJob(String uid) throws Exception {
         StreamExecutionEnvironment env = JobRun.environment(OPTIONS);
         Transformation<?> job = TemperatureJob.define(
-                        JobRun.source(env, List.of(Farm.north("t", 1, 1)), OPTIONS), OPTIONS)
+                        JobRun.inputs(env, List.of(Farm.north("t", 1, 1)), OPTIONS), OPTIONS)
                 .getTransformation();
         var operator = (OneInputTransformation<I, O>) job.getTransitivePredecessors().stream()
                 .filter(step -> uid.equals(step.getUid()))

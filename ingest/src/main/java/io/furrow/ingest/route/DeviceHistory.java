@@ -1,68 +1,29 @@
 package io.furrow.ingest.route;
 
-import java.util.ArrayList;
 import java.util.List;
-import java.util.Optional;
 
+import io.furrow.flink.device.DeviceBook;
+import io.furrow.flink.device.DeviceVersions;
 import io.furrow.model.device.DeviceVersion;
 
 /**
- * What was known of a device at any time that is still asked for.
+ * The versions of a device as savepoints of this job hold them.
  *
- * @param versions by {@code from}, which none shares with another; each holds until the next one's
+ * @param versions as in {@link DeviceVersions}
  */
 public record DeviceHistory(List<DeviceVersion> versions) {
-    static final DeviceHistory EMPTY = new DeviceHistory(List.of());
+    /** To and from the state. */
+    static final class Form implements DeviceBook.Form<DeviceHistory> {
+        private static final long serialVersionUID = 1L;
 
-    /** The version that held at an event time. */
-    Optional<DeviceVersion> at(long time) {
-        for (int i = versions.size() - 1; i >= 0; i--) {
-            if (versions.get(i).from() <= time) {
-                return Optional.of(versions.get(i)).filter(version -> version.holdsAt(time));
-            }
+        @Override
+        public DeviceVersions read(DeviceHistory held) {
+            return new DeviceVersions(held.versions());
         }
-        return Optional.empty();
-    }
 
-    /** With a change; a version with a smaller sequence than one known is out of date and changes nothing. */
-    DeviceHistory with(DeviceChange change) {
-        return change.version() == null ? endedAt(change.time()) : with(change.version());
-    }
-
-    /** What a version says holds from its time on, whatever was said of that time before. */
-    private DeviceHistory with(DeviceVersion version) {
-        if (versions.stream().anyMatch(known -> known.sequence() > version.sequence())) {
-            return this;
+        @Override
+        public DeviceHistory held(DeviceVersions versions) {
+            return new DeviceHistory(versions.versions());
         }
-        List<DeviceVersion> all = new ArrayList<>(versions);
-        all.removeIf(known -> known.from() >= version.from() || known.sequence() == version.sequence());
-        all.add(version);
-        return new DeviceHistory(all);
-    }
-
-    private DeviceHistory endedAt(long time) {
-        List<DeviceVersion> all = new ArrayList<>(versions);
-        all.removeIf(known -> known.from() >= time);
-        if (!all.isEmpty() && all.get(all.size() - 1).holdsAt(time)) {
-            all.set(all.size() - 1, all.get(all.size() - 1).endingAt(time));
-        }
-        return new DeviceHistory(all);
-    }
-
-    /** Without what had ended at a time. */
-    DeviceHistory since(long time) {
-        List<DeviceVersion> kept = new ArrayList<>();
-        for (int i = 0; i < versions.size(); i++) {
-            boolean followed = i + 1 < versions.size() && versions.get(i + 1).from() <= time;
-            Long until = versions.get(i).until();
-            if (!followed && (until == null || until > time)) {
-                kept.add(versions.get(i));
-            }
-        }
-        return kept.size() == versions.size() ? this : new DeviceHistory(kept);
-    }
-
-    boolean isEmpty() {
-        return versions.isEmpty();
     }
 }

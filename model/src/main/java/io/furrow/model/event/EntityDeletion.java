@@ -7,6 +7,7 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.Instants;
 
 /**
  * The end of an entity as a source passes it on: key = the entity's id, no value, record timestamp = {@code time}, headers =
@@ -26,7 +27,7 @@ public record EntityDeletion(String entityId, FiwareScope scope, Instant time, I
     public static EntityDeletion of(
             Entity deleted, FiwareScope scope, Instant received, Duration maxSkew, Origin origin) {
         Instant time = deleted.value("deletedAt")
-                .flatMap(EventTime::instant)
+                .flatMap(Instants::of)
                 .filter(at -> !at.isAfter(received.plus(maxSkew)))
                 .orElse(received);
         return new EntityDeletion(deleted.id(), scope, time, received, origin);

@@ -17,9 +17,14 @@ final class Numbers {
         if (value.isNumber()) {
             return Optional.of(value.doubleValue()).filter(Double::isFinite);
         }
-        String text = value.isTextual() ? value.textValue().trim() : "";
-        return DECIMAL.matcher(text).matches()
-                ? Optional.of(Double.parseDouble(text)).filter(Double::isFinite)
-                : Optional.empty();
+        double number = value.isTextual() ? finite(value.textValue()) : Double.NaN;
+        return Double.isNaN(number) ? Optional.empty() : Optional.of(number);
+    }
+
+    /** The finite number that a text names; NaN for every other text. */
+    static double finite(String untrimmed) {
+        String text = untrimmed.trim();
+        double number = DECIMAL.matcher(text).matches() ? Double.parseDouble(text) : Double.NaN;
+        return Double.isFinite(number) ? number : Double.NaN;
     }
 }

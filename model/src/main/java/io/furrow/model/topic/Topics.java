@@ -13,11 +13,18 @@ public final class Topics {
     public static final String NOTIFICATIONS = "ngsi.notifications";
     /** To whom each device belongs, see {@code DeviceVersion}; compacted. */
     public static final String DEVICES = "service.devices";
+    /** The fields of the farm, version by version, see {@code FieldVersion}; compacted. */
+    public static final String FIELDS = "service.fields";
 
     public static final String TEMPERATURE = "data.temperature";
     public static final String TEMPERATURE_LATE = "data.temperature.late";
     public static final String COLLISION = "data.collision";
     public static final String COLLISION_LATE = "data.collision.late";
+    /** Where so many pairs were close that not all are followed. */
+    public static final String COLLISION_OVERFLOW = "data.collision.overflow";
+
+    public static final String PRESENCE = "data.presence";
+    public static final String PRESENCE_LATE = "data.presence.late";
 
     /** Where each stored image is. */
     public static final String IMAGES = "data.images";

@@ -82,7 +82,7 @@ class JsonTestSuiteTest {
         return cases().filter(each -> !accepted.contains(each.name));
     }
 
-    private static Stream<Case> cases() throws IOException {
+    static Stream<Case> cases() throws IOException {
         return Files.readAllLines(SUITE.resolve("parsing.jsonl")).stream().map(JsonTestSuiteTest::read);
     }
 

@@ -1,0 +1,109 @@
+package io.furrow.analytics.collision;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+import picocli.CommandLine.Option;
+
+/** The options of {@link CollisionRules}. An accessor refuses, with its argument's name, what no job could start with. */
+final class RuleOptions {
+    @Option(
+            names = "--threshold",
+            paramLabel = "METERS",
+            defaultValue = "5",
+            description = "Up to this distance two devices are close, 0.1 to 100000 m. Default: ${DEFAULT-VALUE}.")
+    private double threshold;
+
+    @Option(
+            names = "--threshold-of",
+            paramLabel = "TYPE[+TYPE]=METERS",
+            hideParamSyntax = true,
+            description =
+                    "Another threshold for devices of an entity type, or for pairs of two types; may be repeated. A "
+                            + "pair that is not named has the greater threshold of both types.")
+    private Map<String, Double> thresholdOf = new LinkedHashMap<>();
+
+    @Option(
+            names = "--time-to-live",
+            paramLabel = "DURATION",
+            defaultValue = "30s",
+            description = "How long a position counts when no newer one comes. At least twice the time between two "
+                    + "reports of a device, or encounters break up. Default: ${DEFAULT-VALUE}.")
+    private Duration timeToLive;
+
+    @Option(
+            names = "--max-skew",
+            paramLabel = "DURATION",
+            defaultValue = "0s",
+            description = "Positions further apart in time are not compared. 0s compares all. Set it where devices "
+                    + "move far between two reports. Default: ${DEFAULT-VALUE}.")
+    private Duration maxSkew;
+
+    @Option(
+            names = "--zones",
+            paramLabel = "FILE",
+            description =
+                    "GeoJSON FeatureCollection of yards and the like: a device inside, or on the border, takes no "
+                            + "part. Default: none.")
+    private Path zones;
+
+    @Option(
+            names = "--leave-factor",
+            paramLabel = "FACTOR",
+            defaultValue = "1",
+            description = "An encounter that has started lasts up to this many thresholds, 1 to 100. Above 1 where "
+                    + "devices work side by side at about the threshold. Default: ${DEFAULT-VALUE}.")
+    private double leaveFactor;
+
+    @Option(
+            names = "--dwell",
+            paramLabel = "DURATION",
+            defaultValue = "0s",
+            description = "Only an encounter that lasts longer than this is told, from then on. Default: "
+                    + "${DEFAULT-VALUE}.")
+    private Duration dwell;
+
+    @Option(
+            names = "--ongoing-every",
+            paramLabel = "DURATION",
+            defaultValue = "1s",
+            description = "Least event time between two records of a lasting encounter; starts and ends are always "
+                    + "told. 0s tells every sighting. Default: ${DEFAULT-VALUE}.")
+    private Duration ongoingEvery;
+
+    @Option(
+            names = "--cell",
+            paramLabel = "METERS",
+            description = "Height of a grid cell, at least the greatest threshold times --leave-factor. Changes speed "
+                    + "only, and with --pairs-per-cell what is left out: smaller where devices crowd, larger where they "
+                    + "are sparse. Default: 20 times that.")
+    private Double cell;
+
+    @Option(
+            names = "--pairs-per-cell",
+            paramLabel = "N",
+            defaultValue = "0",
+            description =
+                    "How many pairs of one grid cell are followed at once; what is left out is reported. 0 follows "
+                            + "all. Set it where so many devices may stand together that their pairs are too many. Default: "
+                            + "${DEFAULT-VALUE}.")
+    private int pairsPerCell;
+
+    /**
+     * @throws IllegalArgumentException if no job could go by them; the message names what is wrong
+     */
+    CollisionRules rules() {
+        Thresholds thresholds = new Thresholds(threshold, thresholdOf);
+        Steadiness steadiness = new Steadiness(leaveFactor, dwell);
+        ExclusionZones places = zones == null ? ExclusionZones.NONE : ZoneFile.read(zones);
+        double reach = thresholds.greatest() * leaveFactor;
+        return new CollisionRules(
+                thresholds,
+                new PositionRules(timeToLive, maxSkew, places),
+                steadiness,
+                ongoingEvery,
+                new CellRules(cell == null ? CellRules.THRESHOLDS * reach : cell, pairsPerCell));
+    }
+}

@@ -1,0 +1,58 @@
+package io.furrow.analytics.collision;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.eventtime.OneTimer;
+
+/**
+ * Keeps encounters from flickering. Key: the pair.
+ *
+ * <p><b>State</b>: the encounter under way, whether it was told.
+ *
+ * <p><b>Cleared</b>: when the exact stages see its end.
+ *
+ * <p><b>Late</b>: nothing can be, the stage before tells of a pair in the order of time and before the watermark.
+ *
+ * <p><b>Emits</b>: records of the encounters that started within the threshold and lasted for the dwell.
+ */
+public final class SteadyEncounters extends KeyedProcessFunction<String, Encounter, Encounter> {
+    private static final long serialVersionUID = 1L;
+
+    private final Steadier steadier;
+
+    private transient OneTimer timer;
+    private transient ValueState<Course> course;
+
+    SteadyEncounters(CollisionRules rules) {
+        steadier = new Steadier(rules);
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        timer = new OneTimer(getRuntimeContext());
+        course = getRuntimeContext().getState(new ValueStateDescriptor<>("course", Course.class));
+    }
+
+    @Override
+    public void processElement(Encounter seen, Context context, Collector<Encounter> out) throws Exception {
+        keep(steadier.next(course.value(), seen, out::collect), context);
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<Encounter> out) throws Exception {
+        timer.rang();
+        keep(steadier.advance(course.value(), context.timerService().currentWatermark(), out::collect), context);
+    }
+
+    private void keep(Course now, Context context) throws Exception {
+        course.update(now); // null clears
+        Long due = steadier.due(now);
+        if (due != null) {
+            timer.ask(due, context.timerService());
+        }
+    }
+}

@@ -1,0 +1,80 @@
+package io.furrow.analytics.collision;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.locationtech.jts.geom.Envelope;
+import org.locationtech.jts.geom.Geometry;
+import org.locationtech.jts.io.ParseException;
+import org.locationtech.jts.io.geojson.GeoJsonReader;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Exclusion zones from a GeoJSON FeatureCollection (RFC 7946) of Polygons and MultiPolygons in degrees. A zone that crosses
+ * the antimeridian is cut there into a MultiPolygon, as the RFC asks.
+ */
+final class ZoneFile {
+    private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
+    private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
+
+    private ZoneFile() {}
+
+    /**
+     * @throws IllegalArgumentException if a single feature cannot be used: a zone that is silently missing would be worse
+     */
+    static ExclusionZones read(Path file) {
+        JsonNode features = json(file).path("features");
+        if (!features.isArray() || features.isEmpty()) {
+            throw refused(file, "holds no feature; give a GeoJSON FeatureCollection with one feature per zone", null);
+        }
+        List<Geometry> areas = new ArrayList<>();
+        for (JsonNode feature : features) {
+            areas.add(area(file, feature.path("geometry"), "feature " + (areas.size() + 1)));
+        }
+        return new ExclusionZones(areas);
+    }
+
+    private static JsonNode json(Path file) {
+        try {
+            return NgsiJson.read(Files.readAllBytes(file));
+        } catch (IOException e) {
+            throw refused(file, "cannot be read; name a readable GeoJSON file", e);
+        } catch (UnreadableException e) {
+            throw refused(file, "is no JSON (" + e.getMessage() + "); give a GeoJSON FeatureCollection", e);
+        }
+    }
+
+    private static Geometry area(Path file, JsonNode geometry, String name) {
+        if (!AREAS.contains(geometry.path("type").asText())) {
+            throw refused(file, name + " is no area; give it a geometry of type Polygon or MultiPolygon", null);
+        }
+        try {
+            Geometry area = new GeoJsonReader().read(new String(NgsiJson.write(geometry), StandardCharsets.UTF_8));
+            if (area.isEmpty() || !area.isValid() || !EARTH.contains(area.getEnvelopeInternal())) {
+                throw refused(
+                        file,
+                        name + " is empty, crosses itself or lies outside of longitude ±180, latitude ±90; redraw it",
+                        null);
+            }
+            return area;
+        } catch (ParseException | NumberFormatException e) {
+            throw refused(
+                    file,
+                    name + " has broken coordinates; a ring is four or more [longitude, latitude], the last like the "
+                            + "first",
+                    e);
+        }
+    }
+
+    private static IllegalArgumentException refused(Path file, String what, Throwable cause) {
+        return new IllegalArgumentException("--zones " + file + ": " + what, cause);
+    }
+}

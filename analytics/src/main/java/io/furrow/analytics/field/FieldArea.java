@@ -1,0 +1,62 @@
+package io.furrow.analytics.field;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.locationtech.jts.geom.Envelope;
+import org.locationtech.jts.geom.Geometry;
+import org.locationtech.jts.io.ParseException;
+import org.locationtech.jts.io.geojson.GeoJsonReader;
+import org.locationtech.jts.operation.valid.IsValidOp;
+import org.locationtech.jts.operation.valid.TopologyValidationError;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Reads the area of a field from GeoJSON; takes none of which it could not be told what is inside. */
+final class FieldArea {
+    private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
+    private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
+
+    private FieldArea() {}
+
+    /**
+     * @param field what the message calls it
+     * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}; the message names the place and the remedy
+     */
+    static Geometry read(JsonNode geometry, String field) throws UnreadableException {
+        if (!AREAS.contains(geometry.path("type").asText())) {
+            throw refused(field + " is no area; give it a geometry of type Polygon or MultiPolygon", null);
+        }
+        Geometry area;
+        try {
+            area = new GeoJsonReader().read(new String(NgsiJson.write(geometry), StandardCharsets.UTF_8));
+        } catch (ParseException | NumberFormatException e) {
+            throw refused(
+                    field
+                            + " has broken coordinates; a ring is four or more [longitude, latitude], the last like"
+                            + " the first",
+                    e);
+        }
+        if (area.isEmpty()) {
+            throw refused(field + " has no coordinates; draw its border or take it out", null);
+        }
+        if (!EARTH.contains(area.getEnvelopeInternal())) {
+            throw refused(field + " lies outside of longitude ±180, latitude ±90; give degrees in WGS 84", null);
+        }
+        TopologyValidationError error = new IsValidOp(area).getValidationError();
+        if (error != null) {
+            throw refused(
+                    field + " is no valid area: " + error.getMessage() + " at longitude " + error.getCoordinate().x
+                            + ", latitude " + error.getCoordinate().y + "; redraw its border there",
+                    null);
+        }
+        return area;
+    }
+
+    private static UnreadableException refused(String what, Throwable cause) {
+        return new UnreadableException(Reason.NOT_AN_EVENT, what, cause);
+    }
+}

@@ -1,0 +1,75 @@
+package io.furrow.analytics.field;
+
+import java.util.ArrayList;
+import java.util.Collection;
+import java.util.List;
+
+import org.locationtech.jts.algorithm.locate.IndexedPointInAreaLocator;
+import org.locationtech.jts.geom.Coordinate;
+import org.locationtech.jts.geom.Envelope;
+import org.locationtech.jts.geom.Location;
+import org.locationtech.jts.index.strtree.STRtree;
+
+import io.furrow.model.ngsi.Position;
+
+/**
+ * Tells which fields cover a position at a time; a position on the border, also on that of a hole, is covered.
+ *
+ * <p>Edges are straight in the plane of longitude and latitude, as RFC 7946 has them. The side of an edge is decided in
+ * double-double arithmetic on the coordinates as they are, without tolerance: a position is on the border exactly when its
+ * doubles are. Between two corners that are not on one parallel or meridian rounding puts most positions meant to be on the
+ * border beside it, by less than a nanometre.
+ */
+final class FieldIndex {
+    /** A field with what tells its inside from its outside; that is made once, however often the index is. */
+    static final class Located {
+        private final Field field;
+        private final IndexedPointInAreaLocator locator;
+
+        Located(Field field) {
+            this.field = field;
+            this.locator = new IndexedPointInAreaLocator(field.area());
+        }
+
+        Field field() {
+            return field;
+        }
+
+        private boolean covers(Coordinate point) {
+            return locator.locate(point) != Location.EXTERIOR;
+        }
+    }
+
+    /**
+     * A field for as long as it is as it is.
+     *
+     * @param until epoch ms of the next version, exclusive
+     */
+    record Span(Located located, long until) {
+        private boolean holdsAt(long time) {
+            return located.field.validFrom() <= time && time < until;
+        }
+    }
+
+    private final STRtree tree = new STRtree();
+
+    FieldIndex(Collection<Span> spans) {
+        for (Span span : spans) {
+            tree.insert(span.located().field.area().getEnvelopeInternal(), span);
+        }
+        tree.build();
+    }
+
+    /** The fields that cover the position at an event time in epoch ms, in no order. */
+    List<Field> covering(Position position, long time) {
+        Coordinate point = new Coordinate(position.longitude(), position.latitude());
+        List<Field> covering = new ArrayList<>();
+        tree.query(new Envelope(point), item -> {
+            Span span = (Span) item; // the tree is raw; only this class fills it
+            if (span.holdsAt(time) && span.located.covers(point)) {
+                covering.add(span.located.field);
+            }
+        });
+        return covering;
+    }
+}

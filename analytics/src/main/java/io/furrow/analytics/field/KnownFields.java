@@ -1,0 +1,125 @@
+package io.furrow.analytics.field;
+
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.NavigableMap;
+import java.util.Optional;
+import java.util.OptionalLong;
+import java.util.TreeMap;
+import java.util.TreeSet;
+
+import org.apache.flink.api.common.state.MapStateDescriptor;
+import org.apache.flink.api.common.typeinfo.Types;
+
+import io.furrow.analytics.field.FieldIndex.Located;
+import io.furrow.analytics.field.FieldIndex.Span;
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Position;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * The fields as one subtask knows them: all versions of all fields, asked for as of an event time. A version holds from its
+ * {@code validFrom} until that of the field's next version. For one thread.
+ *
+ * <p>Needs no state of Flink's: the topic is compacted and keeps every version, and is read to its end whenever the subtask
+ * opens. The stream that follows repeats what was read; that is passed over by its offset.
+ */
+public final class KnownFields {
+    /** What Flink wants to know of broadcast state; there is none. */
+    public static final MapStateDescriptor<String, String> BROADCAST =
+            new MapStateDescriptor<>("fields", Types.STRING, Types.STRING);
+
+    private final Map<String, NavigableMap<Long, Optional<Located>>> versions = new HashMap<>();
+    private final Map<Integer, Long> passed = new HashMap<>();
+    private final TreeSet<Long> changes = new TreeSet<>();
+    private FieldIndex index = new FieldIndex(List.of());
+    private boolean stale;
+
+    private KnownFields() {}
+
+    /** To be called in {@code open}, before the first event, after restarts too. */
+    public static KnownFields read(TopicAtStart atStart) throws IOException {
+        KnownFields known = new KnownFields();
+        for (TopicRecord record : atStart.read()) {
+            known.take(record);
+        }
+        return known;
+    }
+
+    /**
+     * Takes a record of the broadcast stream in. What is no version of a field is passed over: {@link RecognizeFields} has made
+     * a dead letter of it.
+     *
+     * @return whether it changes anything that was known
+     */
+    public boolean take(TopicRecord record) {
+        if (record.offset() <= passed.getOrDefault(record.partition(), -1L)) {
+            return false;
+        }
+        passed.put(record.partition(), record.offset());
+        try {
+            take(FieldChange.read(record));
+            return true;
+        } catch (UnreadableException e) {
+            return false;
+        }
+    }
+
+    private void take(FieldChange change) {
+        stale = true;
+        NavigableMap<Long, Optional<Located>> ofField =
+                versions.computeIfAbsent(change.key().id(), id -> new TreeMap<>());
+        if (change.isTaken()) {
+            ofField.remove(change.key().validFrom());
+        } else {
+            ofField.put(
+                    change.key().validFrom(),
+                    Optional.ofNullable(change.field()).map(Located::new));
+        }
+        if (ofField.isEmpty()) {
+            versions.remove(change.key().id());
+        }
+    }
+
+    /** The index is made anew when it is asked after changes, so that a thousand fields at the start make it once. */
+    private void refresh() {
+        if (!stale) {
+            return;
+        }
+        List<Span> spans = new ArrayList<>();
+        changes.clear();
+        for (NavigableMap<Long, Optional<Located>> ofField : versions.values()) {
+            changes.addAll(ofField.keySet());
+            ofField.forEach((from, located) -> {
+                Long next = ofField.higherKey(from);
+                located.ifPresent(area -> spans.add(new Span(area, next == null ? Long.MAX_VALUE : next)));
+            });
+        }
+        index = new FieldIndex(spans);
+        stale = false;
+    }
+
+    /** The fields that cover a position at an event time in epoch ms, in no order. The border counts, also that of a hole. */
+    public List<Field> covering(Position position, long time) {
+        refresh();
+        return index.covering(position, time);
+    }
+
+    /** The field as it is at an event time; empty where there is none of that id at that time. */
+    public Optional<Field> at(String id, long time) {
+        NavigableMap<Long, Optional<Located>> ofField = versions.get(id);
+        Map.Entry<Long, Optional<Located>> last = ofField == null ? null : ofField.floorEntry(time);
+        return last == null ? Optional.empty() : last.getValue().map(Located::field);
+    }
+
+    /** When, after an event time, any field begins, changes or ends as far as is known; epoch ms. */
+    public OptionalLong nextChange(long after) {
+        refresh();
+        Long next = changes.higher(after);
+        return next == null ? OptionalLong.empty() : OptionalLong.of(next);
+    }
+}

@@ -1,0 +1,134 @@
+package io.furrow.analytics.presence;
+
+import java.io.IOException;
+import java.util.List;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.runtime.state.FunctionInitializationContext;
+import org.apache.flink.runtime.state.FunctionSnapshotContext;
+import org.apache.flink.streaming.api.TimerService;
+import org.apache.flink.streaming.api.checkpoint.CheckpointedFunction;
+import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
+import org.apache.flink.util.Collector;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.field.KnownFields;
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+
+/**
+ * Tells when a device entered and left fields. Key: the device of a topic.
+ *
+ * <p><b>State</b>: positions that wait for the watermark, the whereabouts; per subtask how far event time has come, because a restored
+ * job starts without a watermark and must not go back behind what it has told. Fields: see {@link KnownFields}.
+ *
+ * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is told and no position waits.
+ *
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}. A version of a field that comes after its time has passed for a
+ * device shows when the device is next looked at: with its next position, or within {@link #AGAIN} of event time.
+ *
+ * <p><b>Emits</b>: passages, a device's in the order of the times at which they are certain, before the watermark of that time.
+ */
+final class FollowDevices extends KeyedBroadcastProcessFunction<String, PresenceFix, TopicRecord, Passage>
+        implements CheckpointedFunction {
+    static final OutputTag<PresenceFix> LATE = new OutputTag<>("late") {
+        private static final long serialVersionUID = 1L;
+    };
+    /** How long a device that says nothing is left alone, ms. A new version reaches no timer of a key by itself. */
+    static final long AGAIN = 5_000;
+
+    private static final long serialVersionUID = 1L;
+
+    private final Judge judge;
+    private final TopicAtStart atStart;
+
+    private transient KnownFields fields;
+    private transient OneTimer timer;
+    private transient Inbox<PresenceFix> inbox;
+    private transient ValueState<Whereabouts> whereabouts;
+    private transient ListState<Long> progress;
+    private transient long reached;
+    private transient Counter accepted;
+    private transient Counter late;
+    private transient Counter changes;
+
+    FollowDevices(PresenceRules rules, TopicAtStart atStart) {
+        this.judge = new Judge(rules);
+        this.atStart = atStart;
+    }
+
+    @Override
+    public void initializeState(FunctionInitializationContext context) throws Exception {
+        progress = context.getOperatorStateStore()
+                .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
+        reached = Long.MIN_VALUE;
+        for (long each : progress.get()) {
+            reached = Math.max(reached, each);
+        }
+    }
+
+    @Override
+    public void open(OpenContext context) throws IOException {
+        fields = KnownFields.read(atStart);
+        timer = new OneTimer(getRuntimeContext());
+        inbox = new Inbox<>(getRuntimeContext(), PresenceFix.class, PresenceFix.SEQUENCE, timer);
+        whereabouts = getRuntimeContext().getState(new ValueStateDescriptor<>("whereabouts", Whereabouts.class));
+        accepted = getRuntimeContext().getMetricGroup().counter("accepted");
+        late = getRuntimeContext().getMetricGroup().counter("late");
+        changes = getRuntimeContext().getMetricGroup().counter("field-changes");
+    }
+
+    @Override
+    public void processElement(PresenceFix fix, ReadOnlyContext context, Collector<Passage> out) throws Exception {
+        reached = Math.max(reached, context.timerService().currentWatermark());
+        if (fix.time() <= reached) {
+            late.inc();
+            context.output(LATE, fix);
+            return;
+        }
+        accepted.inc();
+        inbox.add(fix, context.timerService());
+    }
+
+    @Override
+    public void processBroadcastElement(TopicRecord version, Context context, Collector<Passage> out) {
+        if (fields.take(version)) {
+            changes.inc();
+        }
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<Passage> out) throws Exception {
+        timer.rang();
+        TimerService timers = context.timerService();
+        long until = timers.currentWatermark();
+        reached = Math.max(reached, until);
+        List<PresenceFix> due = inbox.takeDue(timers);
+        Whereabouts before = whereabouts.value();
+        Whereabouts now =
+                judge.advance(before == null ? Whereabouts.NOWHERE : before, due, until, fields, out::collect);
+        if (due.isEmpty()) {
+            now = judge.again(now, until, fields, out::collect);
+        }
+        if (now.isNowhere()) {
+            whereabouts.clear();
+        } else {
+            whereabouts.update(now);
+            timer.ask(judge.nextInstant(now, fields), timers);
+            timer.ask(until + AGAIN, timers);
+        }
+    }
+
+    @Override
+    public void snapshotState(FunctionSnapshotContext context) throws Exception {
+        progress.update(List.of(reached));
+    }
+}

@@ -1,0 +1,74 @@
+package io.furrow.analytics.presence;
+
+import java.nio.charset.StandardCharsets;
+import java.security.MessageDigest;
+import java.security.NoSuchAlgorithmException;
+import java.util.HexFormat;
+
+import io.furrow.flink.ResultRecord;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+
+/** What the job writes about passages and about positions that it could not count. */
+final class PresenceRecord {
+    static final String TYPE = "Analytics:Presence";
+    private static final String SOURCE = "/analytics/presence";
+    private static final String LATE_TYPE = "Analytics:LatePosition";
+    private static final int ID_BYTES = 16;
+
+    private PresenceRecord() {}
+
+    /**
+     * An entity per device and field, so that the context broker keeps the newest passage and does not grow for ever; key = device id,
+     * timestamp = when it was certain.
+     */
+    static TopicRecord of(Passage passage, String topic) {
+        Stay stay = passage.stay();
+        PresenceFix fix = stay.fix();
+        String id = id(fix.identity(), stay.field());
+        EntityBuilder entity = Entity.builder(TYPE + ":" + id, TYPE)
+                .text("device", fix.id())
+                .text("field", stay.field())
+                .text("phase", passage.phase().code())
+                .text("cause", stay.cause().code())
+                .integer("time", passage.time())
+                .text("stay", id + "-" + stay.since())
+                .integer("startTime", stay.since())
+                .number("Latitude", fix.latitude())
+                .number("Longitude", fix.longitude())
+                .text("Mission", fix.mission());
+        if (passage.phase() == Passage.Phase.LEFT) {
+            entity.integer("dwell", stay.left() - stay.since());
+        }
+        if (!stay.name().isEmpty()) {
+            entity.text("fieldName", stay.name());
+        }
+        if (!stay.domain().isEmpty()) {
+            entity.text("Domain", stay.domain());
+        }
+        return ResultRecord.of(topic, fix.id(), entity.build(), fix.scope(), passage.told(), SOURCE);
+    }
+
+    /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */
+    static TopicRecord late(PresenceFix fix, String topic) {
+        Entity entity = Entity.builder(fix.id(), LATE_TYPE)
+                .number("Latitude", fix.latitude())
+                .number("Longitude", fix.longitude())
+                .integer("Time", fix.time())
+                .text("Mission", fix.mission())
+                .build();
+        return ResultRecord.of(topic, fix.id(), entity, fix.scope(), fix.time(), SOURCE);
+    }
+
+    /** The first 128 bits of a SHA-256 over device and field, in lower-case hexadecimal. */
+    private static String id(String device, String field) {
+        String text = device.length() + ":" + device + field;
+        try {
+            byte[] digest = MessageDigest.getInstance("SHA-256").digest(text.getBytes(StandardCharsets.UTF_8));
+            return HexFormat.of().formatHex(digest, 0, ID_BYTES);
+        } catch (NoSuchAlgorithmException e) {
+            throw new IllegalStateException("every Java platform has SHA-256", e);
+        }
+    }
+}

@@ -1,0 +1,18 @@
+package io.furrow.analytics.presence;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobUids;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class PresenceUidsTest {
+    @Test
+    void keepsTheUidsThatSavepointsKnow() {
+        PresenceOptions options = new PresenceOptions();
+        JobCommandLine.of(options).parseArgs();
+
+        assertThat(JobUids.of(PresenceJob.assemble(options))).isEqualTo(JobUids.checkedIn("presence"));
+    }
+}

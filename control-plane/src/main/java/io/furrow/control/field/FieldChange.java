@@ -1,0 +1,84 @@
+package io.furrow.control.field;
+
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What a version means beside those that are known already.
+ *
+ * @param version as it is to be written; one that is {@link Kind#UNCHANGED} is not
+ */
+public record FieldChange(Kind kind, FieldVersion version) {
+    /** How it differs from what holds at that time. */
+    public enum Kind {
+        ADDED,
+        CHANGED,
+        UNCHANGED,
+        ENDED
+    }
+
+    /**
+     * Of each version, in their order; then, if they {@code replace} all, the end of each field that is not among them.
+     *
+     * @param known every version of {@code service.fields}
+     * @param validFrom when those that are not among them end, epoch ms
+     */
+    public static List<FieldChange> of(
+            List<FieldVersion> versions, List<FieldVersion> known, boolean replace, long validFrom) {
+        List<FieldChange> changes = new ArrayList<>();
+        for (FieldVersion version : versions) {
+            changes.add(new FieldChange(kind(version, known), version));
+        }
+        if (replace) {
+            Set<String> kept = versions.stream().map(FieldVersion::id).collect(Collectors.toSet());
+            asOf(validFrom, known).values().stream()
+                    .filter(field -> !kept.contains(field.id()))
+                    .map(field -> new FieldVersion(field.id(), validFrom, null, JsonNodeFactory.instance.objectNode()))
+                    .forEach(end -> changes.add(new FieldChange(Kind.ENDED, end)));
+        }
+        return changes;
+    }
+
+    /** The fields that there are at a time, by id. */
+    public static Map<String, FieldVersion> asOf(long time, List<FieldVersion> known) {
+        Map<String, FieldVersion> fields = new TreeMap<>();
+        known.stream()
+                .filter(version -> version.validFrom() <= time)
+                .sorted(Comparator.comparingLong(FieldVersion::validFrom))
+                .forEach(version -> fields.put(version.id(), version));
+        fields.values().removeIf(FieldVersion::isEnd);
+        return fields;
+    }
+
+    private static Kind kind(FieldVersion version, List<FieldVersion> known) {
+        return Optional.ofNullable(asOf(version.validFrom(), known).get(version.id()))
+                .map(before -> isSame(before, version) ? Kind.UNCHANGED : Kind.CHANGED)
+                .orElse(Kind.ADDED);
+    }
+
+    /** As read back, so that 1 and 1.0 of a file are what they are in the topic. */
+    private static boolean isSame(FieldVersion one, FieldVersion other) {
+        FieldVersion before = readBack(one);
+        FieldVersion now = readBack(other);
+        return before.geometry().equals(now.geometry()) && before.properties().equals(now.properties());
+    }
+
+    private static FieldVersion readBack(FieldVersion version) {
+        try {
+            return FieldVersion.read(version.toBytes());
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("a version is not read as it was written: " + version.key(), e);
+        }
+    }
+}

@@ -1,0 +1,18 @@
+package io.furrow.flink;
+
+import java.io.IOException;
+import java.io.Serializable;
+import java.util.List;
+
+/**
+ * What is on a topic at the moment of the call. An operator that joins events with the topic's records reads it before its
+ * first event, here and after each restart; what comes later reaches it as a broadcast stream, which begins with the same
+ * records again.
+ */
+public interface TopicAtStart extends Serializable {
+    /** For a job that does not look at the topic. */
+    TopicAtStart NONE = List::of;
+
+    /** In the order of the topic, as far as it has one: by offset within each partition. */
+    List<TopicRecord> read() throws IOException;
+}

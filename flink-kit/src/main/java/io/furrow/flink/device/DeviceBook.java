@@ -1,0 +1,117 @@
+package io.furrow.flink.device;
+
+import java.io.IOException;
+import java.io.Serializable;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+
+import org.apache.flink.api.common.state.BroadcastState;
+import org.apache.flink.api.common.state.ReadOnlyBroadcastState;
+
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What {@code service.devices} says of every device as of an event's time: the versions in the broadcast state of a
+ * function, completed by what was on the topic when the function was opened. The function holds the state, because savepoints
+ * know it by the function's own type.
+ *
+ * @param <H> the form in which the state holds the versions of a device
+ */
+public final class DeviceBook<H> implements Serializable {
+    private static final long serialVersionUID = 1L;
+
+    private final TopicAtStart topic;
+    private final long keptMillis;
+    private final Form<H> form;
+    private transient Map<String, List<DeviceChange>> atStart;
+    private transient int changesUntilSweep;
+
+    /** How the state holds the versions of a device. */
+    public interface Form<H> extends Serializable {
+        DeviceVersions read(H held);
+
+        H held(DeviceVersions versions);
+    }
+
+    /**
+     * @param topic what is read before the first event
+     * @param kept how long versions that ended are kept for events that come late
+     */
+    public DeviceBook(TopicAtStart topic, Duration kept, Form<H> form) {
+        this.topic = topic;
+        this.keptMillis = kept.toMillis();
+        this.form = form;
+    }
+
+    /** Reads what is known of devices; to be called before the first event, also after each restart. */
+    public void open() throws IOException {
+        atStart = new HashMap<>();
+        for (TopicRecord record : topic.read()) {
+            try {
+                DeviceChange change = ReadDevices.read(record);
+                atStart.computeIfAbsent(change.key(), key -> new ArrayList<>()).add(change);
+            } catch (UnreadableException e) { // becomes a dead letter where the stream of devices is read
+                continue;
+            }
+        }
+    }
+
+    /** The version that held at an event time. What was read at the start may be newer than a restored state. */
+    public Optional<DeviceVersion> at(String identity, long time, ReadOnlyBroadcastState<String, H> state)
+            throws Exception {
+        DeviceVersions known = known(state.get(identity));
+        for (DeviceChange change : atStart.getOrDefault(identity, List.of())) {
+            known = known.with(change);
+        }
+        return known.at(time);
+    }
+
+    /** Takes a change into the state; forgets versions that ended longer ago than they are kept. */
+    public void note(DeviceChange change, BroadcastState<String, H> state) throws Exception {
+        state.put(change.key(), form.held(known(state.get(change.key())).with(change)));
+        atStart.computeIfPresent(change.key(), (key, changes) -> later(changes, change.offset()));
+        if (--changesUntilSweep <= 0) {
+            changesUntilSweep = sweep(state, change.time() - keptMillis);
+        }
+    }
+
+    private DeviceVersions known(H held) {
+        return held == null ? DeviceVersions.EMPTY : form.read(held);
+    }
+
+    /** Null where none is left, which takes the entry from the map. */
+    private static List<DeviceChange> later(List<DeviceChange> changes, long offset) {
+        List<DeviceChange> later =
+                changes.stream().filter(change -> change.offset() > offset).toList();
+        return later.isEmpty() ? null : later;
+    }
+
+    /** As many changes as there are devices lie between two sweeps, so that their cost does not grow with the devices. */
+    private int sweep(BroadcastState<String, H> state, long before) throws Exception {
+        Map<String, DeviceVersions> changed = new HashMap<>();
+        int left = 0;
+        for (Map.Entry<String, H> each : state.entries()) {
+            DeviceVersions known = form.read(each.getValue());
+            DeviceVersions kept = known.since(before);
+            if (kept.isEmpty() || kept.versions().size() != known.versions().size()) {
+                changed.put(each.getKey(), kept);
+            }
+            left += kept.isEmpty() ? 0 : 1;
+        }
+        for (Map.Entry<String, DeviceVersions> each : changed.entrySet()) {
+            if (each.getValue().isEmpty()) {
+                state.remove(each.getKey());
+            } else {
+                state.put(each.getKey(), form.held(each.getValue()));
+            }
+        }
+        return left;
+    }
+}

@@ -1,0 +1,2 @@
+/** Fields, as {@code ./furrow fields} tells of them. */
+package io.furrow.launcher.field;

@@ -1,0 +1,92 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+
+import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.core.JsonToken;
+
+/** The value of one wanted attribute as far as it is a text or a number; overwritten by each entity. */
+class AttributeValue {
+    private enum Kind {
+        /** No such attribute, or its value is null. */
+        ABSENT,
+        TEXT,
+        NUMBER,
+        OTHER
+    }
+
+    private Kind kind = Kind.ABSENT;
+    private String text = "";
+    private double number;
+
+    void clear() {
+        kind = Kind.ABSENT;
+    }
+
+    /** Takes the value that the parser stands at; false where it is wrong or rare. */
+    boolean take(StrictTokens tokens, JsonParser parser) throws IOException {
+        switch (parser.currentToken()) {
+            case VALUE_NULL -> kind = Kind.ABSENT;
+            case VALUE_STRING -> {
+                if (!tokens.isPlainText()) {
+                    return false;
+                }
+                kind = Kind.TEXT;
+                // The mission of a device is the same from report to report: then no new text is made.
+                text = tokens.isText(text) ? text : parser.getText();
+            }
+            case VALUE_NUMBER_INT, VALUE_NUMBER_FLOAT -> {
+                kind = Kind.NUMBER;
+                number = number(parser);
+                return tokens.isPlainNumber(number);
+            }
+            default -> {
+                kind = Kind.OTHER;
+                return takeOther(tokens, parser);
+            }
+        }
+        return true;
+    }
+
+    boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {
+        return tokens.skipWithinLimits();
+    }
+
+    /** The number that the parser stands at; no negative zero, which a decimal number does not know. */
+    static double number(JsonParser parser) throws IOException {
+        return parser.getDoubleValue() + 0.0;
+    }
+
+    /** The finite number at which the parser stands, or that its text names; NaN for everything else. */
+    static double numberOrNaN(JsonParser parser) throws IOException {
+        JsonToken token = parser.currentToken();
+        if (token.isNumeric()) {
+            double number = number(parser);
+            return Double.isFinite(number) ? number : Double.NaN;
+        }
+        return token == JsonToken.VALUE_STRING ? Numbers.finite(parser.getText()) : Double.NaN;
+    }
+
+    boolean isPresent() {
+        return kind != Kind.ABSENT;
+    }
+
+    /** The text as it is; null for everything else. */
+    String textOrNull() {
+        return kind == Kind.TEXT ? text : null;
+    }
+
+    /** The finite number, also where a device sent it as text; else NaN. */
+    double finite() {
+        return switch (kind) {
+            case NUMBER -> Double.isFinite(number) ? number : Double.NaN;
+            case TEXT -> Numbers.finite(text);
+            default -> Double.NaN;
+        };
+    }
+
+    /** The number, finite or not; NaN for everything else. */
+    double numberOrNaN() {
+        return kind == Kind.NUMBER ? number : Double.NaN;
+    }
+}

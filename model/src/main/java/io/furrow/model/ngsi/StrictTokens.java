@@ -1,0 +1,120 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+
+import com.fasterxml.jackson.core.JsonFactory;
+import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.core.JsonToken;
+import com.fasterxml.jackson.core.StreamReadFeature;
+
+/**
+ * The tokens of one JSON document after the other, as strict as {@link NgsiJson}. A method that answers {@code false} has met
+ * something that is wrong or rare; what it is, the reader of trees can tell.
+ */
+final class StrictTokens {
+    /** Names that come twice are found by {@link OpenNames}, which makes no set for each object. */
+    private static final JsonFactory FACTORY = NgsiJson.mapper()
+            .getFactory()
+            .rebuild()
+            .disable(StreamReadFeature.STRICT_DUPLICATE_DETECTION)
+            .enable(StreamReadFeature.USE_FAST_DOUBLE_PARSER)
+            .build();
+
+    private final OpenNames names = new OpenNames();
+    private JsonParser parser;
+
+    /** Begins a document; the parser belongs to the caller, who closes it. */
+    JsonParser open(byte[] json, int length) throws IOException {
+        names.clear();
+        parser = FACTORY.createParser(json, 0, length);
+        return parser;
+    }
+
+    /** The next token; null at the end of the document and where a name comes twice. */
+    JsonToken next() throws IOException {
+        JsonToken token = parser.nextToken();
+        if (token == JsonToken.FIELD_NAME) {
+            return names.add(parser.currentName()) ? token : null;
+        }
+        if (token == JsonToken.START_OBJECT) {
+            names.openObject();
+        } else if (token == JsonToken.END_OBJECT) {
+            names.closeObject();
+        }
+        return token;
+    }
+
+    /** Passes over the value that the parser stands at, looking at nothing but its form. */
+    boolean skip() throws IOException {
+        int depth = 0;
+        for (JsonToken token = parser.currentToken(); token != null; token = next()) {
+            depth += token.isStructStart() ? 1 : token.isStructEnd() ? -1 : 0;
+            if (depth == 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /** Passes over it too, and answers whether it certainly keeps to {@link EntityLimits}. */
+    boolean skipWithinLimits() throws IOException {
+        int depth = 0;
+        for (JsonToken token = parser.currentToken(); token != null; token = next()) {
+            depth += token.isStructStart() ? 1 : token.isStructEnd() ? -1 : 0;
+            boolean within = switch (token) {
+                case FIELD_NAME, VALUE_STRING -> isPlainText();
+                case VALUE_NUMBER_FLOAT -> isPlainNumber(parser.getDoubleValue());
+                default -> true;
+            };
+            if (!within) {
+                return false;
+            }
+            if (depth == 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /** Whether the text holds no surrogate, neither half of a pair nor a pair, which is rare. */
+    boolean isPlainText() throws IOException {
+        char[] text = parser.getTextCharacters();
+        int end = parser.getTextOffset() + parser.getTextLength();
+        for (int i = parser.getTextOffset(); i < end; i++) {
+            if (Character.isSurrogate(text[i])) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /** Whether the text that the parser stands at is this one; makes no text to find out. */
+    boolean isText(String expected) throws IOException {
+        if (parser.getTextLength() != expected.length()) {
+            return false;
+        }
+        char[] text = parser.getTextCharacters();
+        int offset = parser.getTextOffset();
+        for (int i = 0; i < expected.length(); i++) {
+            if (text[offset + i] != expected.charAt(i)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /** Whether the number that was read as this double cannot have an exponent that is too great. */
+    boolean isPlainNumber(double number) throws IOException {
+        if (number != 0 && Double.isFinite(number) || parser.currentToken() == JsonToken.VALUE_NUMBER_INT) {
+            return true;
+        }
+        char[] text = parser.getTextCharacters();
+        int end = parser.getTextOffset() + parser.getTextLength();
+        for (int i = parser.getTextOffset(); i < end; i++) {
+            if (text[i] == 'e' || text[i] == 'E') {
+                return false;
+            }
+        }
+        return true;
+    }
+}
