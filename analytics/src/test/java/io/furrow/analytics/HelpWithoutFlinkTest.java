@@ -29,7 +29,13 @@ class HelpWithoutFlinkTest {
         Finished help = analytics("temperature", "--help");
 
         assertThat(help.output())
-                .contains("--fields=FILE", "--window=DURATION", "--mad-floor=NUMBER", "--delivery=MODE")
+                .contains(
+                        "--fields=FILE",
+                        "--fields-topic=TOPIC",
+                        "--empty-windows[=DURATION]",
+                        "--window=DURATION",
+                        "--mad-floor=NUMBER",
+                        "--delivery=MODE")
                 .contains("Default: 1min.", "Default: data.temperature.")
                 .doesNotContain("Exception");
         assertThat(help.exitCode()).isZero();

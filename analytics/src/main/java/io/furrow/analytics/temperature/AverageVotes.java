@@ -3,48 +3,66 @@ package io.furrow.analytics.temperature;
 import java.util.HashMap;
 import java.util.Map;
 
-import org.apache.flink.streaming.api.functions.windowing.WindowFunction;
+import org.apache.flink.streaming.api.functions.windowing.ProcessWindowFunction;
 import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 import org.apache.flink.util.Collector;
-
-import io.furrow.flink.ResultRecord;
-import io.furrow.flink.TopicRecord;
+import org.apache.flink.util.OutputTag;
 
 /**
  * Makes a field's result of its devices' votes.
  *
  * <p>State: the votes of each field and window. Cleared: with the window, when the watermark passes its end and the allowed
- * lateness. Late: a vote cast again replaces the device's earlier one, and the result is sent again. Emits: one record per
- * field and window in which a device voted, when the watermark passes the end of the window; key = field id, timestamp = the
- * window's last instant.
+ * lateness. Late: a vote cast again replaces the device's earlier one, and the result is made again. Emits: one result per
+ * field and window in which a device voted, when the watermark passes the end of the window; where there were devices enough,
+ * what it thinks of each to {@link #VERDICTS}.
  */
-final class AverageVotes implements WindowFunction<DeviceVote, TopicRecord, String, TimeWindow> {
+final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage, String, TimeWindow> {
+    static final OutputTag<Verdict> VERDICTS = new OutputTag<>("verdicts") {
+        private static final long serialVersionUID = 1L;
+    };
+
     private static final long serialVersionUID = 1L;
-    private static final String SOURCE = "/analytics/temperature";
 
-    private final String topic;
     private final double madFloor;
+    private final boolean judges;
 
-    AverageVotes(String topic, double madFloor) {
-        this.topic = topic;
+    /** @param judges whether anybody reads the verdicts */
+    AverageVotes(double madFloor, boolean judges) {
         this.madFloor = madFloor;
+        this.judges = judges;
     }
 
     @Override
-    public void apply(String field, TimeWindow window, Iterable<DeviceVote> votes, Collector<TopicRecord> out) {
+    public void process(String field, Context context, Iterable<DeviceVote> votes, Collector<FieldAverage> out) {
         Map<String, Double> latest = new HashMap<>();
         DeviceVote newest = null; // by the version of the field: whose domain counts
         for (DeviceVote vote : votes) {
             latest.put(vote.device(), vote.value());
             newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
         }
-        FieldTemperature result = new FieldTemperature(
+        FieldAverage result = new FieldAverage(
                 newest.field(),
                 newest.domain(),
+                newest.scope(),
                 newest.windowStart(),
                 newest.windowEnd(),
                 RobustMean.of(latest, madFloor));
-        out.collect(
-                ResultRecord.of(topic, result.field(), result.entity(), newest.scope(), result.timestamp(), SOURCE));
+        out.collect(result);
+        if (judges && result.average().verified()) {
+            latest.forEach((device, value) -> context.output(VERDICTS, verdict(result, device, value)));
+        }
+    }
+
+    private static Verdict verdict(FieldAverage result, String device, double value) {
+        return new Verdict(
+                device,
+                result.scope(),
+                result.field(),
+                result.domain(),
+                result.average().suspects().contains(device),
+                value,
+                result.average().mean(),
+                result.windowStart(),
+                result.windowEnd());
     }
 }

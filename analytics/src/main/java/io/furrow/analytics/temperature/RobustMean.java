@@ -22,7 +22,11 @@ import java.util.Map;
  * @param suspects ids of the devices set aside, sorted
  * @param verified whether there were devices enough (three) to tell a defective one
  */
-record RobustMean(double mean, double plainMean, double spread, int devices, List<String> suspects, boolean verified) {
+public record RobustMean(
+        double mean, double plainMean, double spread, int devices, List<String> suspects, boolean verified) {
+    /** Of no devices there is no mean. */
+    static final RobustMean OF_NONE = new RobustMean(Double.NaN, Double.NaN, Double.NaN, 0, List.of(), false);
+
     private static final double CONSISTENCY = 1.4826;
     private static final double CUT_OFF = 3;
     /** Of two devices that disagree nobody knows which one is right. */

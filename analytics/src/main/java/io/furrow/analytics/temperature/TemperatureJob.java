@@ -3,9 +3,6 @@ package io.furrow.analytics.temperature;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.streaming.api.windowing.assigners.SlidingEventTimeWindows;
-import org.apache.flink.streaming.api.windowing.assigners.TumblingEventTimeWindows;
-import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
@@ -18,10 +15,6 @@ import io.furrow.flink.TopicRecord;
 
 /** The job {@code temperature}: the average temperature of each field in event-time windows, one entity per field and window. */
 public final class TemperatureJob {
-    private static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
-        private static final long serialVersionUID = 1L;
-    };
-
     /**
      * What comes in.
      *
@@ -53,17 +46,17 @@ public final class TemperatureJob {
 
     /** Results, late readings and dead letters; each record names its topic. */
     static DataStream<TopicRecord> define(Inputs in, TemperatureOptions options) {
-        SingleOutputStreamOperator<Reading> readings = in.records()
-                .process(new ReadReadings(options.attribute()))
-                .uid("read-readings")
-                .name("Read readings");
-
         SingleOutputStreamOperator<TopicRecord> fields = in.fields()
                 .records()
                 .process(new RecognizeFields("temperature"))
                 .setParallelism(1) // a version's records stay in order
                 .uid("recognize-fields")
                 .name("Recognize fields");
+
+        SingleOutputStreamOperator<Reading> readings = in.records()
+                .process(new ReadReadings(options.attribute()))
+                .uid("read-readings")
+                .name("Read readings");
 
         SingleOutputStreamOperator<FieldReading> fieldReadings = readings.keyBy(Reading::deviceIdentity)
                 .process(new PassOnce<>(options.repeatWindow(), Reading::eventId))
@@ -75,29 +68,41 @@ public final class TemperatureJob {
                 .uid("assign-fields")
                 .name("Assign readings to fields");
 
-        SingleOutputStreamOperator<DeviceVote> votes = fieldReadings
-                .keyBy(FieldReading::voter)
-                .window(SlidingEventTimeWindows.of(options.window(), options.slide()))
-                .allowedLateness(options.allowedLateness())
-                .sideOutputLateData(LATE)
-                .aggregate(new CollectReadings(), new CastVote())
-                .uid("cast-votes")
-                .name("Cast one vote per device");
+        SingleOutputStreamOperator<DeviceVote> votes = VoteStage.cast(fieldReadings, options);
 
-        // A vote is stamped with the last instant of its window: windows of one slide keep those of each window
-        // together.
-        SingleOutputStreamOperator<TopicRecord> results = votes.keyBy(DeviceVote::fieldIdentity)
-                .window(TumblingEventTimeWindows.of(options.slide()))
-                .allowedLateness(options.allowedLateness())
-                .apply(new AverageVotes(options.output(), options.madFloor()))
-                .uid("average-votes")
-                .name("Average the votes of each field");
+        SingleOutputStreamOperator<FieldAverage> averages = VoteStage.average(votes, options);
 
-        SingleOutputStreamOperator<TopicRecord> late = votes.getSideOutput(LATE)
-                .map(new NameLateWindow(options.lateOutput(), options.window(), options.slide()))
-                .uid("name-late-window")
-                .name("Name the window of late readings");
+        DataStream<FieldAverage> results =
+                options.emptyWindows().isZero() ? averages : fillEmptyWindows(averages, fields, in, options);
 
-        return results.union(late, readings.getSideOutput(DeadLetters.TAG), fields.getSideOutput(DeadLetters.TAG));
+        ResultEntity form = new ResultEntity(options.attribute(), options.output());
+        DataStream<TopicRecord> described =
+                results.map(form::of).uid("describe-averages").name("Describe averages as entities");
+
+        DataStream<TopicRecord> dead =
+                readings.getSideOutput(DeadLetters.TAG).union(fields.getSideOutput(DeadLetters.TAG));
+        DataStream<TopicRecord> all = described.union(VoteStage.late(votes, options), dead);
+        return options.suspectAfter() == 0 ? all : all.union(reportSuspects(averages, form, options));
+    }
+
+    private static SingleOutputStreamOperator<FieldAverage> fillEmptyWindows(
+            DataStream<FieldAverage> averages, DataStream<TopicRecord> fields, Inputs in, TemperatureOptions options) {
+        return averages.keyBy(FieldAverage::fieldIdentity)
+                .connect(fields.broadcast(KnownFields.BROADCAST))
+                .process(new FillEmptyWindows(in.fields().atStart(), options))
+                .uid("fill-empty-windows")
+                .name("Fill empty windows");
+    }
+
+    private static DataStream<TopicRecord> reportSuspects(
+            SingleOutputStreamOperator<FieldAverage> averages, ResultEntity form, TemperatureOptions options) {
+        return averages.getSideOutput(AverageVotes.VERDICTS)
+                .keyBy(Verdict::deviceIdentity)
+                .process(new FollowSuspects(options.suspectAfter(), options.suspectMemory()))
+                .uid("follow-suspects")
+                .name("Follow suspect devices")
+                .map(form::of)
+                .uid("describe-suspects")
+                .name("Describe suspect devices as entities");
     }
 }

@@ -2,6 +2,7 @@ package io.furrow.analytics.temperature;
 
 import java.time.Duration;
 import java.util.concurrent.Callable;
+import java.util.regex.Pattern;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -19,14 +20,20 @@ import io.furrow.model.topic.Topics;
                 "The average temperature of each field in event-time windows. Each device has one vote per window, "
                         + "its median; devices that are far from the others are set aside and named as suspects.")
 public final class TemperatureOptions extends JobOptions implements Callable<Integer> {
+    private static final String TEMPERATURE = "Temperature";
+    private static final Pattern ATTRIBUTE = Pattern.compile("[A-Za-z0-9_:.-]{1,40}");
+
     @Mixin
     private final FieldOptions fields = new FieldOptions();
 
     @Option(
             names = "--attribute",
             paramLabel = "NAME",
-            defaultValue = "Temperature",
-            description = "Attribute that holds the reading. Default: ${DEFAULT-VALUE}.")
+            defaultValue = TEMPERATURE,
+            description =
+                    "Attribute that holds the reading, a number. It names the results: of soilMoisture the average is "
+                            + "averageSoilMoisture of an Analytics:FieldSoilMoisture, the job and its group temperature-soilMoisture. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private String attribute;
 
     @Option(
@@ -63,6 +70,36 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
     private double madFloor;
 
     @Option(
+            names = "--empty-windows",
+            paramLabel = "DURATION",
+            arity = "0..1",
+            fallbackValue = "1d",
+            defaultValue = "0s",
+            description =
+                    "Give a result of 0 devices for each window of a field without a reading, from its first reading on "
+                            + "until it has been silent this long (${FALLBACK-VALUE} if not said). Default: no results of empty windows.")
+    private Duration emptyWindows;
+
+    @Option(
+            names = "--suspect-after",
+            paramLabel = "N",
+            defaultValue = "0",
+            description =
+                    "Report a device as Analytics:SuspectDevice that was set aside in N windows in a row; again only after "
+                            + "it was not in between. Windows of fewer than three devices, or without it, do not count. Default: none is "
+                            + "reported.")
+    private int suspectAfter;
+
+    @Option(
+            names = "--suspect-memory",
+            paramLabel = "DURATION",
+            defaultValue = "1d",
+            description =
+                    "How long a device that was set aside is remembered when nothing comes from it any more. Longer: a "
+                            + "device that is silent for long is not reported twice, more state. Default: ${DEFAULT-VALUE}.")
+    private Duration suspectMemory;
+
+    @Option(
             names = "--repeat-window",
             paramLabel = "DURATION",
             description = "How long an event is remembered, so that a repetition counts once. Default: --window plus "
@@ -94,7 +131,17 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
         return fields;
     }
 
+    /** Two attributes are two jobs, which must share neither a consumer group nor transactions. */
+    @Override
+    public String jobName() {
+        return attribute().equals(TEMPERATURE) ? super.jobName() : super.jobName() + "-" + attribute();
+    }
+
     public String attribute() {
+        if (!ATTRIBUTE.matcher(attribute).matches()) {
+            throw refused(
+                    "--attribute must be 1 to 40 of A-Z a-z 0-9 _ - : ., because it becomes part of entity ids", null);
+        }
         return attribute;
     }
 
@@ -119,6 +166,23 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
             throw refused("--mad-floor must be 0 or a positive number", null);
         }
         return madFloor;
+    }
+
+    /** How long a silent field gives results; zero where it gives none. */
+    public Duration emptyWindows() {
+        return emptyWindows;
+    }
+
+    /** After how many windows in a row a suspect device is reported; 0 where none is. */
+    public int suspectAfter() {
+        if (suspectAfter < 0) {
+            throw refused("--suspect-after must be 1 or more windows, or left out", null);
+        }
+        return suspectAfter;
+    }
+
+    public Duration suspectMemory() {
+        return positive("--suspect-memory", suspectMemory);
     }
 
     public Duration repeatWindow() {

@@ -7,69 +7,169 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.TreeSet;
 
 import io.furrow.analytics.temperature.RandomCase.Arrival;
-import io.furrow.analytics.temperature.RandomCase.Rectangle;
+import io.furrow.analytics.temperature.RandomCase.Change;
 
-/**
- * The definition, written down a second time.
- *
- * @param results "field start end" → the attributes
- * @param late "field event-id" of each reading that came after its last window had closed
- */
-record BatchRecomputation(Map<String, Map<String, Object>> results, List<String> late) {
-    static BatchRecomputation of(RandomCase random) {
-        Map<String, TreeMap<String, List<Double>>> windows = new TreeMap<>();
-        List<String> late = new ArrayList<>();
-        Set<Object> seen = new HashSet<>();
-        long watermark = Long.MIN_VALUE;
-        for (Arrival arrival : random.readings()) {
-            String eventId = arrival.record().headers().get("ce_id");
-            if (seen.add(eventId)) {
-                for (Rectangle field : random.fields()) {
-                    if (contains(field, arrival) && !taken(random, field, arrival, watermark, windows)) {
-                        late.add(field.id() + " " + eventId);
-                    }
-                }
-            }
-            watermark = Math.max(watermark, arrival.time() - random.bound() - 1);
-        }
-        Map<String, Map<String, Object>> results = new HashMap<>();
-        windows.forEach((window, devices) -> results.put(window, result(devices, random.floor())));
-        return new BatchRecomputation(results, late);
+/** The definition, written down a second time: lists instead of streams, and nothing of the job's own code. */
+final class BatchRecomputation {
+    /** What fell into a window of a field. */
+    private static final class Window {
+        final TreeMap<String, List<Double>> devices = new TreeMap<>();
+        Change newest;
     }
 
-    private static boolean contains(Rectangle field, Arrival arrival) {
-        return field.west() <= arrival.longitude()
-                && arrival.longitude() <= field.east()
-                && field.south() <= arrival.latitude()
-                && arrival.latitude() <= field.north();
+    private final RandomCase random;
+    private final Map<String, TreeMap<Long, Change>> known = new TreeMap<>();
+    /** Field → start of the window. */
+    private final TreeMap<String, TreeMap<Long, Window>> windows = new TreeMap<>();
+
+    private final List<String> late = new ArrayList<>();
+    private long watermark = Long.MIN_VALUE;
+
+    private BatchRecomputation(RandomCase random) {
+        this.random = random;
+    }
+
+    static BatchRecomputation of(RandomCase random) {
+        BatchRecomputation batch = new BatchRecomputation(random);
+        List<Change> changes = new ArrayList<>(random.changes());
+        Set<Object> seen = new HashSet<>();
+        for (int i = 0; i < random.readings().size(); i++) {
+            while (!changes.isEmpty() && changes.get(0).before() <= i) {
+                batch.change(changes.remove(0));
+            }
+            Arrival arrival = random.readings().get(i);
+            if (seen.add(arrival.record().headers().get("ce_id"))) {
+                batch.read(arrival);
+            }
+            batch.watermark = Math.max(batch.watermark, arrival.time() - random.bound() - 1);
+        }
+        return batch;
+    }
+
+    private void change(Change change) {
+        TreeMap<Long, Change> versions = known.computeIfAbsent(change.field(), field -> new TreeMap<>());
+        if (change.taken()) {
+            versions.remove(change.validFrom());
+        } else {
+            versions.put(change.validFrom(), change);
+        }
+    }
+
+    private void read(Arrival arrival) {
+        for (String field : known.keySet()) {
+            Change version = at(field, arrival.time());
+            if (version != null && version.shape().covers(arrival.longitude(), arrival.latitude())) {
+                if (!isTaken(version, arrival)) {
+                    late.add(field + " " + arrival.record().headers().get("ce_id"));
+                }
+            }
+        }
+    }
+
+    /** Null where there is no such field then. */
+    private Change at(String field, long time) {
+        Change last = null;
+        for (Change version : known.get(field).values()) {
+            last = version.validFrom() <= time ? version : last;
+        }
+        return last == null || last.shape() == null ? null : last;
     }
 
     /** Adds the reading to every window that is still open; whether there was one. */
-    private static boolean taken(
-            RandomCase random,
-            Rectangle field,
-            Arrival arrival,
-            long watermark,
-            Map<String, TreeMap<String, List<Double>>> windows) {
+    private boolean isTaken(Change version, Arrival arrival) {
         boolean taken = false;
-        long start = arrival.time() - arrival.time() % random.slide();
-        for (; start > arrival.time() - random.window(); start -= random.slide()) {
-            long end = start + random.window();
-            if (watermark < end - 1 + random.lateness()) {
+        long slide = random.setting().slide();
+        long start = arrival.time() - arrival.time() % slide;
+        for (; start > arrival.time() - random.setting().window(); start -= slide) {
+            if (watermark < lastInstant(start) + random.setting().lateness()) {
                 taken = true;
-                windows.computeIfAbsent(field.id() + " " + start + " " + end, unused -> new TreeMap<>())
+                Window window = windows.computeIfAbsent(version.field(), field -> new TreeMap<>())
+                        .computeIfAbsent(start, unused -> new Window());
+                window.devices
                         .computeIfAbsent(arrival.device(), unused -> new ArrayList<>())
                         .add(arrival.value());
+                if (window.newest == null || window.newest.validFrom() < version.validFrom()) {
+                    window.newest = version;
+                }
             }
         }
         return taken;
     }
 
-    private static Map<String, Object> result(TreeMap<String, List<Double>> devices, double floor) {
+    private long lastInstant(long start) {
+        return start + random.setting().window() - 1;
+    }
+
+    /** "Field event-id" of each reading that came after its last window had closed. */
+    List<String> late() {
+        return late;
+    }
+
+    /** "Field start end" → the attributes. */
+    Map<String, Map<String, Object>> results() {
+        Map<String, Map<String, Object>> results = new HashMap<>();
+        windows.forEach((field, ofField) -> {
+            ofField.forEach((start, window) -> results.put(name(field, start), result(window)));
+            if (random.fillsEmptyWindows()) {
+                ofField.keySet().forEach(start -> fill(field, start, results));
+            }
+        });
+        return results;
+    }
+
+    private String name(String field, long start) {
+        return field + " " + start + " " + (lastInstant(start) + 1);
+    }
+
+    /** The empty windows that follow one with a reading. */
+    private void fill(String field, long after, Map<String, Map<String, Object>> results) {
+        TreeMap<Long, Window> heard = windows.get(field);
+        long start = after + random.setting().slide();
+        while (!heard.containsKey(start) && (start < heard.lastKey() || lastInstant(start) <= watermark)) {
+            Change version = at(field, lastInstant(start));
+            version = version == null ? at(field, start) : version;
+            if (version == null) {
+                return;
+            }
+            results.put(
+                    name(field, start),
+                    Map.of("devices", 0, "suspects", "[]", "quality", "unverified", "Domain", version.domain()));
+            start += random.setting().slide();
+        }
+    }
+
+    /** "Device end" of each report that a device was set aside in two windows in a row. */
+    Set<String> suspects() {
+        TreeMap<String, TreeMap<Long, Boolean>> verdicts = new TreeMap<>();
+        windows.forEach((field, ofField) -> ofField.forEach((start, window) -> {
+            Map<String, Object> result = result(window);
+            if (result.get("quality").equals("robust")) {
+                for (String device : window.devices.keySet()) {
+                    boolean aside = ((String) result.get("suspects")).contains('"' + device + '"');
+                    verdicts.computeIfAbsent(device, unused -> new TreeMap<>()).merge(start, aside, Boolean::logicalOr);
+                }
+            }
+        }));
+        Set<String> reports = new TreeSet<>();
+        verdicts.forEach((device, ofDevice) -> {
+            int inRow = 0;
+            for (Map.Entry<Long, Boolean> each : ofDevice.entrySet()) {
+                inRow = each.getValue() ? inRow + 1 : 0;
+                if (inRow == 2) {
+                    reports.add(device + " " + (lastInstant(each.getKey()) + 1));
+                }
+            }
+        });
+        return reports;
+    }
+
+    private Map<String, Object> result(Window window) {
+        double floor = random.setting().floor();
         TreeMap<String, Double> votes = new TreeMap<>();
-        devices.forEach((device, values) -> votes.put(device, middle(values)));
+        window.devices.forEach((device, values) -> votes.put(device, middle(values)));
         double centre = middle(new ArrayList<>(votes.values()));
         double mad = middle(
                 votes.values().stream().map(vote -> Math.abs(vote - centre)).toList());
@@ -83,19 +183,15 @@ record BatchRecomputation(Map<String, Map<String, Object>> results, List<String>
                 kept.add(vote);
             }
         });
-        return Map.of(
-                "averageTemperature",
-                average(kept),
-                "plainMean",
-                average(new ArrayList<>(votes.values())),
-                "spread",
-                1.4826 * mad,
-                "devices",
-                votes.size(),
-                "suspects",
-                "[" + String.join(",", suspects) + "]",
-                "quality",
-                votes.size() < 3 ? "unverified" : "robust");
+        Map<String, Object> result = new HashMap<>();
+        result.put("averageTemperature", average(kept));
+        result.put("plainMean", average(new ArrayList<>(votes.values())));
+        result.put("spread", 1.4826 * mad);
+        result.put("devices", votes.size());
+        result.put("suspects", "[" + String.join(",", suspects) + "]");
+        result.put("quality", votes.size() < 3 ? "unverified" : "robust");
+        result.put("Domain", window.newest.domain());
+        return result;
     }
 
     private static double average(List<Double> values) {

@@ -2,13 +2,16 @@ package io.furrow.analytics.temperature;
 
 import java.time.Duration;
 import java.util.Collection;
-import java.util.List;
+import java.util.EnumMap;
 import java.util.Map;
+import java.util.function.Predicate;
 import java.util.function.ToLongFunction;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.flink.api.common.functions.RichFilterFunction;
+import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.configuration.Configuration;
+import org.awaitility.Awaitility;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.Metric;
@@ -18,21 +21,37 @@ import org.apache.flink.test.junit5.MiniClusterExtension;
 
 import io.furrow.flink.TopicRecord;
 
-import static org.awaitility.Awaitility.await;
 
 /**
  * Lets readings and changes of fields into the job in one order: each record waits until the job has joined the readings and
  * taken the changes that stand before it. Looks at the job's metrics, so it needs a {@link #cluster}.
  */
 final class InTurn extends RichFilterFunction<TopicRecord> {
-    static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
+    /** Of the newest cluster: closed with its cluster, a reporter sees nothing of another. */
+    private static volatile InMemoryReporter metrics;
+
     private static final long serialVersionUID = 1L;
+    private enum Awaited {
+        PASSED(1, ".*Assign readings to fields.*currentOutputWatermark"),
+        JOINED(3, ".*\\.(inside|outside|repeated)"),
+        TAKEN(1, ".*field-changes");
+
+        private final int perSubtask;
+        private final String pattern;
+
+        Awaited(int perSubtask, String pattern) {
+            this.perSubtask = perSubtask;
+            this.pattern = pattern;
+        }
+    }
+
     /** What readings begin with: no reading, but a watermark that shows whether the stream of fields lets event time pass. */
     static final TopicRecord BEGIN = TopicRecord.of("", Long.MIN_VALUE + 1, "", new byte[0], Map.of());
 
     private final boolean isField;
     private final int subtasks;
     private final int[] before;
+    private transient Map<Awaited, Collection<Metric>> known;
     private transient int next;
     private transient int awaited;
 
@@ -52,10 +71,11 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     }
 
     static MiniClusterExtension cluster(int slots) {
+        metrics = InMemoryReporter.createWithRetainedMetrics();
         return new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
                 .setNumberTaskManagers(1)
                 .setNumberSlotsPerTaskManager(slots)
-                .setConfiguration(METRICS.addToConfiguration(new Configuration()))
+                .setConfiguration(metrics.addToConfiguration(new Configuration()))
                 .build());
     }
 
@@ -67,38 +87,56 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     }
 
     @Override
+    public void open(OpenContext context) {
+        known = new EnumMap<>(Awaited.class);
+    }
+
+    @Override
     public boolean filter(TopicRecord record) {
         if (record.topic().isEmpty()) {
             return false;
         }
-        JobID job = getRuntimeContext().getJobInfo().getJobId();
         int needed = before[next++];
-        if (isField && needed > awaited) {
-            until(() -> counted(job, "inside") + counted(job, "outside") + counted(job, "repeated") >= needed);
-        } else if (!isField && next == 1) {
-            String passed = ".*Assign readings to fields.*currentOutputWatermark";
-            until(() -> all(job, passed, metric -> (long) ((Gauge<?>) metric).getValue(), BEGIN.timestamp()));
+        if (!isField && next == 1) {
+            await(Awaited.PASSED, metrics -> least(metrics, metric -> (long) ((Gauge<?>) metric).getValue()) >= BEGIN.timestamp());
         }
-        if (!isField && needed > awaited) {
-            until(() -> all(job, ".*field-changes", metric -> ((Counter) metric).getCount(), needed));
+        if (isField && needed > awaited) {
+            await(Awaited.JOINED, metrics -> metrics.stream().mapToLong(InTurn::count).sum() >= needed);
+        } else if (needed > awaited) {
+            await(Awaited.TAKEN, metrics -> least(metrics, InTurn::count) >= needed);
         }
         awaited = needed;
         return true;
     }
 
-    private boolean all(JobID job, String pattern, ToLongFunction<Metric> value, long least) {
-        List<Metric> metrics = values(job, pattern).stream()
-                .filter(metric -> value.applyAsLong(metric) >= least)
-                .toList();
-        return metrics.size() >= subtasks;
+    private static long least(Collection<Metric> metrics, ToLongFunction<Metric> value) {
+        return metrics.stream().mapToLong(value).min().orElseThrow();
+    }
+
+    private static long count(Metric metric) {
+        return ((Counter) metric).getCount();
+    }
+
+    /** Waits until the metrics of all subtasks are there, and then for what they shall say. */
+    private void await(Awaited what, Predicate<Collection<Metric>> condition) {
+        Collection<Metric> found = known.get(what);
+        if (found == null) {
+            JobID job = getRuntimeContext().getJobInfo().getJobId();
+            until(() -> values(job, what.pattern).size() >= what.perSubtask * subtasks);
+            found = values(job, what.pattern);
+            known.put(what, found);
+        }
+        Collection<Metric> metrics = found;
+        until(() -> condition.test(metrics));
     }
 
     private static Collection<Metric> values(JobID job, String pattern) {
-        return METRICS.findMetrics(job, pattern).values();
+        return metrics.findMetrics(job, pattern).values();
     }
 
     private static void until(java.util.concurrent.Callable<Boolean> condition) {
-        await().pollInSameThread()
+        Awaitility.await()
+                .pollInSameThread()
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
                 .atMost(Duration.ofSeconds(30))

@@ -21,6 +21,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
@@ -37,10 +38,30 @@ record JobRun(JobID id, List<TopicRecord> records) {
 
     static JobRun over(List<TopicRecord> arrivals, TemperatureOptions options) throws Exception {
         StreamExecutionEnvironment env = environment(options);
+        return over(env, inputs(env, arrivals, options), options);
+    }
+
+    /** With fields that change in turn with the arrivals. */
+    static JobRun over(RandomCase random) throws Exception {
+        TemperatureOptions options = random.options();
+        StreamExecutionEnvironment env = environment(options);
+        DataStream<TopicRecord> readings = source(env, random.arrivals(), random.changesBefore(), options);
+        DataStream<TopicRecord> fields = env.fromData(random.fieldRecords(), TypeInformation.of(TopicRecord.class))
+                .setParallelism(1)
+                .uid("read-fields")
+                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                .setParallelism(1)
+                .uid("no-hindrance")
+                .filter(InTurn.changes(random.readingsBefore(), env.getParallelism()))
+                .setParallelism(1)
+                .uid("changes-in-turn");
+        return over(env, new TemperatureJob.Inputs(readings, new FieldInput(fields, random.fieldsAtStart())), options);
+    }
+
+    private static JobRun over(StreamExecutionEnvironment env, TemperatureJob.Inputs inputs, TemperatureOptions options)
+            throws Exception {
         Collected collected = new Collected();
-        TemperatureJob.define(inputs(env, arrivals, options), options)
-                .sinkTo(collected)
-                .uid("collect");
+        TemperatureJob.define(inputs, options).sinkTo(collected).uid("collect");
         return new JobRun(env.execute().getJobID(), collected.records());
     }
 
@@ -59,20 +80,31 @@ record JobRun(JobID id, List<TopicRecord> records) {
 
     static DataStream<TopicRecord> source(
             StreamExecutionEnvironment env, List<TopicRecord> arrivals, TemperatureOptions options) {
-        long bound = options.outOfOrderness().toMillis();
+        return source(env, arrivals, new int[arrivals.size()], options);
+    }
+
+    private static DataStream<TopicRecord> source(
+            StreamExecutionEnvironment env,
+            List<TopicRecord> arrivals,
+            int[] changesBefore,
+            TemperatureOptions options) {
         List<TopicRecord> all = new ArrayList<>(arrivals);
         all.add(0, InTurn.BEGIN);
         return env.fromData(all, TypeInformation.of(TopicRecord.class))
                 .setParallelism(1)
                 .uid("arrivals")
-                .assignTimestampsAndWatermarks(
-                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
-                                .withTimestampAssigner((record, unused) -> record.timestamp()))
+                .assignTimestampsAndWatermarks(watermarks(options))
                 .setParallelism(1)
                 .uid("watermarks")
-                .filter(InTurn.readings(new int[arrivals.size()], env.getParallelism()))
+                .filter(InTurn.readings(changesBefore, env.getParallelism()))
                 .setParallelism(1)
                 .uid("in-turn");
+    }
+
+    static WatermarkStrategy<TopicRecord> watermarks(TemperatureOptions options) {
+        long bound = options.outOfOrderness().toMillis();
+        return WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
+                .withTimestampAssigner((record, unused) -> record.timestamp());
     }
 
     List<TopicRecord> to(String topic) {
@@ -84,6 +116,7 @@ record JobRun(JobID id, List<TopicRecord> records) {
         BinaryOperator<Entity> later = (first, second) -> second;
         return to(topic).stream()
                 .map(JobRun::entity)
+                .filter(result -> !result.type().equals("Analytics:SuspectDevice"))
                 .collect(Collectors.toMap(JobRun::fieldAndWindow, result -> result, later, TreeMap::new))
                 .values()
                 .stream()

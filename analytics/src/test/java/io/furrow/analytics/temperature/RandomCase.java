@@ -3,61 +3,83 @@ package io.furrow.analytics.temperature;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
-import java.util.stream.Collectors;
 
+import io.furrow.analytics.field.FieldRecords;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 
 /**
- * Fields, devices and the readings that arrive from them: out of order, repeated, from defective devices, from borders.
- * Fields are rectangles on whole degrees and devices stand on half degrees, so that many stand on borders and corners.
+ * Fields, devices and the readings that arrive from them: out of order, repeated, from defective devices, from borders, while
+ * fields come, change, go and are taken away. Corners are on whole and half degrees, and devices stand on half degrees, so
+ * that many stand on borders and corners.
  *
+ * @param changes of fields, in the order in which they come; those before the first reading are known at the start
  * @param bound out-of-orderness, ms; half of the cases keep it, the others have late readings
  */
 record RandomCase(
-        List<Rectangle> fields,
-        List<Arrival> readings,
-        long window,
-        long slide,
-        long bound,
-        long lateness,
-        double floor,
-        boolean inBounds) {
-    /** West, south, east, north in degrees. */
-    record Rectangle(String id, int west, int south, int east, int north) {}
+        List<Change> changes, List<Arrival> readings, Setting setting, long bound, boolean inBounds, int parallelism) {
+    /** Numbers of the job's options, in ms. */
+    record Setting(long window, long slide, long lateness, double floor) {}
+
+    /**
+     * What is said of a field at one point of the run.
+     *
+     * @param before how many readings come first
+     * @param shape null where the field ends
+     * @param taken whether the version is taken away
+     */
+    record Change(int before, String field, long validFrom, String domain, Shape shape, boolean taken) {}
 
     /** A reading as the oracle sees it, and as the job does. */
     record Arrival(String device, double latitude, double longitude, double value, long time, TopicRecord record) {}
 
     private record Device(String id, double latitude, double longitude, double bias) {}
 
-    static RandomCase of(long seed) {
+    private static final long BEGIN = 1_700_000_000_000L;
+    private static final int LENGTH = 120_000;
+
+    /** @param parallelism with late readings one: among several it depends on chance who sees the watermark first */
+    static RandomCase of(long seed, int parallelism) {
         Random random = new Random(seed);
         boolean inBounds = seed % 2 == 0;
         long slide = (1 + random.nextInt(6)) * 5_000L;
         long window = slide * (1 + random.nextInt(3));
         long bound = random.nextInt(10_000);
         long lateness = inBounds ? 0 : random.nextInt(3) * 3_000L;
-        double floor = random.nextBoolean() ? 0 : 0.2;
+        Setting setting = new Setting(window, slide, lateness, random.nextBoolean() ? 0 : 0.2);
+        List<Arrival> arrivals = arrivals(random, inBounds ? bound : bound + 20_000);
         return new RandomCase(
-                rectangles(random),
-                arrivals(random, inBounds ? bound : bound + 20_000),
-                window,
-                slide,
+                changes(random, arrivals.size(), random.nextInt(4) != 0),
+                arrivals,
+                setting,
                 bound,
-                lateness,
-                floor,
-                inBounds);
+                inBounds,
+                inBounds ? parallelism : 1);
     }
 
-    private static List<Rectangle> rectangles(Random random) {
-        List<Rectangle> rectangles = new ArrayList<>();
+    private static List<Change> changes(Random random, int readings, boolean live) {
+        List<Change> changes = new ArrayList<>();
         for (int i = 0; i < 1 + random.nextInt(4); i++) {
-            int west = random.nextInt(4);
-            int south = 1 + random.nextInt(4);
-            rectangles.add(
-                    new Rectangle("f" + i, west, south, west + 1 + random.nextInt(3), south + 1 + random.nextInt(3)));
+            changes.add(new Change(0, "f" + i, 0, random.nextBoolean() ? "" : "d", Shape.of(random), false));
         }
-        return rectangles;
+        int more = random.nextInt(5);
+        for (int i = 0; i < more; i++) {
+            String field = "f" + random.nextInt(5);
+            long validFrom = BEGIN + random.nextInt(LENGTH);
+            Shape shape = random.nextInt(3) == 0 ? null : Shape.of(random);
+            changes.add(new Change(when(random, readings, live), field, validFrom, "d" + i, shape, false));
+        }
+        if (live && random.nextBoolean()) {
+            Change some = changes.get(random.nextInt(changes.size()));
+            int then = some.before() + random.nextInt(readings - some.before());
+            changes.add(new Change(Math.max(then, 1), some.field(), some.validFrom(), "", null, true));
+        }
+        changes.sort(java.util.Comparator.comparingInt(Change::before)); // keeps the order of those that come together
+        return changes;
+    }
+
+    private static int when(Random random, int readings, boolean live) {
+        return live ? random.nextInt(readings) : 0;
     }
 
     private static List<Arrival> arrivals(Random random, long disorder) {
@@ -70,7 +92,10 @@ record RandomCase(
         List<long[]> order = new ArrayList<>();
         for (int i = 0; i < 300; i++) {
             Device device = devices.get(random.nextInt(devices.size()));
-            long time = 1_700_000_000_000L + random.nextInt(120_000);
+            long time = BEGIN + random.nextInt(LENGTH);
+            if (i % 3 != 0 && time % 60_000 > 30_000) { // thinner now and then, so that windows stay empty
+                time -= 30_000;
+            }
             double value = 18 + device.bias() + Math.round(10 * random.nextGaussian()) / 10.0;
             arrivals.add(new Arrival(
                     device.id(),
@@ -94,30 +119,61 @@ record RandomCase(
         return readings.stream().map(Arrival::record).toList();
     }
 
-    /** With late readings one subtask: among several it depends on chance who sees the watermark first. */
-    String[] arguments() {
-        return new String[] {
-            "--parallelism", inBounds ? "2" : "1",
-            "--window", window + "ms",
-            "--slide", slide + "ms",
-            "--out-of-orderness", bound + "ms",
-            "--allowed-lateness", lateness + "ms",
-            "--mad-floor", Double.toString(floor)
-        };
+    /** Whether the results of empty windows are compared: without live changes nothing depends on who knows first. */
+    boolean fillsEmptyWindows() {
+        return inBounds && changes.stream().allMatch(change -> change.before() == 0);
     }
 
-    String geoJson() {
-        return fields.stream()
-                .map(field -> String.format(
-                        java.util.Locale.ROOT,
-                        """
-                        {"type": "Feature", "id": "%1$s", "geometry": {"type": "Polygon", "coordinates":
-                        [[[%2$d, %3$d], [%4$d, %3$d], [%4$d, %5$d], [%2$d, %5$d], [%2$d, %3$d]]]}}""",
-                        field.id(),
-                        field.west(),
-                        field.south(),
-                        field.east(),
-                        field.north()))
-                .collect(Collectors.joining(",", "{\"type\": \"FeatureCollection\", \"features\": [", "]}"));
+    /** Of each reading how many changes the job must have taken that were not known at the start. */
+    int[] changesBefore() {
+        int[] before = new int[readings.size()];
+        for (int i = 0; i < before.length; i++) {
+            int reading = i;
+            before[i] = (int) changes.stream()
+                    .filter(change -> change.before() > 0 && change.before() <= reading)
+                    .count();
+        }
+        return before;
+    }
+
+    int[] readingsBefore() {
+        return changes.stream().mapToInt(Change::before).toArray();
+    }
+
+    List<TopicRecord> fieldRecords() {
+        FieldRecords records = new FieldRecords();
+        for (Change change : changes) {
+            if (change.taken()) {
+                records.takeAway(change.field(), change.validFrom());
+            } else if (change.shape() == null) {
+                records.end(change.field(), change.validFrom());
+            } else {
+                records.area(
+                        change.field(),
+                        change.validFrom(),
+                        change.domain(),
+                        change.shape().coordinates());
+            }
+        }
+        return records.all();
+    }
+
+    TopicAtStart fieldsAtStart() {
+        int known =
+                (int) changes.stream().filter(change -> change.before() == 0).count();
+        return new KnownRecords(fieldRecords().subList(0, known));
+    }
+
+    TemperatureOptions options() {
+        return Farm.options(
+                Farm.FIELDS,
+                "--parallelism=" + parallelism,
+                "--window=" + setting.window() + "ms",
+                "--slide=" + setting.slide() + "ms",
+                "--out-of-orderness=" + bound + "ms",
+                "--allowed-lateness=" + setting.lateness() + "ms",
+                "--mad-floor=" + setting.floor(),
+                "--suspect-after=" + (inBounds ? 2 : 0),
+                "--empty-windows=" + (fillsEmptyWindows() ? "1d" : "0s"));
     }
 }

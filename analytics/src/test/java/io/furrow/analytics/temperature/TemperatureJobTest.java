@@ -153,6 +153,38 @@ class TemperatureJobTest {
     }
 
     @Test
+    void reportsADeviceThatStaysSuspectOnce() throws Exception {
+        List<TopicRecord> arrivals = new ArrayList<>();
+        for (int minute = 0; minute < 5; minute++) {
+            for (int device = 0; device < 4; device++) {
+                arrivals.add(Farm.north("t" + device, device == 3 ? 60 : 18 + device, minute * 60_000L + device));
+            }
+        }
+
+        JobRun run = JobRun.over(arrivals, "--suspect-after=3");
+
+        List<TopicRecord> reports = run.to(Topics.TEMPERATURE).stream()
+                .filter(record -> JobRun.entity(record).type().equals("Analytics:SuspectDevice"))
+                .toList();
+        JsonNode expected = NgsiJson.read("""
+                {"id": "Analytics:SuspectDevice:Temperature:t3", "type": "Analytics:SuspectDevice",
+                 "device": {"type": "String", "value": "t3", "metadata": {}},
+                 "attribute": {"type": "String", "value": "Temperature", "metadata": {}},
+                 "field": {"type": "String", "value": "north", "metadata": {}},
+                 "value": {"type": "Float", "value": 60.0, "metadata": {}},
+                 "averageTemperature": {"type": "Float", "value": 19.0, "metadata": {}},
+                 "windows": {"type": "Integer", "value": 3, "metadata": {}},
+                 "since": {"type": "Integer", "value": 0, "metadata": {}},
+                 "windowStart": {"type": "Integer", "value": 120000, "metadata": {}},
+                 "windowEnd": {"type": "Integer", "value": 180000, "metadata": {}},
+                 "Domain": {"type": "String", "value": "canary", "metadata": {}}}""".getBytes(StandardCharsets.UTF_8));
+        assertThat(reports).hasSize(1);
+        assertThat(NgsiJson.read(reports.get(0).value())).isEqualTo(expected);
+        assertThat(new String(reports.get(0).key(), StandardCharsets.UTF_8)).isEqualTo("t3");
+        assertThat(reports.get(0).timestamp()).isEqualTo(179_999);
+    }
+
+    @Test
     void writesToTheTopicsAndReadsTheAttributeThatItsOptionsName() throws Exception {
         TopicRecord moist = Farm.changed(
                 Farm.SCOPE,
@@ -172,7 +204,10 @@ class TemperatureJobTest {
                 "data.moisture.late");
 
         assertThat(run.results("data.moisture")).hasSize(1);
-        assertThat(run.results("data.moisture").get(0).number("averageTemperature"))
+        Entity result = run.results("data.moisture").get(0);
+        assertThat(result.id()).isEqualTo("Analytics:FieldSoilMoisture:north");
+        assertThat(result.type()).isEqualTo("Analytics:FieldSoilMoisture");
+        assertThat(result.number("averageSoilMoisture"))
                 .hasValueSatisfying(value -> assertThat(value).isCloseTo(0.31, within(1e-12)));
         assertThat(run.to("data.moisture.late")).hasSize(1);
     }

@@ -6,6 +6,9 @@ import java.time.Duration;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobUids;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -49,6 +52,39 @@ class TemperatureOptionsTest {
         assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--mad-floor", "-1").madFloor())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--mad-floor");
+    }
+
+    @Test
+    void readTheFieldsFromTheirTopicUnlessAFileIsNamed() {
+        TemperatureOptions options = new TemperatureOptions();
+        JobCommandLine.of(options).parseArgs("--fields-topic", "service.fields.copy");
+
+        assertThat(options.fields().topic()).isEqualTo("service.fields.copy");
+        assertThat(JobUids.of(TemperatureJob.assemble(options))).isEqualTo(JobUids.checkedIn("temperature"));
+    }
+
+    @Test
+    void nameTheJobAfterAnyOtherAttribute() {
+        assertThat(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture").jobName())
+                .isEqualTo("temperature-soilMoisture");
+        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--attribute", "soil moisture")
+                        .attribute())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--attribute must be 1 to 40 of");
+    }
+
+    @Test
+    void leaveEmptyWindowsAndReportsOfSuspectsOutUnlessAsked() {
+        assertThat(Farm.options(Farm.FIELDS).emptyWindows()).isZero();
+        assertThat(Farm.options(Farm.FIELDS, "--empty-windows").emptyWindows()).isEqualTo(Duration.ofDays(1));
+        assertThat(Farm.options(Farm.FIELDS, "--empty-windows=1h").emptyWindows())
+                .isEqualTo(Duration.ofHours(1));
+        assertThat(Farm.options(Farm.FIELDS).suspectAfter()).isZero();
+        assertThat(Farm.options(Farm.FIELDS, "--suspect-after=3").suspectAfter())
+                .isEqualTo(3);
+        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--suspect-after=-1").suspectAfter())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--suspect-after must be");
     }
 
     @Test

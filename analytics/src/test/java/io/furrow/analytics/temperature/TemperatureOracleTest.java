@@ -1,7 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
 import java.util.stream.LongStream;
@@ -10,7 +8,6 @@ import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
-import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
@@ -22,16 +19,17 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
-/** The job against a recomputation in one pass over lists that shares no code with it. A seed makes a whole case. */
+/**
+ * The job against a recomputation in one pass over lists that shares no code with it. A seed makes a whole case; cases without
+ * late readings run with one, two and four subtasks.
+ */
 @Timeout(120)
 class TemperatureOracleTest {
-    private static final int CASES = 30;
+    private static final int CASES = Integer.getInteger("furrow.oracle.cases", 200);
+    private static final int[] PARALLELISM = {1, 2, 4};
 
     @RegisterExtension
-    static final MiniClusterExtension FLINK = InTurn.cluster(2);
-
-    @TempDir
-    private Path dir;
+    static final MiniClusterExtension FLINK = InTurn.cluster(4);
 
     static LongStream seeds() {
         return LongStream.range(0, CASES);
@@ -40,45 +38,73 @@ class TemperatureOracleTest {
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("seeds")
     void agreesWithABatchRecomputation(long seed) throws Exception {
-        RandomCase random = RandomCase.of(seed);
-        Path fields = Files.writeString(dir.resolve("fields.geojson"), random.geoJson());
-
+        RandomCase random = RandomCase.of(seed, PARALLELISM[(int) (seed / 2 % PARALLELISM.length)]);
         BatchRecomputation expected = BatchRecomputation.of(random);
-        JobRun run = JobRun.over(random.arrivals(), Farm.options(fields, random.arguments()));
+        JobRun run = JobRun.over(random);
 
         List<Entity> results = run.results(Topics.TEMPERATURE);
+        Map<String, Map<String, Object>> expectedResults = expected.results();
         assertThat(results)
                 .extracting(TemperatureOracleTest::fieldAndWindow)
-                .containsExactlyInAnyOrderElementsOf(expected.results().keySet());
+                .containsExactlyInAnyOrderElementsOf(expectedResults.keySet());
         for (Entity result : results) {
-            compare(result, expected.results().get(fieldAndWindow(result)));
+            compare(result, expectedResults.get(fieldAndWindow(result)));
         }
         assertThat(run.to(Topics.TEMPERATURE_LATE))
                 .extracting(TemperatureOracleTest::fieldAndId)
                 .containsExactlyInAnyOrderElementsOf(expected.late());
+        if (random.inBounds()) {
+            assertThat(run.to(Topics.TEMPERATURE).stream()
+                            .map(JobRun::entity)
+                            .filter(entity -> entity.type().equals("Analytics:SuspectDevice"))
+                            .map(TemperatureOracleTest::deviceAndEnd))
+                    .containsExactlyInAnyOrderElementsOf(expected.suspects());
+        }
     }
 
     @Test
     void hasCasesOfEveryKind() {
-        List<BatchRecomputation> cases = seeds().mapToObj(seed -> BatchRecomputation.of(RandomCase.of(seed)))
-                .toList();
+        List<RandomCase> random =
+                seeds().mapToObj(seed -> RandomCase.of(seed, 1)).toList();
+        List<BatchRecomputation> cases =
+                random.stream().map(BatchRecomputation::of).toList();
 
         assertThat(cases.stream().mapToInt(each -> each.late().size())).anyMatch(late -> late > 0);
         assertThat(cases.stream().flatMap(each -> each.results().values().stream()))
                 .anyMatch(result -> !result.get("suspects").equals("[]"))
                 .anyMatch(result -> result.get("quality").equals("unverified"))
-                .anyMatch(result -> result.get("quality").equals("robust"));
+                .anyMatch(result -> result.get("quality").equals("robust"))
+                .anyMatch(result -> result.get("devices").equals(0))
+                .anyMatch(result -> result.get("Domain").equals("d1"));
+        assertThat(cases.stream().mapToInt(each -> each.suspects().size())).anyMatch(reports -> reports > 0);
+        assertThat(random.stream().flatMap(each -> each.changes().stream()))
+                .anyMatch(RandomCase.Change::taken)
+                .anyMatch(change -> change.before() > 0 && change.shape() == null && !change.taken())
+                .anyMatch(change -> change.before() > 0 && change.shape() != null);
+        assertThat(random.stream()
+                        .flatMap(each -> each.changes().stream())
+                        .filter(change -> change.shape() != null)
+                        .map(RandomCase.Change::shape))
+                .anyMatch(shape -> shape.parts().size() == 2)
+                .anyMatch(shape -> shape.parts().get(0).size() == 2);
     }
 
     private static void compare(Entity result, Map<String, Object> expected) {
         for (String number : List.of("averageTemperature", "plainMean", "spread")) {
-            assertThat(result.number(number).orElseThrow())
-                    .as(number)
-                    .isCloseTo((double) expected.get(number), within(1e-9));
+            if (expected.containsKey(number)) {
+                assertThat(result.number(number).orElseThrow())
+                        .as(number)
+                        .isCloseTo((double) expected.get(number), within(1e-9));
+            } else {
+                assertThat(result.json().path(number).path("value").isNull())
+                        .as(number)
+                        .isTrue();
+            }
         }
         assertThat(result.number("devices")).contains((double) (int) expected.get("devices"));
         assertThat(result.value("suspects").orElseThrow().toString()).isEqualTo(expected.get("suspects"));
         assertThat(result.text("quality")).contains((String) expected.get("quality"));
+        assertThat(result.text("Domain").orElse("")).isEqualTo(expected.get("Domain"));
     }
 
     private static String fieldAndWindow(Entity result) {
@@ -89,5 +115,10 @@ class TemperatureOracleTest {
 
     private static String fieldAndId(TopicRecord late) {
         return late.headers().get("late-field") + " " + late.headers().get(HeaderNames.CE_ID);
+    }
+
+    private static String deviceAndEnd(Entity report) {
+        return report.text("device").orElseThrow() + " "
+                + report.value("windowEnd").orElseThrow().longValue();
     }
 }

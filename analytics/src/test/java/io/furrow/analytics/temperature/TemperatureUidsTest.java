@@ -12,4 +12,11 @@ class TemperatureUidsTest {
         assertThat(JobUids.of(TemperatureJob.assemble(Farm.options(Farm.FIELDS))))
                 .isEqualTo(JobUids.checkedIn("temperature"));
     }
+
+    @Test
+    void keepsTheUidsOfStagesThatOptionsAdd() {
+        assertThat(JobUids.of(
+                        TemperatureJob.assemble(Farm.options(Farm.FIELDS, "--empty-windows", "--suspect-after=3"))))
+                .isEqualTo(JobUids.checkedIn("temperature-all"));
+    }
 }

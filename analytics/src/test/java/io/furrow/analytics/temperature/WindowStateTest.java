@@ -57,7 +57,7 @@ class WindowStateTest {
 
     @Test
     void averagesLeaveNothingBehindWhenTheirWindowsClose() throws Exception {
-        KeyedOneInputStreamOperatorTestHarness<String, DeviceVote, TopicRecord> averages = operator("average-votes");
+        KeyedOneInputStreamOperatorTestHarness<String, DeviceVote, FieldAverage> averages = operator("average-votes");
         for (int device = 0; device < 5; device++) {
             averages.processElement(vote("t" + device, 18), MINUTE - 1);
         }

@@ -1,0 +1,77 @@
+package io.furrow.analytics.temperature;
+
+import java.io.Serializable;
+import java.util.Locale;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+import io.furrow.flink.ResultRecord;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+
+/**
+ * Describes results as entities, named after the attribute, its first letter in upper case: of {@code soilMoisture} the entity
+ * {@code Analytics:FieldSoilMoisture:<field>} of type {@code Analytics:FieldSoilMoisture} with the attribute {@code
+ * averageSoilMoisture}, so that two attributes of a field are two entities of the context broker. Its attributes each window
+ * replaces. All values are in the unit in which the devices report.
+ *
+ * @param attribute that was averaged
+ * @param topic of the results
+ */
+record ResultEntity(String attribute, String topic) implements Serializable {
+    private static final String SOURCE = "/analytics/temperature";
+    private static final String SUSPECT = "Analytics:SuspectDevice";
+
+    /** Key = field id; timestamp = the window's last instant, so that hours made of windows find each in its hour. */
+    TopicRecord of(FieldAverage result) {
+        String type = "Analytics:Field" + title();
+        RobustMean average = result.average();
+        EntityBuilder entity = Entity.builder(type + ":" + result.field(), type).text("field", result.field());
+        number(entity, "average" + title(), average.mean());
+        number(entity, "plainMean", average.plainMean());
+        number(entity, "spread", average.spread());
+        entity.integer("devices", average.devices())
+                .texts("suspects", average.suspects())
+                .integer("windowStart", result.windowStart())
+                .integer("windowEnd", result.windowEnd())
+                .text("quality", average.verified() ? "robust" : "unverified");
+        if (!result.domain().isEmpty()) {
+            entity.text("Domain", result.domain());
+        }
+        return ResultRecord.of(topic, result.field(), entity.build(), result.scope(), result.windowEnd() - 1, SOURCE);
+    }
+
+    /** Key = device id; timestamp = the last instant of the window that was one too many. */
+    TopicRecord of(SuspectDevice suspect) {
+        Verdict last = suspect.last();
+        String id = SUSPECT + ":" + title() + ":" + last.device();
+        EntityBuilder entity = Entity.builder(id, SUSPECT)
+                .text("device", last.device())
+                .text("attribute", attribute)
+                .text("field", last.field())
+                .number("value", last.value())
+                .number("average" + title(), last.mean())
+                .integer("windows", suspect.windows())
+                .integer("since", suspect.since())
+                .integer("windowStart", last.windowStart())
+                .integer("windowEnd", last.windowEnd());
+        if (!last.domain().isEmpty()) {
+            entity.text("Domain", last.domain());
+        }
+        return ResultRecord.of(topic, last.device(), entity.build(), last.scope(), last.time(), SOURCE);
+    }
+
+    /** Null where there was nothing to average: the value of an earlier window must not stand beside this one's. */
+    private static void number(EntityBuilder entity, String name, double value) {
+        if (Double.isNaN(value)) {
+            entity.attribute(name, "Float", JsonNodeFactory.instance.nullNode());
+        } else {
+            entity.number(name, value);
+        }
+    }
+
+    private String title() {
+        return attribute.substring(0, 1).toUpperCase(Locale.ROOT) + attribute.substring(1);
+    }
+}
