@@ -1,19 +1,15 @@
 package io.furrow.analytics.collision;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Set;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import org.locationtech.jts.geom.Envelope;
 import org.locationtech.jts.geom.Geometry;
-import org.locationtech.jts.io.ParseException;
-import org.locationtech.jts.io.geojson.GeoJsonReader;
 
+import io.furrow.analytics.field.FieldArea;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -22,9 +18,6 @@ import io.furrow.model.ngsi.UnreadableException;
  * the antimeridian is cut there into a MultiPolygon, as the RFC asks.
  */
 final class ZoneFile {
-    private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
-    private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
-
     private ZoneFile() {}
 
     /**
@@ -53,24 +46,10 @@ final class ZoneFile {
     }
 
     private static Geometry area(Path file, JsonNode geometry, String name) {
-        if (!AREAS.contains(geometry.path("type").asText())) {
-            throw refused(file, name + " is no area; give it a geometry of type Polygon or MultiPolygon", null);
-        }
         try {
-            Geometry area = new GeoJsonReader().read(new String(NgsiJson.write(geometry), StandardCharsets.UTF_8));
-            if (area.isEmpty() || !area.isValid() || !EARTH.contains(area.getEnvelopeInternal())) {
-                throw refused(
-                        file,
-                        name + " is empty, crosses itself or lies outside of longitude ±180, latitude ±90; redraw it",
-                        null);
-            }
-            return area;
-        } catch (ParseException | NumberFormatException e) {
-            throw refused(
-                    file,
-                    name + " has broken coordinates; a ring is four or more [longitude, latitude], the last like the "
-                            + "first",
-                    e);
+            return FieldArea.read(geometry, name);
+        } catch (UnreadableException e) {
+            throw refused(file, e.getMessage(), e);
         }
     }
 

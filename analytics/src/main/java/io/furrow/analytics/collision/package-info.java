@@ -9,5 +9,8 @@
  * <p>Three keyed stages find it: {@link io.furrow.analytics.collision.TrackDevices} puts each device into the grid cells
  * that its surroundings touch, {@link io.furrow.analytics.collision.MatchPairs} compares the devices of a cell, and {@link
  * io.furrow.analytics.collision.FollowEncounters} joins what the cells saw of a pair into encounters.
+ *
+ * <p>Behind them, where asked for, {@link io.furrow.analytics.collision.SteadyEncounters} leaves out encounters that flicker or
+ * are short; what each option means is in docs/adr/0018.
  */
 package io.furrow.analytics.collision;

@@ -15,8 +15,8 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads the area of a field from GeoJSON; takes none of which it could not be told what is inside. */
-final class FieldArea {
+/** Reads the area of a field, or of another place, from GeoJSON; takes none of which it could not be told what is inside. */
+public final class FieldArea {
     private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
     private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
 
@@ -26,7 +26,7 @@ final class FieldArea {
      * @param field what the message calls it
      * @throws UnreadableException with {@link Reason#NOT_AN_EVENT}; the message names the place and the remedy
      */
-    static Geometry read(JsonNode geometry, String field) throws UnreadableException {
+    public static Geometry read(JsonNode geometry, String field) throws UnreadableException {
         if (!AREAS.contains(geometry.path("type").asText())) {
             throw refused(field + " is no area; give it a geometry of type Polygon or MultiPolygon", null);
         }

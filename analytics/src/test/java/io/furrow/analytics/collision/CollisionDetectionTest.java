@@ -26,7 +26,7 @@ class CollisionDetectionTest {
             .build());
 
     private static final int CASES = Integer.getInteger("furrow.collision.cases", 1000);
-    private static final int CASES_PER_JOB = CASES > 10_000 ? 500 : 100;
+    private static final int CASES_PER_JOB = 100;
     private static final long START = 1_700_000_000_000L;
     /** A world lasts 20 s, its last position 3 s and a dwell 2 s: no world sees anything of another. */
     private static final long WORLD_MILLIS = 60_000;

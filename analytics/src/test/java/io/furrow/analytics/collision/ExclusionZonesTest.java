@@ -70,7 +70,7 @@ class ExclusionZonesTest {
         assertRefused(feature("{'type': 'Polygon', 'coordinates': [[[1, 2]]]}"), "feature 1 has broken coordinates");
         assertRefused(
                 feature("{'type': 'Polygon', 'coordinates': [[[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]]}"),
-                "crosses itself");
+                "feature 1 is no valid area: Self-intersection");
         assertRefused(
                 feature("{'type': 'Polygon', 'coordinates': [[[0, 0], [2, 0], [2, 91], [0, 0]]]}"),
                 "lies outside of longitude ±180, latitude ±90");
