@@ -2,15 +2,17 @@ package io.furrow.ingest;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Set;
 
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
+import io.furrow.flink.DeadLetterSink;
 import io.furrow.flink.DeadLetters;
-import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.TopicOptions;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
@@ -72,7 +74,8 @@ final class IngestBranches {
                     .uid("name-missions")
                     .name("Name the mission");
 
-            dead.add(MissionStage.keep(ofMissions, options.missions(), KafkaEnds.atLeastOnceSink(options)));
+            TopicOptions.Settings topics = options.topics().settings(Set.of());
+            dead.add(MissionStage.keep(ofMissions, options.missions(), new DeadLetterSink(options, topics)));
         }
     }
 
