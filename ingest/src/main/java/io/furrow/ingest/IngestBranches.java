@@ -63,7 +63,8 @@ final class IngestBranches {
 
     void keepCatalog(DataStream<ReportedEvent> events) {
         if (options.writesCatalog()) {
-            kafka.write("catalog", CatalogStage.keep(keyed(events), options.catalogInterval()));
+            kafka.write(
+                    "catalog", CatalogStage.keep(keyed(events), options.catalogInterval(), options.catalogRetention()));
         }
     }
 
