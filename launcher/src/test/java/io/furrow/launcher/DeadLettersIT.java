@@ -35,6 +35,9 @@ class DeadLettersIT {
     @TempDir
     static Path directory;
 
+    /** Not long ago: the broker's retention goes by the record timestamp. */
+    private static final long TIME = System.currentTimeMillis() - 60_000;
+
     private static EmbeddedKafka kafka;
 
     @BeforeAll
@@ -64,7 +67,7 @@ class DeadLettersIT {
                 .singleElement()
                 .satisfies(record -> {
                     assertThat(record.value()).isEqualTo(original);
-                    assertThat(record.timestamp()).isEqualTo(1_700_000_000_000L);
+                    assertThat(record.timestamp()).isEqualTo(TIME);
                     assertThat(headers(record)).isEqualTo(Map.of("trace", "7"));
                 });
         assertThat(back)
@@ -178,7 +181,7 @@ class DeadLettersIT {
 
     private static void letter(String topic, String key, byte[] value, Map<String, String> headers) {
         byte[] keyBytes = key == null ? null : key.getBytes(StandardCharsets.UTF_8);
-        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, 1_700_000_000_000L, keyBytes, value);
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
         headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
         Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {

@@ -59,12 +59,12 @@ class AnyMongoTest {
 
     @Test
     void keepsEachDocumentOnceHoweverOftenItIsWritten() throws Exception {
-        List<MissionDocument> documents = readings(2_345);
+        List<MissionDocument> documents = readings(345);
 
         assertThat(send(documents)).isEmpty();
         assertThat(send(documents)).isEmpty();
 
-        assertThat(collections.get(collection).countDocuments()).isEqualTo(2_345);
+        assertThat(collections.get(collection).countDocuments()).isEqualTo(345);
         assertThat(collections.indexes(collection)).containsKey("_id_");
     }
 
@@ -80,18 +80,18 @@ class AnyMongoTest {
 
     @Test
     void exportsWhatItImportedByteByByte() throws Exception {
-        send(readings(1_500));
+        send(readings(300));
         String copy = mission + "-copy";
         try (StoredMissions missions = StoredMissions.open(uri)) {
             byte[] exported = exported(missions, mission);
             missions.importFrom(copy, new ByteArrayInputStream(exported), "copy", told -> {});
 
-            assertThat(exported(missions, copy)).isEqualTo(exported).hasSizeGreaterThan(100_000);
+            assertThat(exported(missions, copy)).isEqualTo(exported).hasSizeGreaterThan(10_000);
             assertThat(missions.all())
                     .filteredOn(summary -> summary.mission().equals(mission))
                     .singleElement()
                     .satisfies(summary -> {
-                        assertThat(summary.events()).isEqualTo(1_500);
+                        assertThat(summary.events()).isEqualTo(300);
                         assertThat(summary.bytes()).isPositive();
                         assertThat(summary.first()).isBefore(summary.last());
                     });
