@@ -157,7 +157,7 @@ public final class LoadWriter {
         Map<String, Object> settings = new HashMap<>(kafka);
         settings.put("acks", "all");
         settings.put("linger.ms", "5");
-        // The topics have just been made: of two requests the first could be refused and the second taken (KAFKA-15591).
+        // Topics just made could refuse the first of two requests and take the second (KAFKA-15591).
         settings.put("max.in.flight.requests.per.connection", "1");
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
     }
