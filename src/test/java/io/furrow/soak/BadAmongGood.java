@@ -194,7 +194,8 @@ public final class BadAmongGood implements AutoCloseable {
         long fed = 0;
         for (String topic : DEAD) {
             String origin = Topics.ofDeadLetters(topic).orElseThrow();
-            fed += new Refeed(kafkaProperties, new Refeed.Wish(topic, origin, Set.of(), false, false))
+            Refeed.Choice all = new Refeed.Choice(Set.of(), Set.of());
+            fed += new Refeed(kafkaProperties, new Refeed.Wish(topic, origin, all, false, false))
                     .run()
                     .total();
         }

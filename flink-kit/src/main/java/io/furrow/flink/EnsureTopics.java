@@ -1,92 +1,59 @@
 package io.furrow.flink;
 
 import java.io.IOException;
-import java.time.Duration;
-import java.util.HashSet;
-import java.util.List;
 import java.util.Properties;
-import java.util.Set;
-import java.util.concurrent.ExecutionException;
 
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.functions.RichMapFunction;
-import org.apache.kafka.clients.admin.Admin;
-import org.apache.kafka.clients.admin.AdminClientConfig;
-import org.apache.kafka.common.errors.AuthorizationException;
-import org.apache.kafka.common.errors.TopicExistsException;
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
+import org.apache.kafka.clients.CommonClientConfigs;
+
+import io.furrow.model.ngsi.Reason;
 
 /**
- * Passes records on unchanged, and makes the topic of the first record for it where it is not there. Asks once per topic; an
- * unreachable broker is asked again for a minute, then the job fails and is restarted.
+ * Passes on what Kafka takes: each record, its topic made where it is not there, or in its place the dead letter of one that is
+ * too large for the producer or its topic. An unreachable broker is asked again for a minute, then the job fails and is
+ * restarted.
  */
 public final class EnsureTopics extends RichMapFunction<TopicRecord, TopicRecord> {
-    private static final long serialVersionUID = 1L;
-    private static final Logger LOG = LoggerFactory.getLogger(EnsureTopics.class);
-    private static final Duration PATIENCE = Duration.ofMinutes(1);
+    private static final long serialVersionUID = 2L;
 
     private final Properties client;
+    private final Properties producer;
     private final TopicOptions.Settings settings;
-    private transient Admin admin;
-    private transient Set<String> known;
+    private transient WritableRecords writable;
+    private transient DeadCounters dead;
 
     public EnsureTopics(JobOptions options, TopicOptions.Settings settings) {
         this.settings = settings;
+        this.producer = KafkaEnds.producerProperties(options);
         this.client = options.kafkaProperties();
-        client.setProperty(AdminClientConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
-        client.setProperty(AdminClientConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(PATIENCE.toMillis()));
+        client.setProperty(CommonClientConfigs.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
     }
 
     @Override
     public void open(OpenContext context) {
-        known = new HashSet<>();
+        writable = writable();
+        dead = new DeadCounters(getRuntimeContext().getMetricGroup());
+    }
+
+    /** The same outside of an operator. */
+    WritableRecords writable() {
+        return new WritableRecords(new OutputTopics((Properties) client.clone(), settings), SizeLimits.of(producer));
     }
 
     @Override
     public TopicRecord map(TopicRecord record) throws IOException, InterruptedException {
-        if (!known.contains(record.topic())) {
-            ensure(record.topic());
-            known.add(record.topic());
+        TopicRecord taken = writable.of(record);
+        if (!taken.topic().equals(record.topic())) {
+            dead.count(Reason.TOO_LARGE);
         }
-        return record;
-    }
-
-    private void ensure(String topic) throws IOException, InterruptedException {
-        if (admin == null) {
-            admin = Admin.create(client);
-        }
-        try {
-            admin.createTopics(List.of(settings.topic(topic))).all().get();
-            LOG.info("Made topic {}", topic);
-        } catch (ExecutionException e) {
-            if (!(e.getCause() instanceof TopicExistsException) && !isAllowedOnlyToWrite(topic, e.getCause())) {
-                throw new IOException(
-                        "topic " + topic + " could not be made: " + e.getCause().getMessage()
-                                + "; see --topic-partitions, --topic-replication, --topic-retention, or make it yourself",
-                        e.getCause());
-            }
-        }
-    }
-
-    /** Who may not make topics may still write to those that others made. */
-    private boolean isAllowedOnlyToWrite(String topic, Throwable refusal) throws InterruptedException {
-        if (!(refusal instanceof AuthorizationException)) {
-            return false;
-        }
-        try {
-            admin.describeTopics(List.of(topic)).allTopicNames().get();
-            return true;
-        } catch (ExecutionException e) {
-            LOG.warn("Topic {} is not there, or may not be seen", topic, e.getCause());
-            return false;
-        }
+        return taken;
     }
 
     @Override
     public void close() {
-        if (admin != null) {
-            admin.close(Duration.ofSeconds(1));
+        if (writable != null) {
+            writable.close();
         }
     }
 }

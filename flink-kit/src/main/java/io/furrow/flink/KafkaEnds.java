@@ -78,8 +78,8 @@ public final class KafkaEnds {
         return sinkOf(options, form, "furrow-" + options.jobName() + "-" + name, guarantee(options));
     }
 
-    /** The same without transactions, for the dead letters of a sink: a writer of it can work inside another sink's. */
-    public static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
+    /** The same without transactions: a writer of it can work inside another sink's. */
+    static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
         return sinkOf(options, new TopicRecordFormat(), "furrow-" + options.jobName(), DeliveryGuarantee.AT_LEAST_ONCE);
     }
 

@@ -2,15 +2,17 @@ package io.furrow.ingest;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Set;
 
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
+import io.furrow.flink.DeadLetterSink;
 import io.furrow.flink.DeadLetters;
-import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.TopicOptions;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
@@ -61,7 +63,8 @@ final class IngestBranches {
 
     void keepCatalog(DataStream<ReportedEvent> events) {
         if (options.writesCatalog()) {
-            kafka.write("catalog", CatalogStage.keep(keyed(events), options.catalogInterval()));
+            kafka.write(
+                    "catalog", CatalogStage.keep(keyed(events), options.catalogInterval(), options.catalogRetention()));
         }
     }
 
@@ -72,7 +75,8 @@ final class IngestBranches {
                     .uid("name-missions")
                     .name("Name the mission");
 
-            dead.add(MissionStage.keep(ofMissions, options.missions(), KafkaEnds.atLeastOnceSink(options)));
+            TopicOptions.Settings topics = options.topics().settings(Set.of());
+            dead.add(MissionStage.keep(ofMissions, options.missions(), new DeadLetterSink(options, topics)));
         }
     }
 

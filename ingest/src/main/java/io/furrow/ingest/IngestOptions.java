@@ -88,6 +88,14 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
     private Duration catalogInterval;
 
     @Option(
+            names = "--catalog-retention",
+            paramLabel = "DURATION",
+            defaultValue = "90d",
+            description = "An entry of the catalogue that has had no event for this event time is removed. Default: "
+                    + "${DEFAULT-VALUE}.")
+    private Duration catalogRetention;
+
+    @Option(
             names = "--latest-key",
             paramLabel = "KEY",
             defaultValue = "id",
@@ -143,6 +151,10 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     public Duration catalogInterval() {
         return catalogInterval;
+    }
+
+    public Duration catalogRetention() {
+        return catalogRetention;
     }
 
     public LatestKey latestKey() {

@@ -64,10 +64,14 @@ final class KafkaSuite implements AutoCloseable {
 
     /** Keeps records of any time: retention goes by the record timestamp. */
     void makeTopic(String name, int partitions) throws Exception {
+        makeTopic(name, partitions, Map.of());
+    }
+
+    void makeTopic(String name, int partitions, Map<String, String> settings) throws Exception {
+        Map<String, String> all = new HashMap<>(settings);
+        all.put("retention.ms", "-1");
         NewTopic topic = new NewTopic(name, Optional.of(partitions), Optional.empty());
-        admin.createTopics(List.of(topic.configs(Map.of("retention.ms", "-1"))))
-                .all()
-                .get();
+        admin.createTopics(List.of(topic.configs(all))).all().get();
     }
 
     /** @param partition null for that of the key */

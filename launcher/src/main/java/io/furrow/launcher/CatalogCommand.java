@@ -10,14 +10,18 @@ import java.util.Properties;
 import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
+import io.furrow.flink.FileSystemOptions;
 import io.furrow.launcher.catalog.Catalog;
 import io.furrow.launcher.catalog.CatalogTable;
+import io.furrow.launcher.catalog.StoredAssets;
+import io.furrow.launcher.catalog.StoredTable;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow catalog}. */
@@ -25,8 +29,9 @@ import io.furrow.model.ngsi.NgsiJson;
         name = "catalog",
         abbreviateSynopsis = true,
         description =
-                "Lists what is stored, from the topic data.catalog that ingest keeps: missions, types of entities, their "
-                        + "attributes with type, unit, range and rate, first and last seen, sizes, images.")
+                "Lists what has passed, from the topic data.catalog that ingest keeps: missions, types of entities, their "
+                        + "attributes with type, unit, range and rate, first and last seen, sizes, images; and what is "
+                        + "stored: missions with --mongo, images with --images.")
 final class CatalogCommand implements Callable<Integer> {
     private enum Output {
         TABLE,
@@ -50,6 +55,21 @@ final class CatalogCommand implements Callable<Integer> {
     private Path kafkaProperties;
 
     @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            description = "Also list the missions in this MongoDB, for instance mongodb://127.0.0.1:27017.")
+    private String mongo;
+
+    @Option(
+            names = "--images",
+            paramLabel = "URI",
+            description = "Also count the images in this folder, the one that ingest was given with --images.")
+    private String images;
+
+    @Mixin
+    private final FileSystemOptions fileSystems = new FileSystemOptions();
+
+    @Option(
             names = "--output",
             paramLabel = "FORM",
             defaultValue = "table",
@@ -69,29 +89,57 @@ final class CatalogCommand implements Callable<Integer> {
     private boolean help;
 
     @Override
-    public Integer call() throws IOException {
-        List<JsonNode> entries = read().stream()
-                .filter(entry ->
-                        domain == null || domain.equals(entry.path("domain").asText()))
+    public Integer call() {
+        try {
+            show();
+            return 0;
+        } catch (IOException e) {
+            throw new SuiteNotStartedException(e.getMessage(), e);
+        }
+    }
+
+    private void show() throws IOException {
+        List<JsonNode> types = entries(Catalog.read(kafka, properties()));
+        List<JsonNode> missions = mongo == null ? null : entries(StoredAssets.missions(mongo));
+        List<JsonNode> stored = images == null ? null : entries(storedImages());
+        PrintWriter out = spec.commandLine().getOut();
+        if (output == Output.JSON) {
+            ObjectNode all = NgsiJson.mapper().createObjectNode();
+            put(all, "types", types);
+            put(all, "missions", missions);
+            put(all, "images", stored);
+            out.println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(all));
+        } else {
+            CatalogTable.lines(types).forEach(out::println);
+            if (missions != null) {
+                StoredTable.missions(missions).forEach(out::println);
+            }
+            if (stored != null) {
+                StoredTable.images(stored).forEach(out::println);
+            }
+        }
+        out.flush();
+    }
+
+    private List<JsonNode> storedImages() throws IOException {
+        fileSystems.initialize();
+        return StoredAssets.images(images);
+    }
+
+    /** Those asked for; MongoDB knows no domains. */
+    private List<JsonNode> entries(List<JsonNode> all) {
+        return all.stream()
+                .filter(entry -> domain == null
+                        || !entry.has("domain")
+                        || domain.equals(entry.path("domain").asText()))
                 .filter(entry ->
                         mission == null || mission.equals(entry.path("mission").asText()))
                 .toList();
-        PrintWriter out = spec.commandLine().getOut();
-        if (output == Output.JSON) {
-            ArrayNode all = NgsiJson.mapper().createArrayNode().addAll(entries);
-            out.println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(all));
-        } else {
-            CatalogTable.lines(entries).forEach(out::println);
-        }
-        out.flush();
-        return 0;
     }
 
-    private List<JsonNode> read() {
-        try {
-            return Catalog.read(kafka, properties());
-        } catch (IOException e) {
-            throw new SuiteNotStartedException(e.getMessage(), e);
+    private static void put(ObjectNode all, String name, List<JsonNode> entries) {
+        if (entries != null) {
+            all.putArray(name).addAll(entries);
         }
     }
 

@@ -69,6 +69,15 @@ final class DeadLettersCommand {
                             hideParamSyntax = true,
                             description = "Only those with one of these reasons, for instance not-json. Default: all.")
                     Set<String> reasons,
+            @Option(
+                            names = "--stage",
+                            paramLabel = "NAME,…",
+                            split = ",",
+                            hideParamSyntax = true,
+                            description =
+                                    "Only those that one of these set aside. Default: all but ingest-images, missions, "
+                                            + "temperature and collision: the event went on, to feed it again would double it.")
+                    Set<String> stages,
             @Option(names = "--again", description = "Also those that this command has brought back before.")
                     boolean again,
             @Option(names = "--dry-run", description = "Count them, write nothing.") boolean dryRun,
@@ -78,8 +87,9 @@ final class DeadLettersCommand {
                             description = "Show this text.")
                     boolean wantsHelp) {
         String target = to == null ? Topics.ofDeadLetters(topic).orElseThrow(() -> nameless(topic)) : to;
-        Refeed.Wish wish =
-                new Refeed.Wish(topic, target, reasons == null ? Set.of() : Set.copyOf(reasons), again, dryRun);
+        Refeed.Choice choice = new Refeed.Choice(
+                reasons == null ? Set.of() : Set.copyOf(reasons), stages == null ? Set.of() : Set.copyOf(stages));
+        Refeed.Wish wish = new Refeed.Wish(topic, target, choice, again, dryRun);
         try (KafkaAccess access = KafkaAccess.to(kafka, kafkaProperties)) {
             print(wish, new Refeed(access.clientProperties(), wish).run());
             return 0;

@@ -108,6 +108,9 @@ public final class KafkaAccess implements AutoCloseable {
     void ensureTopics() throws InterruptedException {
         for (String topic : TOPICS) {
             NewTopic wanted = new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty());
+            if (Topics.ofDeadLetters(topic).isPresent()) { // a letter is larger than the record that it was
+                wanted.configs(Map.of("max.message.bytes", Integer.toString(16 * 1024 * 1024)));
+            }
             try {
                 admin.createTopics(List.of(wanted)).all().get(SECONDS, TimeUnit.SECONDS);
             } catch (ExecutionException e) {

@@ -4,16 +4,13 @@ import java.io.IOException;
 import java.io.OutputStream;
 import java.io.PrintWriter;
 import java.io.UncheckedIOException;
-import java.util.LinkedHashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.function.LongConsumer;
 
 import com.mongodb.MongoException;
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
@@ -21,6 +18,7 @@ import picocli.CommandLine.Parameters;
 import picocli.CommandLine.ScopeType;
 import picocli.CommandLine.Spec;
 
+import io.furrow.flink.FileSystemOptions;
 import io.furrow.ingest.mission.MissionArchive;
 import io.furrow.ingest.mission.MissionFiles;
 import io.furrow.ingest.mission.StoredMissions;
@@ -31,7 +29,7 @@ import io.furrow.ingest.mission.StoredMissions;
         description = "Lists, exports, imports and archives the missions that are kept in MongoDB.",
         synopsisSubcommandLabel = "COMMAND")
 final class MissionCommand {
-    private static final String MISSION = "Name of the mission, as its entities have it.";
+    private static final String MISSION = "Name of the mission, as its entities or as 'mission list' have it.";
     private static final String FILES = ", on any file system of Flink: a path, file:, hdfs:, s3: …";
 
     @Spec
@@ -45,14 +43,8 @@ final class MissionCommand {
             description = "MongoDB. Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
     private String mongo;
 
-    @Option(
-            names = "--file-system",
-            paramLabel = "KEY=VALUE",
-            scope = ScopeType.INHERIT,
-            description =
-                    "A setting of Flink's for file systems, for instance s3.endpoint=http://127.0.0.1:9000. May be "
-                            + "repeated.")
-    private Map<String, String> fileSystem = new LinkedHashMap<>();
+    @Mixin
+    private final FileSystemOptions fileSystems = new FileSystemOptions();
 
     @Option(
             names = {"-h", "--help"},
@@ -72,7 +64,7 @@ final class MissionCommand {
             for (StoredMissions.Summary mission : missions.all()) {
                 out().printf(
                                 "%-32s %,12d events  %s … %s%n",
-                                mission.name(), mission.events(), mission.first(), mission.last());
+                                mission.mission(), mission.events(), mission.first(), mission.last());
             }
         });
     }
@@ -142,7 +134,7 @@ final class MissionCommand {
     }
 
     private int run(Work work) {
-        FileSystem.initialize(Configuration.fromMap(fileSystem), null);
+        fileSystems.initialize();
         try (StoredMissions missions = StoredMissions.open(mongo)) {
             work.with(missions);
             out().flush();

@@ -9,6 +9,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.concurrent.ExecutionException;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -33,6 +34,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 class DeadLettersIT {
     @TempDir
     static Path directory;
+
+    /** Not long ago: the broker's retention goes by the record timestamp. */
+    private static final long TIME = System.currentTimeMillis() - 60_000;
 
     private static EmbeddedKafka kafka;
 
@@ -63,7 +67,7 @@ class DeadLettersIT {
                 .singleElement()
                 .satisfies(record -> {
                     assertThat(record.value()).isEqualTo(original);
-                    assertThat(record.timestamp()).isEqualTo(1_700_000_000_000L);
+                    assertThat(record.timestamp()).isEqualTo(TIME);
                     assertThat(headers(record)).isEqualTo(Map.of("trace", "7"));
                 });
         assertThat(back)
@@ -91,7 +95,7 @@ class DeadLettersIT {
 
         assertThat(refeed("--topic", "some.dead", "--to", "elsewhere", "--reason", "not-json"))
                 .isEqualTo("brought 1 dead letters from some.dead to elsewhere: 1 not-json\n"
-                        + "left where they are: 1 not-an-entity, 1 truncated");
+                        + "left where they are: 1 not-an-entity of test, 1 truncated");
         assertThat(recordsOf("elsewhere")).extracting(ConsumerRecord::value).containsExactly(new byte[] {1});
     }
 
@@ -102,6 +106,51 @@ class DeadLettersIT {
 
         assertThat(refeed("--topic", "again.dead", "--again")).startsWith("brought 1 ");
         assertThat(recordsOf("again")).hasSize(2);
+    }
+
+    @Test
+    void bringsEachBackOnceWhicheverReasonsAreAskedForTogether() {
+        letter("kinds.dead", "a", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+        letter("kinds.dead", "b", new byte[] {2}, Reason.TOO_LARGE, "why", Map.of());
+        letter("kinds.dead", "c", new byte[] {3}, Reason.NOT_AN_ENTITY, "why", Map.of());
+
+        assertThat(refeed("--topic", "kinds.dead", "--reason", "not-json")).startsWith("brought 1 ");
+        assertThat(refeed("--topic", "kinds.dead", "--reason", "too-large,not-json"))
+                .contains("brought 1 dead letters from kinds.dead to kinds: 1 too-large");
+        letter("kinds.dead", "d", new byte[] {4}, Reason.NOT_JSON, "why", Map.of());
+        assertThat(refeed("--topic", "kinds.dead"))
+                .isEqualTo("brought 2 dead letters from kinds.dead to kinds: 1 not-an-entity, 1 not-json");
+        assertThat(refeed("--topic", "kinds.dead", "--reason", "not-json")).startsWith("brought 0 ");
+
+        assertThat(recordsOf("kinds"))
+                .extracting(record -> record.value()[0])
+                .containsExactlyInAnyOrder((byte) 1, (byte) 2, (byte) 3, (byte) 4);
+    }
+
+    @Test
+    void remembersEachTargetByItself() {
+        letter("two.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
+
+        assertThat(refeed("--topic", "two.dead", "--to", "first")).startsWith("brought 1 ");
+        assertThat(refeed("--topic", "two.dead", "--to", "second")).startsWith("brought 1 ");
+        assertThat(refeed("--topic", "two.dead", "--to", "first")).startsWith("brought 0 ");
+    }
+
+    @Test
+    void leavesLettersWhoseEventWentOnUnlessTheirStageIsNamed() {
+        letterOf("ingest-images", "went.dead", 1, Reason.NOT_AN_IMAGE);
+        letterOf("missions", "went.dead", 2, Reason.REFUSED);
+        letterOf("ingest", "went.dead", 3, Reason.NOT_JSON);
+
+        assertThat(refeed("--topic", "went.dead"))
+                .isEqualTo("brought 1 dead letters from went.dead to went: 1 not-json\n"
+                        + "left where they are: 1 not-an-image of ingest-images, whose event went on, "
+                        + "1 refused of missions, whose event went on");
+        assertThat(refeed("--topic", "went.dead", "--reason", "not-an-image"))
+                .as("a reason is no stage")
+                .startsWith("brought 0 ");
+        assertThat(refeed("--topic", "went.dead", "--stage", "missions")).contains(": 1 refused\n");
+        assertThat(recordsOf("went")).extracting(record -> record.value()[0]).containsExactly((byte) 3, (byte) 2);
     }
 
     @Test
@@ -119,24 +168,33 @@ class DeadLettersIT {
         return said.toString().strip();
     }
 
+    private static void letterOf(String stage, String topic, int value, Reason reason) {
+        letter(topic, "k", new byte[] {(byte) value}, new DeadLetter(reason, "why", stage, "t-0@0").headers());
+    }
+
     private static void letter(
             String topic, String key, byte[] value, Reason reason, String message, Map<String, String> own) {
         Map<String, String> headers = new TreeMap<>(own);
         headers.putAll(new DeadLetter(reason, message, "test", "t-0@0").headers());
+        letter(topic, key, value, headers);
+    }
+
+    private static void letter(String topic, String key, byte[] value, Map<String, String> headers) {
         byte[] keyBytes = key == null ? null : key.getBytes(StandardCharsets.UTF_8);
-        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, 1_700_000_000_000L, keyBytes, value);
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
         headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
         Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
-            producer.send(record);
+            producer.send(record).get();
+        } catch (InterruptedException | ExecutionException e) {
+            throw new AssertionError(e);
         }
     }
 
+    /** Also those whose transaction is committed, though its marker may still be on the way. */
     private static List<ConsumerRecord<byte[], byte[]>> recordsOf(String topic) {
-        Map<String, Object> settings = Map.of(
-                "bootstrap.servers", kafka.bootstrapServers(),
-                "auto.offset.reset", "earliest",
-                "isolation.level", "read_committed");
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "auto.offset.reset", "earliest");
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             consumer.assign(consumer.partitionsFor(topic).stream()

@@ -16,6 +16,7 @@ import java.util.function.IntPredicate;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -23,11 +24,12 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /** Makes the input topics, writes the {@link FarmLoad} to them at a rate, and waits until the job has brought it out. */
 public final class LoadWriter {
-    private static final Duration PATIENCE = Duration.ofMinutes(5);
+    private static final Duration PATIENCE = Duration.ofMinutes(2);
 
     private final Map<String, Object> kafka;
     private volatile int written;
@@ -71,9 +73,11 @@ public final class LoadWriter {
                             topic(Topics.LATEST, FarmLoad.PARTITIONS)))
                     .all()
                     .get();
-            FarmLoad.devices()
-                    .forEach(version -> producer.send(new ProducerRecord<>(
-                            Topics.DEVICES, 0, version.from(), FarmLoad.utf8(version.key()), version.toBytes())));
+            for (DeviceVersion version : FarmLoad.devices().toList()) {
+                byte[] key = FarmLoad.utf8(version.key());
+                producer.send(new ProducerRecord<>(Topics.DEVICES, 0, version.from(), key, version.toBytes()))
+                        .get();
+            }
         }
     }
 
@@ -107,7 +111,11 @@ public final class LoadWriter {
         return written;
     }
 
-    /** Returns when the last event of each partition is committed on the topic of its domain. */
+    /**
+     * Returns when the last event of each partition is committed on the topic of its domain.
+     *
+     * @param patience how long nothing may come out before that
+     */
     void awaitOutput(Duration patience) {
         long until = System.nanoTime() + patience.toNanos();
         Map<String, Object> settings = new HashMap<>(kafka);
@@ -118,11 +126,13 @@ public final class LoadWriter {
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
             while (closed.size() < FarmLoad.PARTITIONS) {
                 if (System.nanoTime() > until) {
-                    throw new IllegalStateException("the last events did not come out within " + patience + ": of "
-                            + FarmLoad.PARTITIONS + " only " + closed);
+                    throw new IllegalStateException("nothing came out for " + patience + ", and of the last events of "
+                            + FarmLoad.PARTITIONS + " partitions only " + closed);
                 }
                 if (assign(consumer)) {
-                    consumer.poll(Duration.ofMillis(200)).forEach(record -> {
+                    ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
+                    until = records.isEmpty() ? until : System.nanoTime() + patience.toNanos();
+                    records.forEach(record -> {
                         if (FarmLoad.isClosing(record.key())) {
                             closed.add(new String(record.key(), java.nio.charset.StandardCharsets.UTF_8));
                         }
@@ -147,6 +157,8 @@ public final class LoadWriter {
         Map<String, Object> settings = new HashMap<>(kafka);
         settings.put("acks", "all");
         settings.put("linger.ms", "5");
+        // Topics just made could refuse the first of two requests and take the second (KAFKA-15591).
+        settings.put("max.in.flight.requests.per.connection", "1");
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
     }
 }

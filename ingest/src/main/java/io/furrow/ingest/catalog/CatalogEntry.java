@@ -142,20 +142,27 @@ public record CatalogEntry(
                 all);
     }
 
-    /** As it stands on {@code data.catalog}; times in ISO 8601, rates per second. */
-    byte[] toBytes() {
+    /**
+     * As it stands on {@code data.catalog}; times in ISO 8601, rates per second.
+     *
+     * @param deleted event time at which the last of its entities was deleted, epoch ms; null while there are any
+     */
+    byte[] toBytes(Long deleted) {
         ObjectNode json = NgsiJson.mapper()
                 .createObjectNode()
                 .put("service", service)
                 .put("domain", domain)
                 .put("mission", mission)
                 .put("type", type)
-                .put("entities", entities)
+                .put("entities", Math.max(0, entities))
                 .put("events", events)
                 .put("bytes", bytes)
                 .put("images", images)
                 .put("imageBytes", imageBytes);
         writeTimes(json, events, first, last);
+        if (deleted != null) {
+            json.put("deleted", Instant.ofEpochMilli(deleted).toString());
+        }
         ObjectNode byName = json.putObject("attributes");
         new TreeMap<>(attributes).forEach((name, profile) -> profile.writeTo(byName.putObject(name)));
         return NgsiJson.write(json);

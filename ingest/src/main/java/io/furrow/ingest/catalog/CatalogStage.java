@@ -12,13 +12,18 @@ import io.furrow.ingest.route.ReportedEvent;
 public final class CatalogStage {
     private CatalogStage() {}
 
-    /** @param events by identity, images moved */
-    public static DataStream<TopicRecord> keep(KeyedStream<ReportedEvent, String> events, Duration interval) {
+    /**
+     * @param events by identity, images moved
+     * @param interval of event time between two records of an entry
+     * @param retention event time after which an entry without events goes
+     */
+    public static DataStream<TopicRecord> keep(
+            KeyedStream<ReportedEvent, String> events, Duration interval, Duration retention) {
         return events.process(new ProfileEntities(interval))
                 .uid("profile-entities")
                 .name("Profile each entity")
                 .keyBy(CatalogEntry::key)
-                .process(new MergeCatalog(interval))
+                .process(new MergeCatalog(interval, retention))
                 .uid("merge-catalog")
                 .name("Merge the catalogue");
     }

@@ -19,20 +19,25 @@ import io.furrow.model.topic.Topics;
 /**
  * Adds the entities of a mission and type up to an entry of the catalogue.
  *
- * <p>State: the entry, and whether it is to be written, per tenant, domain, mission and type. Cleared: the mark by its timer;
- * the entry never, it is what the catalogue is: as many as there are missions and types. Late: no difference. Emits: the entry
- * for {@code data.catalog}, at most once per interval of event time.
+ * <p>State: the entry, whether it is to be written, when its last entity was deleted and when it goes, per tenant, domain,
+ * mission and type. Cleared: all of it when no event has come for the retention. Late: no difference; a deletion that comes
+ * after its entry is gone is no news. Emits: the entry for {@code data.catalog}, at most once per interval of event time; at the
+ * end of its life a record without a value.
  */
 public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntry, TopicRecord> {
     private static final long serialVersionUID = 1L;
     private static final String TYPE = "furrow.catalog.entry";
 
     private final long intervalMillis;
+    private final long retentionMillis;
     private transient ValueState<CatalogEntry> whole;
     private transient ValueState<Boolean> unwritten;
+    private transient ValueState<Long> deleted;
+    private transient ValueState<Long> expiry;
 
-    public MergeCatalog(Duration interval) {
+    public MergeCatalog(Duration interval, Duration retention) {
         this.intervalMillis = Math.max(1, interval.toMillis());
+        this.retentionMillis = retention.toMillis();
     }
 
     @Override
@@ -40,12 +45,23 @@ public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntr
         whole = getRuntimeContext()
                 .getState(new ValueStateDescriptor<>("entry", TypeInformation.of(CatalogEntry.class)));
         unwritten = getRuntimeContext().getState(new ValueStateDescriptor<>("unwritten", Types.BOOLEAN));
+        deleted = getRuntimeContext().getState(new ValueStateDescriptor<>("deleted", Types.LONG));
+        expiry = getRuntimeContext().getState(new ValueStateDescriptor<>("expiry", Types.LONG));
     }
 
     @Override
     public void processElement(CatalogEntry more, Context context, Collector<TopicRecord> out) throws Exception {
         CatalogEntry before = whole.value();
-        whole.update(before == null ? more : before.plus(more));
+        if (before == null && more.events() == 0) {
+            return;
+        }
+        CatalogEntry sum = before == null ? more : before.plus(more);
+        whole.update(sum);
+        if (more.events() > 0) {
+            deleted.clear();
+        } else if (sum.entities() <= 0) {
+            deleted.update(context.timestamp() == null ? more.last() : context.timestamp());
+        }
         if (unwritten.value() == null) {
             unwritten.update(true);
             long from = Math.max(more.last(), context.timerService().currentWatermark());
@@ -55,11 +71,38 @@ public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntr
 
     @Override
     public void onTimer(long timestamp, OnTimerContext context, Collector<TopicRecord> out) throws Exception {
-        unwritten.clear();
         CatalogEntry entry = whole.value();
+        if (unwritten.value() != null) {
+            unwritten.clear();
+            out.collect(record(entry, entry.last(), entry.toBytes(deleted.value())));
+            postpone(timestamp, context);
+        } else if (Long.valueOf(timestamp).equals(expiry.value()) && !isEndOfInput(context)) {
+            out.collect(record(entry, timestamp, null));
+            whole.clear();
+            deleted.clear();
+            expiry.clear();
+        }
+    }
+
+    /** The end of the input is not the end of time: what is there stays. */
+    private static boolean isEndOfInput(OnTimerContext context) {
+        return context.timerService().currentWatermark() == Long.MAX_VALUE;
+    }
+
+    private void postpone(long timestamp, OnTimerContext context) throws Exception {
+        Long before = expiry.value();
+        if (before != null) {
+            context.timerService().deleteEventTimeTimer(before);
+        }
+        long until = timestamp + retentionMillis;
+        expiry.update(until);
+        context.timerService().registerEventTimeTimer(until);
+    }
+
+    private static TopicRecord record(CatalogEntry entry, long time, byte[] value) {
         Map<String, String> headers = new HashMap<>();
         headers.put(HeaderNames.CE_TYPE, TYPE);
         headers.put(HeaderNames.SERVICE, entry.service());
-        out.collect(TopicRecord.of(Topics.CATALOG, entry.last(), entry.key(), entry.toBytes(), headers));
+        return TopicRecord.of(Topics.CATALOG, time, entry.key(), value, headers);
     }
 }

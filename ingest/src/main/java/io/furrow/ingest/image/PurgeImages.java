@@ -10,18 +10,18 @@ import java.util.concurrent.Callable;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.configuration.GlobalConfiguration;
 import org.apache.flink.core.fs.FileStatus;
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
-import org.apache.flink.core.plugin.PluginUtils;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
+
+import io.furrow.flink.FileSystemOptions;
 
 /** Deletes images whose event time, as their file's name tells it, is older than allowed; leaves every other file alone. */
 @Command(
@@ -29,8 +29,7 @@ import picocli.CommandLine.Spec;
         abbreviateSynopsis = true,
         description =
                 "Deletes images that are older than an age, by the event time in their names, and what writers that "
-                        + "died left behind. Other files are left alone. Reaches S3 with FLINK_CONF_DIR and FLINK_PLUGINS_DIR, "
-                        + "HDFS with HADOOP_CLASSPATH, as Flink does.")
+                        + "died left behind. Other files are left alone.")
 public final class PurgeImages implements Callable<Integer> {
     private static final Pattern IMAGE = Pattern.compile(".+_(\\d{17})(-[0-9a-f]{64})?\\.(png|jpg)");
     /** No write takes that long. */
@@ -48,6 +47,9 @@ public final class PurgeImages implements Callable<Integer> {
             required = true,
             description = "Delete what is older, for instance 30d.")
     private Duration age;
+
+    @Mixin
+    private final FileSystemOptions fileSystems = new FileSystemOptions();
 
     @Option(names = "--dry-run", description = "Say what would be deleted and delete nothing.")
     private boolean dryRun;
@@ -69,12 +71,7 @@ public final class PurgeImages implements Callable<Integer> {
         if (age.isNegative() || age.isZero()) {
             throw new ParameterException(spec.commandLine(), "--older-than must be positive; write for instance 30d");
         }
-        if (System.getenv("FLINK_CONF_DIR") != null || System.getenv("FLINK_PLUGINS_DIR") != null) {
-            Configuration flink = System.getenv("FLINK_CONF_DIR") == null
-                    ? new Configuration()
-                    : GlobalConfiguration.loadConfiguration();
-            FileSystem.initialize(flink, PluginUtils.createPluginManagerFromRootFolder(flink));
-        }
+        fileSystems.initialize();
         now = Instant.now();
         Path folder = new Path(root);
         try {

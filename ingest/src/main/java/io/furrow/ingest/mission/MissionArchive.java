@@ -34,7 +34,7 @@ public final class MissionArchive {
 
     /** Where the files of a mission are. */
     public Path folder(String mission) {
-        return new Path(root, MissionCollections.nameOf(mission));
+        return new Path(root, missions.collection(mission));
     }
 
     /**

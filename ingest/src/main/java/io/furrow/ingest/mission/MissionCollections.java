@@ -5,8 +5,10 @@ import java.time.Duration;
 import java.util.Date;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.TreeMap;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.StreamSupport;
 
@@ -21,6 +23,8 @@ import com.mongodb.client.model.Indexes;
 import org.bson.Document;
 import org.bson.RawBsonDocument;
 import org.bson.conversions.Bson;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.model.topic.TopicName;
 
@@ -30,6 +34,8 @@ import io.furrow.model.topic.TopicName;
  * where it does not.
  */
 final class MissionCollections {
+    private static final Logger LOG = LoggerFactory.getLogger(MissionCollections.class);
+
     static final String PREFIX = "mission_";
     private static final String BY_TIME = "event-time";
     private static final String BY_ENTITY = "entity-and-event-time";
@@ -97,6 +103,32 @@ final class MissionCollections {
             }
             collection.dropIndex(keys); // the retention has changed
             collection.createIndex(keys, options);
+        }
+    }
+
+    /** The indexes of a collection by name, and of each after what time it removes documents, if at all. */
+    Map<String, Optional<Duration>> indexes(String collection) {
+        Map<String, Optional<Duration>> indexes = new TreeMap<>();
+        for (Document index : database.getCollection(collection).listIndexes()) {
+            Object seconds = index.get("expireAfterSeconds");
+            indexes.put(
+                    index.getString("name"),
+                    seconds instanceof Number number
+                            ? Optional.of(Duration.ofSeconds(number.longValue()))
+                            : Optional.empty());
+        }
+        return indexes;
+    }
+
+    /** Of a collection's documents; −1 where the server does not tell. */
+    long bytes(String collection) {
+        try {
+            Object size =
+                    database.runCommand(new Document("collStats", collection)).get("size");
+            return size instanceof Number number ? number.longValue() : -1;
+        } catch (MongoCommandException e) {
+            LOG.debug("no size of {}", collection, e);
+            return -1;
         }
     }
 

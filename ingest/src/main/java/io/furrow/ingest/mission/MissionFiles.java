@@ -33,13 +33,9 @@ public final class MissionFiles {
         long writeTo(OutputStream out) throws IOException;
     }
 
-    /** Writes a mission into one file; another of that name is replaced. */
+    /** Writes a mission into one file; another of that name is replaced when the new one is whole, and stays else. */
     public static long export(StoredMissions missions, String mission, Path file, LongConsumer told)
             throws IOException {
-        FileSystem files = file.getFileSystem();
-        if (files.exists(file)) {
-            files.delete(file, false);
-        }
         return write(file, out -> missions.export(mission, out, told));
     }
 
@@ -80,34 +76,54 @@ public final class MissionFiles {
         return isCompressed(file) ? new GZIPInputStream(in, BUFFER) : in;
     }
 
+    /** Replaces what has the name; where a file cannot take another's place at once, that one goes just before. */
     static long write(Path file, Content content) throws IOException {
-        RecoverableFsDataOutputStream out =
-                file.getFileSystem().createRecoverableWriter().open(file);
+        FileSystem files = file.getFileSystem();
+        RecoverableFsDataOutputStream out = files.createRecoverableWriter().open(file);
         boolean whole = false;
         try {
-            OutputStream kept = new FilterOutputStream(out) {
-                @Override
-                public void write(byte[] bytes, int from, int length) throws IOException {
-                    out.write(bytes, from, length);
-                }
-
-                @Override
-                public void close() {
-                    // closed by the commit below
-                }
-            };
             long count;
-            try (OutputStream lines =
-                    isCompressed(file) ? new GZIPOutputStream(kept, BUFFER) : new BufferedOutputStream(kept)) {
+            try (OutputStream lines = isCompressed(file)
+                    ? new GZIPOutputStream(unclosed(out), BUFFER)
+                    : new BufferedOutputStream(unclosed(out))) {
                 count = content.writeTo(lines);
             }
-            out.closeForCommit().commit();
+            RecoverableFsDataOutputStream.Committer finished = out.closeForCommit();
+            if (files.isDistributedFS() && files.exists(file)) {
+                files.delete(file, false);
+            }
+            finished.commit();
             whole = true;
             return count;
         } finally {
             if (!whole) {
                 IOUtils.closeQuietly(out); // once committed, S3 takes a second close for a fault
+                removeUnfinished(file);
             }
+        }
+    }
+
+    private static OutputStream unclosed(RecoverableFsDataOutputStream out) {
+        return new FilterOutputStream(out) {
+            @Override
+            public void write(byte[] bytes, int from, int length) throws IOException {
+                out.write(bytes, from, length);
+            }
+
+            @Override
+            public void close() {
+                // closed for the commit
+            }
+        };
+    }
+
+    /** What Flink's writers keep beside the file until it is whole. */
+    private static void removeUnfinished(Path file) throws IOException {
+        String unfinished = "." + file.getName() + ".inprogress.";
+        for (Path one : list(file.getParent())
+                .filter(it -> it.getName().startsWith(unfinished))
+                .toList()) {
+            file.getFileSystem().delete(one, false);
         }
     }
 

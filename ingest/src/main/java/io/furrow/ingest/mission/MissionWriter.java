@@ -32,10 +32,12 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private final AutoCloseable connection;
     private final ExecutorService thread = Executors.newSingleThreadExecutor(MissionWriter::named);
     private final DeadCounters dead;
+    private final DocumentCounters documents;
     private final SinkWriterMetricGroup metrics;
 
     private List<MissionDocument> gathered = new ArrayList<>();
     private long gatheredBytes;
+    private List<MissionDocument> sent = List.of();
     private Future<List<BulkSender.Refusal>> underWay = CompletableFuture.completedFuture(List.of());
 
     /** @param connection is closed with the writer */
@@ -49,6 +51,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         this.connection = connection;
         this.metrics = metrics;
         this.dead = new DeadCounters(metrics);
+        this.documents = new DocumentCounters(metrics);
     }
 
     @Override
@@ -77,14 +80,20 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         metrics.getNumBytesSendCounter().inc(gatheredBytes);
         gathered = new ArrayList<>();
         gatheredBytes = 0;
+        sent = bulk;
         underWay = thread.submit(() -> sender.send(bulk));
     }
 
     private void awaitUnderWay() throws IOException, InterruptedException {
-        Future<List<BulkSender.Refusal>> sent = underWay;
+        Future<List<BulkSender.Refusal>> answer = underWay;
+        List<MissionDocument> written = sent;
         underWay = CompletableFuture.completedFuture(List.of());
+        sent = List.of();
         try {
-            for (BulkSender.Refusal refusal : sent.get()) {
+            List<BulkSender.Refusal> refused = answer.get();
+            written.forEach(document -> documents.add(document, 1));
+            for (BulkSender.Refusal refusal : refused) {
+                documents.add(refusal.document(), -1);
                 dead.count(Reason.REFUSED);
                 UnreadableException why = new UnreadableException(Reason.REFUSED, refusal.reason());
                 deadLetters.write(DeadLetters.of(refusal.document().record(), why, ComposeDocuments.STAGE), NO_CONTEXT);

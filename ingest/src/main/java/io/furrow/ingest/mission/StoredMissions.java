@@ -13,15 +13,20 @@ import java.time.Instant;
 import java.util.ArrayList;
 import java.util.Iterator;
 import java.util.List;
+import java.util.Map;
+import java.util.Optional;
 import java.util.function.LongConsumer;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoCollection;
 import com.mongodb.client.MongoCursor;
 import com.mongodb.client.model.Sorts;
+import org.bson.BsonDocument;
+import org.bson.BsonValue;
 import org.bson.RawBsonDocument;
 
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.TopicName;
 
 /** The missions that are kept in MongoDB: told, written as lines, and read from lines. */
 public final class StoredMissions implements AutoCloseable {
@@ -48,11 +53,23 @@ public final class StoredMissions implements AutoCloseable {
     /**
      * What is kept of a mission.
      *
-     * @param name as its topic and collection have it
+     * @param mission its name; as its collection has it where only a hash of it is there and no event tells it
+     * @param collection as MongoDB has it
+     * @param bytes of the documents, without indexes; −1 where the server does not tell
      * @param first event time of the oldest event
      * @param last event time of the newest event
+     * @param indexes by name
+     * @param retention how long the server itself keeps documents; null for ever, or as long as the job that purges says
      */
-    public record Summary(String name, long events, Instant first, Instant last) {}
+    public record Summary(
+            String mission,
+            String collection,
+            long events,
+            long bytes,
+            Instant first,
+            Instant last,
+            List<String> indexes,
+            Duration retention) {}
 
     /** All that hold an event, in alphabetical order. */
     public List<Summary> all() {
@@ -64,14 +81,47 @@ public final class StoredMissions implements AutoCloseable {
             RawBsonDocument last =
                     collection.find().sort(Sorts.descending(DocumentForm.TIME)).first();
             if (first != null && last != null) {
+                Map<String, Optional<Duration>> indexes = collections.indexes(name);
                 all.add(new Summary(
-                        name.substring(MissionCollections.PREFIX.length()),
+                        original(name, last),
+                        name,
                         collection.countDocuments(),
+                        collections.bytes(name),
                         time(first),
-                        time(last)));
+                        time(last),
+                        List.copyOf(indexes.keySet()),
+                        indexes.values().stream()
+                                .flatMap(Optional::stream)
+                                .findFirst()
+                                .orElse(null)));
             }
         }
         return all;
+    }
+
+    /** A hash is the name that an event of its mission bears, where it bears one. */
+    private static String original(String collection, RawBsonDocument event) {
+        String part = collection.substring(MissionCollections.PREFIX.length());
+        return TopicName.original(part).orElseGet(() -> {
+            BsonValue attribute = event.get("Mission");
+            BsonValue value = attribute instanceof BsonDocument own ? own.get("value") : null;
+            boolean isIt = value != null
+                    && value.isString()
+                    && MissionCollections.nameOf(value.asString().getValue()).equals(collection);
+            return isIt ? value.asString().getValue() : part;
+        });
+    }
+
+    /** The collection of a mission by its name, or by what stands for it in topics and collections where there is that. */
+    String collection(String mission) {
+        String byName = MissionCollections.nameOf(mission);
+        String asItStands = MissionCollections.PREFIX + mission;
+        boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
+        return looksEncoded && isEmpty(byName) && !isEmpty(asItStands) ? asItStands : byName;
+    }
+
+    private boolean isEmpty(String collection) {
+        return collections.get(collection).find().first() == null;
     }
 
     private static Instant time(RawBsonDocument document) {
@@ -80,7 +130,7 @@ public final class StoredMissions implements AutoCloseable {
 
     /** Whether anything is kept of it. */
     public boolean has(String mission) {
-        return collections.get(MissionCollections.nameOf(mission)).find().first() != null;
+        return !isEmpty(collection(mission));
     }
 
     /**
@@ -113,7 +163,7 @@ public final class StoredMissions implements AutoCloseable {
     public long importFrom(String mission, InputStream in, String source, LongConsumer told)
             throws IOException, InterruptedException {
         BulkSender sender = new BulkSender(collections, PATIENCE, ignored -> {});
-        String collection = MissionCollections.nameOf(mission);
+        String collection = collection(mission);
         List<MissionDocument> bulk = new ArrayList<>(BATCH);
         BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
         long count = 0;
@@ -152,7 +202,7 @@ public final class StoredMissions implements AutoCloseable {
     /** The events of a mission in the order of archives. */
     Events events(String mission) {
         return new Events(collections
-                .get(MissionCollections.nameOf(mission))
+                .get(collection(mission))
                 .find()
                 .sort(Sorts.ascending(DocumentForm.TIME))
                 .batchSize(BATCH)

@@ -24,7 +24,7 @@ class CatalogEntryTest {
                 .plus(CatalogEntry.of(Reports.thermometer("t1", "weeding", T + 1_000, -3.5)))
                 .plus(CatalogEntry.of(Reports.thermometer("t1", "weeding", T + 4_000, 31)));
 
-        assertThat(new String(entry.toBytes(), StandardCharsets.UTF_8))
+        assertThat(new String(entry.toBytes(null), StandardCharsets.UTF_8))
                 .isEqualTo(
                         "{\"service\":\"farm\",\"domain\":\"north\",\"mission\":\"weeding\",\"type\":\"Thermometer\","
                                 + "\"entities\":1,\"events\":3,\"bytes\":" + entry.bytes()

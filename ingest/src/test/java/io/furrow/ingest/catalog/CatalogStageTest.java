@@ -70,9 +70,7 @@ class CatalogStageTest {
 
     @Test
     void mergesEntitiesToOneRecordPerInterval() throws Exception {
-        try (var harness = new KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord>(
-                new KeyedProcessOperator<>(new MergeCatalog(INTERVAL)), CatalogEntry::key, Types.STRING)) {
-            harness.open();
+        try (var harness = merging()) {
             for (int i = 0; i < 100; i++) {
                 CatalogEntry entry = CatalogEntry.of(Reports.thermometer("t" + i, "m", T + i, i));
                 harness.processElement(entry.andEntities(1), T + i);
@@ -85,7 +83,71 @@ class CatalogStageTest {
                 assertThat(NgsiJson.read(record.value()).path("entities").asInt())
                         .isEqualTo(100);
             });
+        }
+    }
+
+    @Test
+    void removesAnEntryThatHasHadNoEventForTheRetention() throws Exception {
+        try (var harness = merging()) {
+            for (int day = 0; day < 3; day++) {
+                long time = T + Duration.ofDays(20L * day).toMillis();
+                harness.processElement(CatalogEntry.of(Reports.thermometer("t", "m", time, 1)), time);
+                harness.processWatermark(time + 10_000);
+            }
+            assertThat(harness.extractOutputValues()).hasSize(3).noneMatch(record -> record.value() == null);
+            assertThat(harness.numEventTimeTimers())
+                    .as("one, however often it was written")
+                    .isEqualTo(1);
+
+            harness.processWatermark(T + Duration.ofDays(71).toMillis());
+
+            assertThat(harness.extractOutputValues()).hasSize(4).last().satisfies(record -> {
+                assertThat(record.key()).asString().isEqualTo("farm|north|m|Thermometer");
+                assertThat(record.value()).isNull();
+            });
+            assertThat(harness.numKeyedStateEntries()).isZero();
             assertThat(harness.numEventTimeTimers()).isZero();
+        }
+    }
+
+    @Test
+    void marksAnEntryWhoseLastEntityIsDeletedUntilAnEventComes() throws Exception {
+        try (var harness = merging()) {
+            CatalogEntry one = CatalogEntry.of(Reports.thermometer("t", "m", T, 1));
+            harness.processElement(one.andEntities(1), T);
+            harness.processElement(one.onlyEntities(-1), T + 5);
+            harness.processWatermark(T + 10_000);
+            harness.processElement(CatalogEntry.of(Reports.thermometer("t", "m", T + 11_000, 1)), T + 11_000);
+            harness.processWatermark(T + 20_000);
+
+            assertThat(harness.extractOutputValues())
+                    .extracting(record ->
+                            NgsiJson.read(record.value()).path("deleted").asText("none"))
+                    .containsExactly("2023-11-14T22:13:20.005Z", "none");
+        }
+    }
+
+    @Test
+    void makesNoEntryOfADeletionAlone() throws Exception {
+        try (var harness = merging()) {
+            harness.processElement(
+                    CatalogEntry.of(Reports.thermometer("t", "m", T, 1)).onlyEntities(-1), T);
+            harness.processWatermark(T + 10_000);
+
+            assertThat(harness.extractOutputValues()).isEmpty();
+            assertThat(harness.numKeyedStateEntries()).isZero();
+        }
+    }
+
+    @Test
+    void keepsItsEntriesAtTheEndOfTheInput() throws Exception {
+        try (var harness = merging()) {
+            harness.processElement(CatalogEntry.of(Reports.thermometer("t", "m", T, 1)), T);
+            harness.processWatermark(Long.MAX_VALUE);
+
+            assertThat(harness.extractOutputValues())
+                    .singleElement()
+                    .satisfies(record -> assertThat(record.value()).isNotNull());
         }
     }
 
@@ -100,6 +162,16 @@ class CatalogStageTest {
             throws Exception {
         var harness = new KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, CatalogEntry>(
                 new KeyedProcessOperator<>(new ProfileEntities(INTERVAL)), ReportedEvent::identity, Types.STRING);
+        harness.open();
+        return harness;
+    }
+
+    private static KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord> merging()
+            throws Exception {
+        var harness = new KeyedOneInputStreamOperatorTestHarness<String, CatalogEntry, TopicRecord>(
+                new KeyedProcessOperator<>(new MergeCatalog(INTERVAL, Duration.ofDays(30))),
+                CatalogEntry::key,
+                Types.STRING);
         harness.open();
         return harness;
     }

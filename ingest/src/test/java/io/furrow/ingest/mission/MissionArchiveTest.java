@@ -7,8 +7,10 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.time.Clock;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.ArrayList;
 import java.util.Collections;
+import java.util.Date;
 import java.util.List;
 import java.util.Map;
 import java.util.Random;
@@ -18,6 +20,7 @@ import java.util.stream.Stream;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.model.Filters;
 import org.apache.flink.core.fs.Path;
+import org.bson.Document;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -129,6 +132,65 @@ class MissionArchiveTest {
         assertThat(MissionFiles.importFrom(missions, "other", file, ignored -> {}))
                 .isEqualTo(awkward().size());
         assertThat(exported("other")).isEqualTo(exported("m"));
+    }
+
+    @Test
+    void leavesTheFileThatIsThereWhereAnExportFails() throws Exception {
+        store(awkward());
+        Path file = new Path(directory.resolve("files/m.ndjson.gz").toUri());
+        MissionFiles.export(missions, "m", file, ignored -> {});
+        byte[] first = Files.readAllBytes(directory.resolve("files/m.ndjson.gz"));
+        client.getDatabase("persistence")
+                .getCollection("mission_m")
+                .insertOne(new Document("_id", "z").append("_time", new Date(Events.TIME + DAY)));
+
+        assertThatThrownBy(() -> MissionFiles.export(missions, "m", file, ignored -> {}))
+                .hasMessageContaining("a document that ingest did not write");
+
+        assertThat(Files.readAllBytes(directory.resolve("files/m.ndjson.gz"))).isEqualTo(first);
+        assertThat(files(new Path(directory.resolve("files").toUri())))
+                .as("nothing half-written stays")
+                .containsExactly("m.ndjson.gz");
+    }
+
+    @Test
+    void knowsAMissionByItsNameAndByWhatStandsForIt() throws Exception {
+        String lengthy = "a very long name ".repeat(10);
+        store(List.of(
+                Events.event("field.7", "a", Events.TIME, "{\"id\":\"t\"}"),
+                Events.event(
+                        lengthy,
+                        "b",
+                        Events.TIME,
+                        "{\"id\":\"t\",\"Mission\":{\"type\":\"String\",\"value\":\"" + lengthy + "\"}}"),
+                Events.event("of service.devices ".repeat(10), "c", Events.TIME, "{\"id\":\"t\"}")));
+
+        List<StoredMissions.Summary> all = missions.all();
+        assertThat(all).extracting(StoredMissions.Summary::mission).contains("field.7", lengthy);
+        assertThat(all).extracting(StoredMissions.Summary::mission).anyMatch(name -> name.startsWith("_h-"));
+        for (StoredMissions.Summary summary : all) {
+            String part = summary.collection().substring("mission_".length());
+            assertThat(missions.has(summary.mission())).isTrue();
+            assertThat(missions.has(part)).isTrue();
+            assertThat(exported(part)).isEqualTo(exported(summary.mission())).isNotEmpty();
+        }
+        assertThat(missions.has("_h-" + "0".repeat(64))).isFalse();
+    }
+
+    @Test
+    void tellsSizeTimesIndexesOfEachMission() throws Exception {
+        store(awkward());
+
+        assertThat(missions.all()).singleElement().satisfies(summary -> {
+            assertThat(summary.mission()).isEqualTo("m");
+            assertThat(summary.collection()).isEqualTo("mission_m");
+            assertThat(summary.events()).isEqualTo(awkward().size());
+            assertThat(summary.bytes()).isGreaterThan(100);
+            assertThat(summary.first()).isEqualTo(Instant.EPOCH);
+            assertThat(summary.last()).isEqualTo(Instant.ofEpochMilli(Events.TIME));
+            assertThat(summary.indexes()).contains("event-time", "entity-and-event-time");
+            assertThat(summary.retention()).isNull();
+        });
     }
 
     @Test

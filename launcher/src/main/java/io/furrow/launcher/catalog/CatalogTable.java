@@ -33,7 +33,7 @@ public final class CatalogTable {
                     entry.path("images").asText(),
                     size(entry.path("imageBytes").asLong()),
                     second(entry, "first"),
-                    second(entry, "last")));
+                    second(entry, "last") + (entry.has("deleted") ? "  deleted " + second(entry, "deleted") : "")));
             for (Map.Entry<String, JsonNode> attribute :
                     entry.path("attributes").properties()) {
                 lines.add(attribute(attribute.getKey(), attribute.getValue()));
@@ -61,7 +61,7 @@ public final class CatalogTable {
                 second(profile, "last"));
     }
 
-    private static String place(JsonNode entry) {
+    static String place(JsonNode entry) {
         String domain = entry.path("domain").asText();
         String mission = entry.path("mission").asText();
         return (domain.isEmpty() ? "–" : domain) + " / " + (mission.isEmpty() ? "–" : mission);

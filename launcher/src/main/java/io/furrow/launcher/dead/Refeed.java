@@ -3,7 +3,7 @@ package io.furrow.launcher.dead;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.HashMap;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
@@ -11,11 +11,9 @@ import java.util.Set;
 import java.util.TreeMap;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
-import org.apache.kafka.clients.consumer.ConsumerGroupMetadata;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.clients.consumer.OffsetAndMetadata;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerConfig;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -29,13 +27,17 @@ import io.furrow.model.event.DeadLetter;
 
 /**
  * Brings dead letters back to a topic as they were: key, bytes, time and headers, without those that say why they were set
- * aside. What is written and how far was read are one transaction, so that no letter is fed twice by the same group. Reads up
- * to the end that the topic had at the beginning: a letter that dies again waits for the next time.
+ * aside. What is written and the memory of it are one transaction, so that no letter is fed twice. Reads up to the end that the
+ * topic had at the beginning: a letter that dies again waits for the next time.
  */
 public final class Refeed {
+    /**
+     * Who sets aside a copy: the event went on without its image, to its topics though not to MongoDB, or to the other jobs.
+     * Fed again it would be there twice, so these letters must be asked for by name.
+     */
+    public static final Set<String> WENT_ON = Set.of("ingest-images", "missions", "temperature", "collision");
+
     private static final Duration PATIENCE = Duration.ofSeconds(30);
-    private static final Set<String> ADDED =
-            Set.of(DeadLetter.REASON, DeadLetter.MESSAGE, DeadLetter.STAGE, DeadLetter.SOURCE);
     private static final String OTHER = "no dead letter";
     private static final String TRUNCATED = "truncated";
 
@@ -44,15 +46,31 @@ public final class Refeed {
      *
      * @param from topic of the dead letters
      * @param to topic to which they go
-     * @param reasons those wanted; empty for all
      * @param again whether those are fed again that were fed before
      * @param dryRun whether they are only counted
      */
-    public record Wish(String from, String to, Set<String> reasons, boolean again, boolean dryRun) {
-        /** Each choice of reasons has its own memory of what was fed. */
-        String group() {
-            String chosen = reasons.isEmpty() ? "" : "-" + String.join("-", new java.util.TreeSet<>(reasons));
-            return "furrow-refeed-" + from + "-" + to + chosen;
+    public record Wish(String from, String to, Choice choice, boolean again, boolean dryRun) {}
+
+    /**
+     * Which letters.
+     *
+     * @param reasons those wanted; empty for all
+     * @param stages those wanted; empty for all but {@link #WENT_ON}
+     */
+    public record Choice(Set<String> reasons, Set<String> stages) {
+        boolean isOf(Kind kind) {
+            boolean wanted = stages.isEmpty() ? !WENT_ON.contains(kind.stage()) : stages.contains(kind.stage());
+            return wanted && (reasons.isEmpty() || reasons.contains(kind.reason()));
+        }
+    }
+
+    /** What a letter says of itself. */
+    record Kind(String reason, String stage) {
+        /** For people. */
+        String told() {
+            return WENT_ON.contains(stage)
+                    ? reason + " of " + stage + ", whose event went on"
+                    : reason + " of " + stage;
         }
     }
 
@@ -67,6 +85,7 @@ public final class Refeed {
     private final Wish wish;
     private final Map<String, Long> fed = new TreeMap<>();
     private final Map<String, Long> left = new TreeMap<>();
+    private RefeedMemory memory;
 
     /** @param kafka what every client needs, {@code bootstrap.servers} at least */
     public Refeed(Properties kafka, Wish wish) {
@@ -81,13 +100,15 @@ public final class Refeed {
             assign(consumer);
             Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment(), PATIENCE);
             if (producer != null) {
-                producer.initTransactions();
+                producer.initTransactions(); // another that feeds the same is out from here on, and what it did is
+                // known
             }
+            memory = RefeedMemory.read(kafka, wish, producer != null);
             long until = System.nanoTime() + PATIENCE.toNanos();
             while (isBehind(consumer, ends)) {
                 ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
                 if (!records.isEmpty()) {
-                    feed(records, ends, producer, consumer.groupMetadata());
+                    feed(records, ends, producer);
                     until = System.nanoTime() + PATIENCE.toNanos();
                 } else if (System.nanoTime() > until) {
                     throw new IOException("the end of " + wish.from() + " was not reached; does its broker answer?");
@@ -105,9 +126,7 @@ public final class Refeed {
         consumer.assign(partitions.stream()
                 .map(partition -> new TopicPartition(wish.from(), partition.partition()))
                 .toList());
-        if (wish.again()) {
-            consumer.seekToBeginning(consumer.assignment());
-        }
+        consumer.seekToBeginning(consumer.assignment());
     }
 
     private static boolean isBehind(KafkaConsumer<byte[], byte[]> consumer, Map<TopicPartition, Long> ends) {
@@ -117,43 +136,42 @@ public final class Refeed {
     private void feed(
             ConsumerRecords<byte[], byte[]> records,
             Map<TopicPartition, Long> ends,
-            KafkaProducer<byte[], byte[]> producer,
-            ConsumerGroupMetadata group) {
-        Map<TopicPartition, OffsetAndMetadata> done = new HashMap<>();
-        if (producer != null) {
-            producer.beginTransaction();
-        }
+            KafkaProducer<byte[], byte[]> producer) {
+        List<ProducerRecord<byte[], byte[]>> originals = new ArrayList<>();
         for (ConsumerRecord<byte[], byte[]> letter : records) {
-            TopicPartition partition = new TopicPartition(letter.topic(), letter.partition());
-            if (letter.offset() >= ends.get(partition)) {
-                continue;
-            }
-            done.put(partition, new OffsetAndMetadata(letter.offset() + 1));
-            if (isWanted(letter) && producer != null) {
-                producer.send(original(letter));
+            boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
+            if (!isNew && isWanted(letter)) {
+                originals.add(original(letter));
             }
         }
-        if (producer != null) {
-            producer.sendOffsetsToTransaction(done, group);
+        List<ProducerRecord<byte[], byte[]>> done = memory.changes();
+        if (producer != null && !originals.isEmpty()) {
+            producer.beginTransaction();
+            originals.forEach(producer::send);
+            done.forEach(producer::send);
             producer.commitTransaction();
         }
     }
 
     private boolean isWanted(ConsumerRecord<byte[], byte[]> letter) {
-        String reason = header(letter, DeadLetter.REASON);
-        if (reason.isEmpty()) {
+        Kind kind = new Kind(header(letter, DeadLetter.REASON), header(letter, DeadLetter.STAGE));
+        if (kind.reason().isEmpty()) {
             left.merge(OTHER, 1L, Long::sum);
             return false;
         }
-        if (!wish.reasons().isEmpty() && !wish.reasons().contains(reason)) {
-            left.merge(reason, 1L, Long::sum);
+        if (!wish.again() && memory.holds(letter.partition(), kind, letter.offset())) {
+            return false;
+        }
+        if (!wish.choice().isOf(kind)) {
+            left.merge(kind.told(), 1L, Long::sum);
             return false;
         }
         if (header(letter, DeadLetter.MESSAGE).contains("(truncated")) {
             left.merge(TRUNCATED, 1L, Long::sum);
             return false;
         }
-        fed.merge(reason, 1L, Long::sum);
+        memory.add(letter.partition(), kind, letter.offset());
+        fed.merge(kind.reason(), 1L, Long::sum);
         return true;
     }
 
@@ -161,7 +179,7 @@ public final class Refeed {
         ProducerRecord<byte[], byte[]> record =
                 new ProducerRecord<>(wish.to(), null, letter.timestamp(), letter.key(), letter.value());
         for (Header header : letter.headers()) {
-            if (!ADDED.contains(header.key())) {
+            if (!DeadLetter.HEADERS.contains(header.key())) {
                 record.headers().add(header);
             }
         }
@@ -176,10 +194,7 @@ public final class Refeed {
     private KafkaConsumer<byte[], byte[]> consumer() {
         Properties settings = new Properties();
         settings.putAll(kafka);
-        settings.setProperty(ConsumerConfig.GROUP_ID_CONFIG, wish.group());
         settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
-        settings.setProperty(ConsumerConfig.AUTO_OFFSET_RESET_CONFIG, "earliest");
-        settings.setProperty(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, "false");
         settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
         return new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
     }
@@ -187,7 +202,7 @@ public final class Refeed {
     private KafkaProducer<byte[], byte[]> producer() {
         Properties settings = new Properties();
         settings.putAll(kafka);
-        settings.setProperty(ProducerConfig.TRANSACTIONAL_ID_CONFIG, wish.group());
+        settings.setProperty(ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-refeed-" + wish.from() + "-" + wish.to());
         settings.setProperty(ProducerConfig.MAX_REQUEST_SIZE_CONFIG, Integer.toString(16 * 1024 * 1024));
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
     }

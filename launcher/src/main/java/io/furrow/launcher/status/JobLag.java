@@ -6,9 +6,11 @@ import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.time.Duration;
+import java.util.Locale;
 import java.util.Map;
 import java.util.OptionalLong;
 import java.util.TreeMap;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.slf4j.Logger;
@@ -16,16 +18,22 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** How many records each job has still to read, as Flink's own metric {@code pendingRecords} says (at most 10 s old). */
+/**
+ * How many records each job has still to read, as Flink's own metric {@code pendingRecords} says (at most 10 s old); of a job
+ * with several sources, each of them.
+ */
 final class JobLag {
     private static final Logger LOG = LoggerFactory.getLogger(JobLag.class);
     private static final String METRIC_END = ".pendingRecords";
+    /** How Flink begins the name of a source's vertex, and how Furrow does. */
+    private static final Pattern SOURCE = Pattern.compile("^(.*\\.)?Source__(Read_)?");
 
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final URI flink;
     private final Map<String, String> jobs;
-    private final Map<String, URI> metrics = new TreeMap<>();
+    /** By job, then by source. */
+    private final Map<String, Map<String, URI>> metrics = new TreeMap<>();
 
     /** @param jobs ids by name */
     JobLag(URI flink, Map<String, String> jobs) {
@@ -33,12 +41,15 @@ final class JobLag {
         this.jobs = jobs;
     }
 
-    /** Pending records by job; empty for a job that has not told yet, or while Flink is too busy to tell. */
+    /**
+     * Pending records by job, or by job and source where it has several ({@code ingest devices}); empty for one that has not
+     * told yet, or while Flink is too busy to tell.
+     */
     Map<String, OptionalLong> read() throws InterruptedException {
         Map<String, OptionalLong> lags = new TreeMap<>();
         for (String name : jobs.keySet()) {
             try {
-                lags.put(name, pending(name));
+                lags.putAll(pending(name));
             } catch (IOException e) {
                 LOG.debug("no lag of {}", name, e);
                 lags.put(name, OptionalLong.empty());
@@ -47,32 +58,54 @@ final class JobLag {
         return lags;
     }
 
-    private OptionalLong pending(String name) throws IOException, InterruptedException {
-        URI metric = metrics.get(name);
-        if (metric == null) {
-            metric = find(jobs.get(name));
-            if (metric == null) {
-                return OptionalLong.empty();
+    private Map<String, OptionalLong> pending(String name) throws IOException, InterruptedException {
+        Map<String, URI> sources = metrics.get(name);
+        if (sources == null) {
+            Sources found = find(jobs.get(name));
+            sources = found.metrics();
+            if (found.areAllThere()) {
+                metrics.put(name, sources);
             }
-            metrics.put(name, metric);
         }
-        JsonNode sum = get(metric).path(0).path("sum");
-        return sum.isNumber() ? OptionalLong.of(sum.longValue()) : OptionalLong.empty();
+        if (sources.isEmpty()) {
+            return Map.of(name, OptionalLong.empty());
+        }
+        Map<String, OptionalLong> lags = new TreeMap<>();
+        for (Map.Entry<String, URI> source : sources.entrySet()) {
+            JsonNode sum = get(source.getValue()).path(0).path("sum");
+            lags.put(
+                    sources.size() == 1 ? name : name + " " + source.getKey(),
+                    sum.isNumber() ? OptionalLong.of(sum.longValue()) : OptionalLong.empty());
+        }
+        return lags;
     }
 
-    /** The source is the first vertex; its metric's name holds the operator's name. */
-    private URI find(String job) throws IOException, InterruptedException {
+    /** A source has the metric when it has read for the first time. */
+    private record Sources(Map<String, URI> metrics, boolean areAllThere) {}
+
+    private Sources find(String job) throws IOException, InterruptedException {
+        Map<String, URI> found = new TreeMap<>();
+        int sources = 0;
         for (JsonNode vertex : get(flink.resolve("/jobs/" + job)).path("vertices")) {
+            if (!vertex.path("name").asText().startsWith("Source: ")) {
+                continue;
+            }
+            sources++;
             URI all = flink.resolve(
                     "/jobs/" + job + "/vertices/" + vertex.path("id").asText() + "/subtasks/metrics");
             for (JsonNode metric : get(all)) {
                 String id = metric.path("id").asText();
                 if (id.endsWith(METRIC_END)) {
-                    return URI.create(all + "?agg=sum&get=" + id);
+                    found.put(source(id), URI.create(all + "?agg=sum&get=" + id));
                 }
             }
         }
-        return null;
+        return new Sources(found, sources > 0 && found.size() == sources);
+    }
+
+    private static String source(String metric) {
+        String operator = metric.substring(0, metric.length() - METRIC_END.length());
+        return SOURCE.matcher(operator).replaceFirst("").replace('_', ' ').toLowerCase(Locale.ROOT);
     }
 
     private JsonNode get(URI uri) throws IOException, InterruptedException {

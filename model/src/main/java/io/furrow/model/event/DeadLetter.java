@@ -3,6 +3,7 @@ package io.furrow.model.event;
 import java.nio.charset.StandardCharsets;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.Set;
 
 import io.furrow.model.ngsi.Reason;
 
@@ -21,6 +22,8 @@ public record DeadLetter(Reason reason, String message, String stage, String sou
     public static final String MESSAGE = "dead-message";
     public static final String STAGE = "dead-stage";
     public static final String SOURCE = "dead-source";
+    /** All headers of a dead letter that the original did not have. */
+    public static final Set<String> HEADERS = Set.of(REASON, MESSAGE, STAGE, SOURCE);
 
     public DeadLetter {
         String sentence = message == null ? reason.code() : message;

@@ -1,9 +1,11 @@
 package io.furrow.model.topic;
 
+import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
+import java.util.Optional;
 
 /**
  * The part of a topic's name that a domain or mission becomes. Names of 1 to 64 of {@code A-Z a-z 0-9 _ -} stand as they
@@ -44,6 +46,31 @@ public final class TopicName {
         boolean encodingLike = name.startsWith("_x-") || name.startsWith("_h-");
         boolean topicLike = name.contains("_realtime") || name.equals("dead") || name.endsWith("_dead");
         return isLegal(name) && !encodingLike && !topicLike ? name : encoded(name);
+    }
+
+    /** The name that became this part of a topic's name; empty where only its hash is known, or where no name becomes it. */
+    public static Optional<String> original(String part) {
+        String name = part.startsWith("_x-") ? decoded(part.substring(3)) : part;
+        return of(name).equals(part) ? Optional.of(name) : Optional.empty();
+    }
+
+    private static String decoded(String encoded) {
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+        int at = 0;
+        while (at < encoded.length()) {
+            boolean escaped = encoded.charAt(at) == '-' && at + 3 <= encoded.length();
+            int value = escaped ? hexadecimal(encoded.substring(at + 1, at + 3)) : encoded.charAt(at);
+            bytes.write(value);
+            at += escaped ? 3 : 1;
+        }
+        return bytes.toString(StandardCharsets.UTF_8);
+    }
+
+    /** A sign that is not written so for what is none: the check of the whole name finds it. */
+    private static int hexadecimal(String digits) {
+        int high = Character.digit(digits.charAt(0), 16);
+        int low = Character.digit(digits.charAt(1), 16);
+        return high < 0 || low < 0 ? 0 : high * 16 + low;
     }
 
     private static String encoded(String name) {

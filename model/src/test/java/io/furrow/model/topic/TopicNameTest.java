@@ -60,6 +60,31 @@ class TopicNameTest {
         assertThat(TopicName.of(name)).isEqualTo(expected);
     }
 
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "a",
+                "field.7",
+                "ñandú 🚜",
+                "_x-a",
+                "_h-a",
+                "dead",
+                "a_realtime_b",
+                " ",
+                "a-2Eb",
+                "%",
+                "_x-field-2E7"
+            })
+    void givesTheOriginalBack(String name) {
+        assertThat(TopicName.original(TopicName.of(name))).contains(name);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"_x-a", "_x-field-2e7", "_x-a-", "_x-a-ZZ", "_h-00", "a.b", "dead"})
+    void givesNoOriginalOfWhatNoNameBecomes(String part) {
+        assertThat(TopicName.original(part)).isEmpty();
+    }
+
     @Test
     void hashesWhatWouldGrowTooLong() {
         assertThat(TopicName.of("x".repeat(64))).isEqualTo("x".repeat(64));

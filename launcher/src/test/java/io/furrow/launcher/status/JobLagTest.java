@@ -1,0 +1,89 @@
+package io.furrow.launcher.status;
+
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.OptionalLong;
+
+import com.sun.net.httpserver.HttpServer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class JobLagTest {
+    private final Map<String, String> answers = new HashMap<>();
+    private HttpServer flink;
+    private URI uri;
+
+    @BeforeEach
+    void start() throws Exception {
+        flink = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        flink.createContext("/", exchange -> {
+            byte[] body = answers.getOrDefault(exchange.getRequestURI().toString(), "[]")
+                    .getBytes(StandardCharsets.UTF_8);
+            exchange.sendResponseHeaders(200, body.length);
+            exchange.getResponseBody().write(body);
+            exchange.close();
+        });
+        flink.start();
+        uri = URI.create("http://127.0.0.1:" + flink.getAddress().getPort());
+    }
+
+    @AfterEach
+    void stop() {
+        flink.stop(0);
+    }
+
+    @Test
+    void namesTheJobWhereItHasOneSourceAndEachSourceWhereItHasMore() throws Exception {
+        job("1", Map.of("a", "Source: Read reported changes -> Read positions", "b", "Grid"));
+        metric("1", "a", "Source__Read_reported_changes.pendingRecords", 7);
+        job(
+                "2",
+                Map.of(
+                        "c",
+                        "Source: Read reported events -> Recognize events",
+                        "d",
+                        "Source: Read devices -> Recognize devices"));
+        metric("2", "c", "Source__Read_reported_events.pendingRecords", 5);
+        metric("2", "d", "Source__Read_devices.pendingRecords", 0);
+        JobLag lag = new JobLag(uri, Map.of("collision", "1", "ingest", "2"));
+
+        assertThat(lag.read())
+                .containsExactlyInAnyOrderEntriesOf(Map.of(
+                        "collision", OptionalLong.of(7),
+                        "ingest reported events", OptionalLong.of(5),
+                        "ingest devices", OptionalLong.of(0)));
+    }
+
+    @Test
+    void asksAgainForASourceThatHasNotReadYet() throws Exception {
+        job("2", Map.of("c", "Source: Read reported events", "d", "Source: Read devices"));
+        JobLag lag = new JobLag(uri, Map.of("ingest", "2"));
+        assertThat(lag.read()).containsExactly(Map.entry("ingest", OptionalLong.empty()));
+
+        metric("2", "c", "Source__Read_reported_events.pendingRecords", 5);
+        assertThat(lag.read()).containsExactly(Map.entry("ingest", OptionalLong.of(5)));
+
+        metric("2", "d", "Source__Read_devices.pendingRecords", 1);
+        assertThat(lag.read()).containsKeys("ingest reported events", "ingest devices");
+    }
+
+    private void job(String id, Map<String, String> vertices) {
+        StringBuilder json = new StringBuilder();
+        vertices.forEach((vertex, name) -> json.append(json.isEmpty() ? "" : ",")
+                .append("{\"id\":\"%s\",\"name\":\"%s\"}".formatted(vertex, name)));
+        answers.put("/jobs/" + id, "{\"vertices\":[" + json + "]}");
+    }
+
+    private void metric(String job, String vertex, String id, long sum) {
+        String path = "/jobs/" + job + "/vertices/" + vertex + "/subtasks/metrics";
+        answers.put(path, "[{\"id\":\"0.other\"},{\"id\":\"" + id + "\"}]");
+        answers.put(path + "?agg=sum&get=" + id, "[{\"id\":\"" + id + "\",\"sum\":" + sum + "}]");
+    }
+}
