@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
@@ -25,9 +26,29 @@ public final class CollisionEntity {
                 .build();
     }
 
+    /** An entity of its own, {@code Analytics:Collision:<pair>:<phase>}: the pair's encounter stays as it is. */
+    public static Entity of(Approach approach) {
+        String phase = approach.phase().code();
+        EntityBuilder entity = Entity.builder(TYPE + ":" + approach.pairId() + ":" + phase, TYPE)
+                .number("distance", approach.distance())
+                .integer("time", approach.time());
+        device(entity, "Device1", approach.first());
+        device(entity, "Device2", approach.second());
+        return entity.text("encounter", approach.id())
+                .text("phase", phase)
+                .number("tcpa", approach.tcpa())
+                .number("dcpa", approach.dcpa())
+                .integer("startTime", approach.startTime())
+                .build();
+    }
+
     /** The record's key: both entity ids, the lesser first. */
     public static String key(Encounter encounter) {
-        return encounter.first().id() + "-" + encounter.second().id();
+        return key(encounter.first(), encounter.second());
+    }
+
+    static String key(PositionFix first, PositionFix second) {
+        return first.id() + "-" + second.id();
     }
 
     private static void device(EntityBuilder entity, String name, PositionFix fix) {

@@ -4,6 +4,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.collision.motion.MotionDetection;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
@@ -62,8 +63,9 @@ public final class CollisionJob {
                 .uid("assign-carriers")
                 .name("Assign carriers");
 
-        return results(CollisionDetection.define(fixes, options.rules()), options)
+        DataStream<TopicRecord> results = results(CollisionDetection.define(fixes, options.rules()), options)
                 .union(read.getSideOutput(DeadLetters.TAG), devices.getSideOutput(DeadLetters.TAG));
+        return options.motionRules().any() ? results.union(approaches(fixes, options)) : results;
     }
 
     private static DataStream<TopicRecord> results(CollisionDetection detection, CollisionOptions options) {
@@ -90,5 +92,14 @@ public final class CollisionJob {
                 .name("Describe crowded cells as entities");
 
         return encounters.union(late, overflows);
+    }
+
+    /** Beside the encounters, and only where asked for. */
+    private static DataStream<TopicRecord> approaches(DataStream<PositionFix> fixes, CollisionOptions options) {
+        String output = options.output();
+        return MotionDetection.define(fixes, options.motionRules())
+                .map(approach -> CollisionRecord.of(approach, output))
+                .uid("describe-approaches")
+                .name("Describe predictions and crossings as entities");
     }
 }

@@ -6,6 +6,8 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.collision.motion.MotionOptions;
+import io.furrow.analytics.collision.motion.MotionRules;
 import io.furrow.flink.JobOptions;
 import io.furrow.model.topic.Topics;
 
@@ -19,6 +21,9 @@ import io.furrow.model.topic.Topics;
 public final class CollisionOptions extends JobOptions implements Callable<Integer> {
     @Mixin
     private final RuleOptions rules = new RuleOptions();
+
+    @Mixin
+    private MotionOptions motion;
 
     @Option(
             names = "--devices",
@@ -66,6 +71,15 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
 
     public String devices() {
         return devices;
+    }
+
+    /** What is predicted and crossed; nothing unless asked for. */
+    public MotionRules motionRules() {
+        try {
+            return motion.rules(rules());
+        } catch (IllegalArgumentException e) {
+            throw refused(e.getMessage(), e);
+        }
     }
 
     public String output() {

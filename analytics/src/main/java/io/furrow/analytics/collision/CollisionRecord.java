@@ -2,6 +2,7 @@ package io.furrow.analytics.collision;
 
 import java.util.HexFormat;
 
+import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
@@ -39,6 +40,17 @@ final class CollisionRecord {
                 .integer("pairsLeftOut", overflow.pairsLeftOut())
                 .build();
         return ResultRecord.of(topic, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
+    }
+
+    /** In the same scope. */
+    static TopicRecord of(Approach approach, String topic) {
+        return ResultRecord.of(
+                topic,
+                CollisionEntity.key(approach.first(), approach.second()),
+                CollisionEntity.of(approach),
+                approach.first().scope(),
+                approach.time(),
+                SOURCE);
     }
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */

@@ -6,12 +6,12 @@ import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
 /** The first 128 bits of a SHA-256 over two identities, in lower-case hexadecimal. */
-final class PairId {
+public final class PairId {
     private static final int BYTES = 16;
 
     private PairId() {}
 
-    static String of(String first, String second) {
+    public static String of(String first, String second) {
         String text = first.length() + ":" + first + second;
         try {
             byte[] digest = MessageDigest.getInstance("SHA-256").digest(text.getBytes(StandardCharsets.UTF_8));

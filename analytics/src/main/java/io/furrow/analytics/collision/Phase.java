@@ -7,7 +7,11 @@ public enum Phase {
     STARTED,
     /** The devices are still close; reported at a limited rate. */
     ONGOING,
-    ENDED;
+    ENDED,
+    /** The devices are on courses that will bring them close. */
+    PREDICTED,
+    /** The devices came close between their reports, though no report shows it. */
+    CROSSED;
 
     /** The name as it stands in messages, for instance {@code started}. */
     public String code() {

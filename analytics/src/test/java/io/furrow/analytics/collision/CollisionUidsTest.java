@@ -10,9 +10,19 @@ import static org.assertj.core.api.Assertions.assertThat;
 class CollisionUidsTest {
     @Test
     void keepsTheUidsThatSavepointsKnow() {
-        CollisionOptions options = new CollisionOptions();
-        JobCommandLine.of(options).parseArgs();
+        assertThat(JobUids.of(CollisionJob.assemble(options()))).isEqualTo(JobUids.checkedIn("collision"));
+    }
 
-        assertThat(JobUids.of(CollisionJob.assemble(options))).isEqualTo(JobUids.checkedIn("collision"));
+    @Test
+    void keepsThemAlsoForPredictionsAndCrossings() {
+        CollisionOptions options = options("--horizon", "10s", "--crossed");
+
+        assertThat(JobUids.of(CollisionJob.assemble(options))).isEqualTo(JobUids.checkedIn("collision-motion"));
+    }
+
+    private static CollisionOptions options(String... args) {
+        CollisionOptions options = new CollisionOptions();
+        JobCommandLine.of(options).parseArgs(args);
+        return options;
     }
 }

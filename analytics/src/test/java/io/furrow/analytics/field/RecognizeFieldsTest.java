@@ -6,6 +6,8 @@ import java.util.List;
 import org.apache.flink.streaming.api.operators.ProcessOperator;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.OneInputStreamOperatorTestHarness;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -23,6 +25,17 @@ class RecognizeFieldsTest {
     private static final String SPRING = "2026-03-01T00:00:00.000Z";
 
     private final FieldRecords topic = new FieldRecords();
+    private OneInputStreamOperatorTestHarness<TopicRecord, TopicRecord> operator;
+
+    @BeforeEach
+    void create() throws Exception {
+        operator = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(new RecognizeFields("presence")));
+    }
+
+    @AfterEach
+    void close() throws Exception {
+        operator.close();
+    }
 
     @Test
     void passesVersionsEndsAndWhatIsTakenAwayOn() throws Exception {
@@ -31,13 +44,13 @@ class RecognizeFieldsTest {
         topic.takeAway("f", 200);
         topic.add("f@2026-03-01T00:00:00Z", feature("f", SQUARE));
 
-        try (var operator = recognize()) {
-            assertThat(operator.extractOutputValues())
-                    .extracting(TopicRecord::position)
-                    .containsExactly(
-                            "service.fields-0@0", "service.fields-0@1", "service.fields-0@2", "service.fields-0@3");
-            assertThat(operator.getSideOutput(DeadLetters.TAG)).isNullOrEmpty();
-        }
+        recognize();
+
+        assertThat(operator.extractOutputValues())
+                .extracting(TopicRecord::position)
+                .containsExactly(
+                        "service.fields-0@0", "service.fields-0@1", "service.fields-0@2", "service.fields-0@3");
+        assertThat(operator.getSideOutput(DeadLetters.TAG)).isNullOrEmpty();
     }
 
     @ParameterizedTest
@@ -51,38 +64,36 @@ class RecognizeFieldsTest {
         String area = geometry.replace("SQUARE", SQUARE).replace("CROSSED", CROSSED);
         TopicRecord bad = topic.add(key.replace("SPRING", SPRING), feature(id, area));
 
-        try (var operator = recognize()) {
-            assertThat(operator.extractOutputValues()).isEmpty();
-            List<TopicRecord> dead = operator.getSideOutput(DeadLetters.TAG).stream()
-                    .map(StreamRecord::getValue)
-                    .toList();
-            assertThat(dead).hasSize(1);
-            assertThat(dead.get(0).topic()).isEqualTo("service.fields.dead");
-            assertThat(dead.get(0).value()).isEqualTo(bad.value());
-            assertThat(dead.get(0).headers())
-                    .containsEntry(DeadLetter.REASON, reason)
-                    .containsEntry(DeadLetter.STAGE, "presence")
-                    .hasEntrySatisfying(
-                            DeadLetter.MESSAGE, message -> assertThat(message).contains(why == null ? "" : why));
-        }
+        recognize();
+
+        assertThat(operator.extractOutputValues()).isEmpty();
+        List<TopicRecord> dead = operator.getSideOutput(DeadLetters.TAG).stream()
+                .map(StreamRecord::getValue)
+                .toList();
+        assertThat(dead).hasSize(1);
+        assertThat(dead.get(0).topic()).isEqualTo("service.fields.dead");
+        assertThat(dead.get(0).value()).isEqualTo(bad.value());
+        assertThat(dead.get(0).headers())
+                .containsEntry(DeadLetter.REASON, reason)
+                .containsEntry(DeadLetter.STAGE, "presence")
+                .hasEntrySatisfying(
+                        DeadLetter.MESSAGE, message -> assertThat(message).contains(why == null ? "" : why));
     }
 
     @Test
     void setsARecordWithoutAKeyAside() throws Exception {
         topic.add(null, feature("f", SQUARE));
 
-        try (var operator = recognize()) {
-            assertThat(operator.getSideOutput(DeadLetters.TAG)).hasSize(1);
-        }
+        recognize();
+
+        assertThat(operator.getSideOutput(DeadLetters.TAG)).hasSize(1);
     }
 
-    private OneInputStreamOperatorTestHarness<TopicRecord, TopicRecord> recognize() throws Exception {
-        var operator = new OneInputStreamOperatorTestHarness<>(new ProcessOperator<>(new RecognizeFields("presence")));
+    private void recognize() throws Exception {
         operator.open();
         for (TopicRecord record : topic.all()) {
             operator.processElement(record, 0);
         }
-        return operator;
     }
 
     private static byte[] feature(String id, String geometry) {

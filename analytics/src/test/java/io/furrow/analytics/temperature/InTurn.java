@@ -8,19 +8,18 @@ import java.util.function.Predicate;
 import java.util.function.ToLongFunction;
 
 import org.apache.flink.api.common.JobID;
-import org.apache.flink.api.common.functions.RichFilterFunction;
 import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.functions.RichFilterFunction;
 import org.apache.flink.configuration.Configuration;
-import org.awaitility.Awaitility;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.Metric;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.awaitility.Awaitility;
 
 import io.furrow.flink.TopicRecord;
-
 
 /**
  * Lets readings and changes of fields into the job in one order: each record waits until the job has joined the readings and
@@ -31,6 +30,7 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     private static volatile InMemoryReporter metrics;
 
     private static final long serialVersionUID = 1L;
+
     private enum Awaited {
         PASSED(1, ".*Assign readings to fields.*currentOutputWatermark"),
         JOINED(3, ".*\\.(inside|outside|repeated)"),
@@ -98,10 +98,14 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
         }
         int needed = before[next++];
         if (!isField && next == 1) {
-            await(Awaited.PASSED, metrics -> least(metrics, metric -> (long) ((Gauge<?>) metric).getValue()) >= BEGIN.timestamp());
+            await(
+                    Awaited.PASSED,
+                    metrics -> least(metrics, metric -> (long) ((Gauge<?>) metric).getValue()) >= BEGIN.timestamp());
         }
         if (isField && needed > awaited) {
-            await(Awaited.JOINED, metrics -> metrics.stream().mapToLong(InTurn::count).sum() >= needed);
+            await(
+                    Awaited.JOINED,
+                    metrics -> metrics.stream().mapToLong(InTurn::count).sum() >= needed);
         } else if (needed > awaited) {
             await(Awaited.TAKEN, metrics -> least(metrics, InTurn::count) >= needed);
         }

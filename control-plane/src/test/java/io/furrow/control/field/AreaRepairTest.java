@@ -35,6 +35,7 @@ class AreaRepairTest {
 
         assertThat(read.refused()).isEmpty();
         ImportedField field = read.fields().get(0);
+        assertThat(field.hectares()).isPositive();
         if (note == null) {
             assertThat(field.notes()).isEmpty();
         } else {

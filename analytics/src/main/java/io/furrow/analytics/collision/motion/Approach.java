@@ -1,0 +1,63 @@
+package io.furrow.analytics.collision.motion;
+
+import io.furrow.analytics.collision.PairId;
+import io.furrow.analytics.collision.Phase;
+import io.furrow.analytics.collision.PositionFix;
+
+/**
+ * That two devices will come, or came between their reports, within the threshold; complete in itself.
+ *
+ * @param phase {@link Phase#PREDICTED} or {@link Phase#CROSSED}
+ * @param first the device with the lesser id; predicted: at its newest position; crossed: where it was at the closest
+ * @param second the other device
+ * @param distance metres between these two positions
+ * @param dcpa metres at the closest point of approach
+ * @param tcpa seconds from {@code time} to the closest point of approach; 0 where that is in the past
+ * @param startTime predicted: when that was first told; crossed: when the contact began; epoch milliseconds
+ * @param time predicted: the newer of both positions; crossed: when they were closest; epoch milliseconds
+ */
+public record Approach(
+        Phase phase,
+        PositionFix first,
+        PositionFix second,
+        double distance,
+        double dcpa,
+        double tcpa,
+        long startTime,
+        long time) {
+
+    static Approach predicted(Finding finding, long startTime) {
+        return new Approach(
+                Phase.PREDICTED,
+                finding.first(),
+                finding.second(),
+                finding.apart(),
+                finding.distance(),
+                (finding.closest() - finding.time()) / 1000,
+                startTime,
+                finding.time());
+    }
+
+    static Approach crossed(Contact contact) {
+        Finding nearest = contact.nearest();
+        return new Approach(
+                Phase.CROSSED,
+                nearest.first(),
+                nearest.second(),
+                nearest.distance(),
+                nearest.distance(),
+                0,
+                contact.from(),
+                (long) nearest.closest());
+    }
+
+    /** The pair, the start and the phase: never the id of an encounter, the same in a second pass. */
+    public String id() {
+        return pairId() + "@" + startTime + "-" + phase.code();
+    }
+
+    /** 32 hexadecimal digits that stand for the pair. */
+    public String pairId() {
+        return PairId.of(first.identity(), second.identity());
+    }
+}

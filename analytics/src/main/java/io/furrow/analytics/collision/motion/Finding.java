@@ -1,0 +1,43 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.Comparator;
+
+import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.eventtime.Timed;
+
+/**
+ * That two devices' legs come within the threshold, as one cube saw it.
+ *
+ * @param first the device with the lesser id, in the order of {@link PositionFix#NAMING}
+ * @param second the other device
+ * @param time when this is known: the newest of the reports that it follows from, epoch milliseconds
+ * @param apart metres between the newest positions
+ * @param distance metres when they are closest
+ * @param closest when that is
+ * @param from the first instant that both legs cover; of legs ahead the same as {@code time}
+ * @param until the last
+ * @param contactFrom since when they are within the threshold, rounded down
+ * @param contactUntil until when, rounded up
+ * @param reportedClose whether the newest positions were close too, at one of both ends
+ */
+public record Finding(
+        PositionFix first,
+        PositionFix second,
+        long time,
+        double apart,
+        double distance,
+        double closest,
+        long from,
+        long until,
+        long contactFrom,
+        long contactUntil,
+        boolean reportedClose)
+        implements Timed {
+    static final Comparator<Finding> SEQUENCE =
+            Comparator.comparingLong(Finding::time).thenComparingLong(Finding::from);
+
+    /** One text per pair; the length before it keeps two pairs from ever sharing one. */
+    String pair() {
+        return first.key().length() + ":" + first.key() + second.key();
+    }
+}

@@ -1,0 +1,66 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.List;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+
+/**
+ * Joins the contacts of legs that follow each other to one crossing. Key: the pair.
+ *
+ * <p><b>State</b>: findings that wait for the watermark; a contact that may go on.
+ *
+ * <p><b>Cleared</b>: when the contact ended, at the latest one time-to-live after its last leg, and no finding waits.
+ *
+ * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
+ *
+ * <p><b>Emits</b>: one record for each contact that no report shows.
+ */
+public final class JoinContacts extends KeyedProcessFunction<String, Finding, Approach> {
+    private static final long serialVersionUID = 1L;
+
+    private final long timeToLive;
+
+    private transient OneTimer timer;
+    private transient Inbox<Finding> inbox;
+    private transient ValueState<Contact> contact;
+
+    JoinContacts(MotionRules rules) {
+        timeToLive = rules.timeToLive();
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        timer = new OneTimer(getRuntimeContext());
+        inbox = new Inbox<>(getRuntimeContext(), Finding.class, Finding.SEQUENCE, timer);
+        contact = getRuntimeContext().getState(new ValueStateDescriptor<>("contact", Contact.class));
+    }
+
+    @Override
+    public void processElement(Finding finding, Context context, Collector<Approach> out) throws Exception {
+        inbox.add(finding, context.timerService());
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<Approach> out) throws Exception {
+        timer.rang();
+        List<Finding> due = inbox.takeDue(context.timerService());
+        Contact open = Contact.join(contact.value(), due, out::collect);
+        if (open != null && open.until() + timeToLive <= context.timerService().currentWatermark()) {
+            Contact.close(open, out::collect);
+            open = null;
+        }
+        if (open == null) {
+            contact.clear();
+        } else {
+            contact.update(open);
+            timer.ask(open.until() + timeToLive, context.timerService());
+        }
+    }
+}

@@ -1,0 +1,54 @@
+package io.furrow.analytics.collision.motion;
+
+import io.furrow.analytics.collision.PositionFix;
+
+/**
+ * A straight, uniform motion of one device.
+ *
+ * @param fix the newer position of a leg behind, or the one from which a leg ahead begins
+ * @param from when the device is at the beginning, epoch milliseconds
+ * @param until when it is at the end
+ * @param x where it begins, metres from the Earth's centre towards 0° N 0° E
+ * @param y metres towards 0° N 90° E
+ * @param z metres towards the north pole
+ * @param vx metres per millisecond
+ * @param vy metres per millisecond
+ * @param vz metres per millisecond
+ */
+public record Leg(
+        PositionFix fix, long from, long until, double x, double y, double z, double vx, double vy, double vz) {
+    static Leg of(PositionFix fix, long from, long until, Place start, Place velocity) {
+        return new Leg(fix, from, until, start.x(), start.y(), start.z(), velocity.x(), velocity.y(), velocity.z());
+    }
+
+    /** Where the device is on its leg; the newest position itself where the leg ends with it. */
+    Place at(double time) {
+        double elapsed = time - from;
+        return new Place(x + vx * elapsed, y + vy * elapsed, z + vz * elapsed);
+    }
+
+    Place start() {
+        return new Place(x, y, z);
+    }
+
+    Place velocity() {
+        return new Place(vx, vy, vz);
+    }
+
+    /** The same device at another time and place on the leg. */
+    PositionFix fixAt(double time) {
+        Place there = at(time);
+        return new PositionFix(
+                fix.topic(),
+                fix.identity(),
+                fix.id(),
+                fix.type(),
+                fix.mission(),
+                fix.carrier(),
+                there.latitude(),
+                there.longitude(),
+                1000 * velocity().length(),
+                fix.heading(),
+                (long) time);
+    }
+}

@@ -1,0 +1,42 @@
+package io.furrow.analytics.collision.motion;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
+
+import io.furrow.analytics.collision.PositionFix;
+
+/** What is predicted and what crossed among positions, as defined for this package; beside the encounters. */
+public final class MotionDetection {
+    private MotionDetection() {}
+
+    /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
+    public static DataStream<Approach> define(DataStream<PositionFix> fixes, MotionRules rules) {
+        SingleOutputStreamOperator<LegUpdate> legs = fixes.filter(fix -> rules.moves(fix.type()))
+                .uid("select-moving-types")
+                .name("Select moving types")
+                .keyBy(PositionFix::key)
+                .process(new TrackMotion(rules))
+                .uid("track-motion")
+                .name("Track the motion of devices");
+
+        SingleOutputStreamOperator<Finding> predictions = legs.keyBy(LegUpdate::cube)
+                .process(new MatchLegs(rules))
+                .uid("match-legs")
+                .name("Match legs in each cube");
+
+        DataStream<Approach> predicted = predictions
+                .keyBy(Finding::pair)
+                .process(new FollowPredictions(rules))
+                .uid("follow-predictions")
+                .name("Follow predictions of each pair");
+
+        DataStream<Approach> crossed = predictions
+                .getSideOutput(MatchLegs.CONTACTS)
+                .keyBy(Finding::pair)
+                .process(new JoinContacts(rules))
+                .uid("join-contacts")
+                .name("Join contacts between reports");
+
+        return predicted.union(crossed);
+    }
+}

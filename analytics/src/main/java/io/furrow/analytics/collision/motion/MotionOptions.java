@@ -1,0 +1,56 @@
+package io.furrow.analytics.collision.motion;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.Set;
+
+import picocli.CommandLine.Option;
+
+import io.furrow.analytics.collision.CollisionRules;
+
+/** The options of the job {@code collision} about what lies ahead of devices and between their reports. */
+public final class MotionOptions {
+    @Option(
+            names = "--horizon",
+            paramLabel = "DURATION",
+            defaultValue = "0s",
+            description =
+                    "How far ahead of its newest position the course of a device is followed. A pair that will come "
+                            + "within the threshold by then is told with the phase 'predicted', 'tcpa' and 'dcpa'. 0s predicts "
+                            + "nothing and costs nothing; 10s suits machines that report once a second. Default: ${DEFAULT-VALUE}.")
+    private Duration horizon;
+
+    @Option(
+            names = "--crossed",
+            description =
+                    "Compare the ways between two reports too: a pair that comes within the threshold there, though "
+                            + "no report shows it, is told with the phase 'crossed'. Set it where devices move further between "
+                            + "two reports than the threshold.")
+    private boolean crossed;
+
+    @Option(
+            names = "--greatest-speed",
+            paramLabel = "M/S",
+            defaultValue = "30",
+            description =
+                    "No device moves faster, in metres per second. What seems faster is taken for a faulty position: "
+                            + "it has no part in predictions and crossings and is counted as 'positions.too-fast'. "
+                            + "Default: ${DEFAULT-VALUE}.")
+    private double greatestSpeed;
+
+    @Option(
+            names = "--moving-types",
+            paramLabel = "TYPE",
+            split = ",",
+            description =
+                    "Entity types among which is predicted and crossed, for instance 'Robot,Tractor'. Default: all.")
+    private List<String> movingTypes = List.of();
+
+    /**
+     * @param common the rules of encounters
+     * @throws IllegalArgumentException with a sentence for whoever set the options
+     */
+    public MotionRules rules(CollisionRules common) {
+        return new MotionRules(common, horizon, crossed, greatestSpeed, Set.copyOf(movingTypes));
+    }
+}

@@ -1,0 +1,105 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.List;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.runtime.state.FunctionInitializationContext;
+import org.apache.flink.runtime.state.FunctionSnapshotContext;
+import org.apache.flink.streaming.api.checkpoint.CheckpointedFunction;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+
+/**
+ * Makes legs of the positions of each device and puts them into the cubes that they touch. Key: the device.
+ *
+ * <p><b>State</b>: positions that wait for the watermark, the newest with the leg that begins there; per subtask how far
+ * event time has come, because a restored job starts without a watermark.
+ *
+ * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
+ *
+ * <p><b>Late</b>: a position not after the watermark is counted as {@code late} and left out; the stage that finds the
+ * encounters sets the same one aside.
+ *
+ * <p><b>Emits</b>: updates of cubes, a device's in the order of their time, before the watermark that brings them about.
+ * {@code positions.too-fast} counts positions that are further from the one before, or report a greater speed, than the
+ * greatest speed allows.
+ */
+public final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate>
+        implements CheckpointedFunction {
+    private static final long serialVersionUID = 1L;
+
+    private final Navigator navigator;
+
+    private transient OneTimer timer;
+    private transient Inbox<PositionFix> inbox;
+    private transient ValueState<KnownMotion> motion;
+    private transient ListState<Long> progress;
+    private transient long reached;
+    private transient Counter late;
+    private transient Counter tooFast;
+
+    TrackMotion(MotionRules rules) {
+        navigator = new Navigator(rules);
+    }
+
+    @Override
+    public void initializeState(FunctionInitializationContext context) throws Exception {
+        progress = context.getOperatorStateStore()
+                .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
+        reached = Long.MIN_VALUE;
+        for (long each : progress.get()) {
+            reached = Math.max(reached, each);
+        }
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        timer = new OneTimer(getRuntimeContext());
+        inbox = new Inbox<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
+        motion = getRuntimeContext().getState(new ValueStateDescriptor<>("motion", KnownMotion.class));
+        late = getRuntimeContext().getMetricGroup().counter("late");
+        tooFast = getRuntimeContext().getMetricGroup().counter("positions.too-fast");
+    }
+
+    @Override
+    public void processElement(PositionFix fix, Context context, Collector<LegUpdate> out) throws Exception {
+        reached = Math.max(reached, context.timerService().currentWatermark());
+        if (fix.time() <= reached) {
+            late.inc();
+        } else {
+            inbox.add(fix, context.timerService());
+        }
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<LegUpdate> out) throws Exception {
+        timer.rang();
+        long until = context.timerService().currentWatermark();
+        reached = Math.max(reached, until);
+        List<PositionFix> due = inbox.takeDue(context.timerService());
+        Navigator.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
+        tooFast.inc(advanced.tooFast());
+        KnownMotion now = advanced.known();
+        if (now == null || navigator.expiry(now) <= until) {
+            motion.clear();
+        } else {
+            motion.update(now);
+            timer.ask(navigator.expiry(now), context.timerService());
+        }
+    }
+
+    @Override
+    public void snapshotState(FunctionSnapshotContext context) throws Exception {
+        progress.update(List.of(reached));
+    }
+}

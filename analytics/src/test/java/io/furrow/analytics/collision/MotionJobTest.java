@@ -1,0 +1,221 @@
+package io.furrow.analytics.collision;
+
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import picocli.CommandLine.ParameterException;
+
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobEnvironment;
+import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceInput;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+/** What the job tells of courses and of the ways between reports, as it is written. */
+class MotionJobTest {
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setNumberSlotsPerTaskManager(2)
+            .build());
+
+    private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
+    private static final long START = 1_700_000_000_000L;
+
+    @Test
+    void tellsAPredictionOnceASecondUntilTheEncounterStarts() throws Exception {
+        List<TopicRecord> records = new ArrayList<>();
+        for (int second = 0; second <= 20; second++) {
+            // Two metres per second towards the other, which stands 30.3 m away; reports four times a second.
+            for (int quarter = 0; quarter < 4; quarter++) {
+                records.add(robot("r1", "Robot", 2 * second + 0.5 * quarter, 1000 * second + 250 * quarter));
+                records.add(robot("r2", "Robot", 30.3, 1000 * second + 250 * quarter));
+            }
+        }
+        List<TopicRecord> written = run(options("--horizon", "5s"), records);
+
+        List<Entity> predicted = phases(written, "predicted");
+        Entity first = predicted.get(0);
+        assertThat(first.id()).startsWith("Analytics:Collision:").endsWith(":predicted");
+        assertThat(first.type()).isEqualTo("Analytics:Collision");
+        assertThat(first.text("Device1_ID")).contains("r1");
+        // Five seconds before the first is 5 m from the second, at most a report's time late.
+        assertThat(time(first)).isEqualTo(START + 7750);
+        assertThat(first.number("tcpa"))
+                .hasValueSatisfying(tcpa -> assertThat(tcpa).isBetween(4.7, 5.01));
+        assertThat(first.number("dcpa"))
+                .hasValueSatisfying(dcpa -> assertThat(dcpa).isBetween(4.7, 4.9));
+        assertThat(first.number("distance"))
+                .hasValueSatisfying(d -> assertThat(d).isBetween(14.7, 14.9));
+        assertThat(predicted)
+                .extracting(each -> each.text("encounter").orElseThrow())
+                .containsOnly(first.text("encounter").orElseThrow());
+        // From 7.75 s to 12.75 s, when the encounter starts.
+        assertThat(predicted).hasSize(5);
+        assertThat(phases(written, "started"))
+                .singleElement()
+                .satisfies(started -> assertThat(time(started)).isEqualTo(START + 12_750));
+    }
+
+    @Test
+    void neverAltersTheEncounters() throws Exception {
+        List<TopicRecord> records = new ArrayList<>();
+        for (int second = 0; second <= 12; second++) {
+            records.add(robot("r1", "Robot", 20 * second - 127, 1000 * second));
+            records.add(robot("r2", "Robot", 3 * second, 1000 * second));
+            records.add(robot("r3", "Robot", 24, 1000 * second));
+        }
+        List<TopicRecord> alone = run(options(), records);
+        List<TopicRecord> beside = run(options("--horizon", "5s", "--crossed"), records);
+
+        assertThat(alone).isNotEmpty();
+        assertThat(phases(beside, "predicted")).isNotEmpty();
+        assertThat(phases(beside, "crossed")).isNotEmpty();
+        assertThat(beside.stream().filter(record -> !isOfMotion(record)).map(MotionJobTest::text))
+                .isEqualTo(alone.stream().map(MotionJobTest::text).toList());
+    }
+
+    @Test
+    void tellsWhereTwoDevicesCrossedBetweenTheirReports() throws Exception {
+        List<TopicRecord> records = new ArrayList<>();
+        for (int second = 0; second <= 10; second++) {
+            records.add(robot("r1", "Robot", 20 * second - 90, 1000 * second));
+            records.add(robot("r2", "Robot", 0, 1000 * second));
+        }
+        List<TopicRecord> written = run(options("--crossed"), records);
+
+        assertThat(written).singleElement().satisfies(record -> {
+            Entity crossed = entity(record);
+            assertThat(crossed.text("phase")).contains("crossed");
+            assertThat(record.timestamp()).isBetween(START + 4499, START + 4501);
+            assertThat(crossed.number("dcpa"))
+                    .hasValueSatisfying(dcpa -> assertThat(dcpa).isLessThan(0.05));
+            assertThat(crossed.number("Device1_latitude")).contains(0.0);
+            assertThat(crossed.number("Device1_timestamp")).contains((double) record.timestamp());
+        });
+    }
+
+    @Test
+    void looksOnlyAtTheTypesThatMove() throws Exception {
+        List<TopicRecord> records = new ArrayList<>();
+        for (int second = 0; second <= 10; second++) {
+            records.add(robot("r1", "Robot", 20 * second - 90, 1000 * second));
+            records.add(robot("t1", "Thermometer", 0, 1000 * second));
+            records.add(robot("t2", "Tractor", 1, 1000 * second));
+        }
+        assertThat(run(options("--crossed", "--moving-types", "Robot,Tractor"), records))
+                .filteredOn(record -> isOfMotion(record))
+                .singleElement()
+                .satisfies(
+                        record -> assertThat(entity(record).text("Device2_ID")).contains("t2"));
+    }
+
+    @Test
+    void leavesOutWhatIsFasterThanAnyMachine() throws Exception {
+        List<TopicRecord> records = new ArrayList<>();
+        for (int second = 0; second <= 10; second++) {
+            records.add(robot("r1", "Robot", 20 * second - 90, 1000 * second));
+            records.add(robot("r2", "Robot", 0, 1000 * second));
+        }
+        assertThat(run(options("--crossed", "--horizon", "10s", "--greatest-speed", "19"), records))
+                .isEmpty();
+        assertThat(run(options("--crossed", "--horizon", "10s", "--greatest-speed", "21"), records))
+                .isNotEmpty();
+    }
+
+    @Test
+    void refusesAHorizonThatReachesTooFar() {
+        assertThatThrownBy(() -> options("--horizon", "10min").motionRules())
+                .isInstanceOf(ParameterException.class)
+                .hasMessage("the horizon of 600.0 s at the greatest speed of 30.0 m/s leads more than 10000.0 m ahead; "
+                        + "make one of them less");
+        assertThatThrownBy(() -> options("--greatest-speed", "0").motionRules())
+                .isInstanceOf(ParameterException.class)
+                .hasMessage("the greatest speed must be above 0 m/s, not 0.0");
+        assertThat(options().motionRules().any()).isFalse();
+    }
+
+    private static List<Entity> phases(List<TopicRecord> written, String phase) {
+        return written.stream()
+                .map(MotionJobTest::entity)
+                .filter(entity -> entity.text("phase").filter(phase::equals).isPresent())
+                .toList();
+    }
+
+    private static boolean isOfMotion(TopicRecord record) {
+        return entity(record).id().matches(".*:(predicted|crossed)");
+    }
+
+    private static long time(Entity entity) {
+        return entity.number("time").orElseThrow().longValue();
+    }
+
+    private static String text(TopicRecord record) {
+        return record.timestamp() + " " + new String(record.value(), StandardCharsets.UTF_8);
+    }
+
+    private static List<TopicRecord> run(CollisionOptions options, List<TopicRecord> records) throws Exception {
+        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        env.setParallelism(2);
+        DataStream<TopicRecord> source = env.fromData(records)
+                .setParallelism(1)
+                .uid("records")
+                .assignTimestampsAndWatermarks(
+                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(2000))
+                                .withTimestampAssigner((record, ignored) -> record.timestamp()))
+                .setParallelism(1)
+                .uid("timestamps");
+        // A device that nobody knows; a source of nothing ends before it begins.
+        byte[] key = "farm|/|nobody".getBytes(StandardCharsets.UTF_8);
+        TopicRecord gone = new TopicRecord(Topics.DEVICES, 0, 1, START, key, null, Map.of());
+        DataStream<TopicRecord> devices = env.fromData(List.of(gone), TypeInformation.of(TopicRecord.class))
+                .setParallelism(1)
+                .uid("read-devices");
+        List<TopicRecord> written = CollisionJob.define(
+                        new CollisionJob.Inputs(source, new DeviceInput(devices, List::of)), options)
+                .executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        written.sort(Comparator.comparingLong(TopicRecord::timestamp).thenComparing(MotionJobTest::text));
+        return written;
+    }
+
+    private static CollisionOptions options(String... args) {
+        CollisionOptions options = new CollisionOptions();
+        JobCommandLine.of(options).parseArgs(args);
+        return options;
+    }
+
+    private static TopicRecord robot(String id, String type, double east, long time) {
+        PositionFix place = Fixes.east("", east, 0);
+        EntityBuilder robot =
+                Entity.builder(id, type).number("Latitude", place.latitude()).number("Longitude", place.longitude());
+        Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
+        byte[] key = id.getBytes(StandardCharsets.UTF_8);
+        return new TopicRecord(
+                "data.raw", 0, 7, START + time, key, robot.build().toBytes(), headers);
+    }
+
+    private static Entity entity(TopicRecord record) {
+        try {
+            return Entity.parse(record.value());
+        } catch (UnreadableException e) {
+            throw new AssertionError("what the job wrote is an entity", e);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.ArrayList;
+import java.util.Collection;
+import java.util.Collections;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.function.Function;
+
+import io.furrow.analytics.collision.PositionFix;
+
+/** The stages without Flink: watermarks at random instants, and within each all keys in random order. */
+final class MotionSimulation {
+    private final MotionRules rules;
+    private final Cubes cubes;
+    private final Navigator navigator;
+    private final Random random;
+    private final Map<String, KnownMotion> motions = new HashMap<>();
+    private final Map<Long, Neighbourhood> neighbourhoods = new HashMap<>();
+    private final Map<String, Foretold> foretold = new HashMap<>();
+    private final Map<String, Contact> contacts = new HashMap<>();
+    private final List<Approach> approaches = new ArrayList<>();
+
+    private MotionSimulation(MotionRules rules, Random random) {
+        this.rules = rules;
+        this.random = random;
+        cubes = new Cubes(rules);
+        navigator = new Navigator(rules);
+    }
+
+    static List<Approach> approaches(Collection<PositionFix> fixes, MotionRules rules, Random random) {
+        MotionSimulation simulation = new MotionSimulation(rules, random);
+        List<PositionFix> waiting = new ArrayList<>(fixes);
+        long watermark = fixes.stream().mapToLong(PositionFix::time).min().orElse(0);
+        while (!waiting.isEmpty()) {
+            watermark += random.nextInt(2000);
+            simulation.advance(taken(waiting, watermark), watermark);
+        }
+        simulation.advance(List.of(), Long.MAX_VALUE);
+        simulation.contacts.values().forEach(open -> Contact.close(open, simulation.approaches::add));
+        return simulation.approaches;
+    }
+
+    private void advance(List<PositionFix> due, long until) {
+        List<LegUpdate> updates = new ArrayList<>();
+        grouped(due, PositionFix::key).forEach((device, fixes) -> {
+            fixes.sort(PositionFix.SEQUENCE);
+            motions.put(
+                    device,
+                    navigator.advance(motions.get(device), fixes, updates::add).known());
+        });
+        List<Finding> predictions = new ArrayList<>();
+        List<Finding> found = new ArrayList<>();
+        grouped(updates, LegUpdate::cube).forEach((cube, all) -> {
+            all.sort(LegUpdate.SEQUENCE);
+            Neighbourhood here = neighbourhoods.computeIfAbsent(cube, id -> Neighbourhood.empty());
+            here.apply(all, new Watch(rules, cubes, cube, predictions::add, found::add));
+            here.forget(until, rules.timeToLive());
+        });
+        grouped(predictions, Finding::pair).forEach((pair, findings) -> {
+            findings.sort(Finding.SEQUENCE);
+            foretold.put(pair, Foretold.follow(foretold.get(pair), findings, rules, approaches::add));
+        });
+        grouped(found, Finding::pair).forEach((pair, findings) -> {
+            findings.sort(Finding.SEQUENCE);
+            contacts.put(pair, Contact.join(contacts.get(pair), findings, approaches::add));
+        });
+    }
+
+    private <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key) {
+        List<T> shuffled = new ArrayList<>(all);
+        Collections.shuffle(shuffled, random);
+        Map<K, List<T>> groups = new HashMap<>();
+        shuffled.forEach(each ->
+                groups.computeIfAbsent(key.apply(each), k -> new ArrayList<>()).add(each));
+        return groups;
+    }
+
+    private static List<PositionFix> taken(List<PositionFix> waiting, long watermark) {
+        List<PositionFix> due =
+                waiting.stream().filter(fix -> fix.time() <= watermark).toList();
+        waiting.removeIf(fix -> fix.time() <= watermark);
+        return due;
+    }
+}

@@ -1,0 +1,99 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Supplier;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.api.java.functions.KeySelector;
+import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.apache.flink.streaming.api.watermark.Watermark;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
+import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.eventtime.Timed;
+
+/** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
+final class MotionStage<K, I extends Timed, O> {
+    private final Supplier<KeyedProcessFunction<K, I, O>> function;
+    private final KeySelector<I, K> key;
+    private final TypeInformation<K> keyType;
+    private KeyedOneInputStreamOperatorTestHarness<K, I, O> harness;
+
+    private MotionStage(
+            Supplier<KeyedProcessFunction<K, I, O>> function, KeySelector<I, K> key, TypeInformation<K> keyType)
+            throws Exception {
+        this.function = function;
+        this.key = key;
+        this.keyType = keyType;
+        start();
+        harness.open();
+    }
+
+    static MotionStage<String, PositionFix, LegUpdate> track(MotionRules rules) throws Exception {
+        return new MotionStage<>(() -> new TrackMotion(rules), PositionFix::key, Types.STRING);
+    }
+
+    static MotionStage<Long, LegUpdate, Finding> match(MotionRules rules) throws Exception {
+        return new MotionStage<>(() -> new MatchLegs(rules), LegUpdate::cube, Types.LONG);
+    }
+
+    static MotionStage<String, Finding, Approach> predict(MotionRules rules) throws Exception {
+        return new MotionStage<>(() -> new FollowPredictions(rules), Finding::pair, Types.STRING);
+    }
+
+    static MotionStage<String, Finding, Approach> join(MotionRules rules) throws Exception {
+        return new MotionStage<>(() -> new JoinContacts(rules), Finding::pair, Types.STRING);
+    }
+
+    void receive(List<I> inputs) throws Exception {
+        for (I input : inputs) {
+            harness.processElement(input, input.time());
+        }
+    }
+
+    /** What comes out on the way to the watermark. */
+    List<O> advance(long watermark) throws Exception {
+        harness.processWatermark(new Watermark(watermark));
+        List<O> out = new ArrayList<>(harness.extractOutputValues());
+        harness.getOutput().clear();
+        return out;
+    }
+
+    /** What went aside since this was last asked. */
+    <T> List<T> aside(OutputTag<T> tag) {
+        var output = harness.getSideOutput(tag);
+        if (output == null) {
+            return List.of();
+        }
+        List<T> all = output.stream().map(StreamRecord::getValue).toList();
+        output.clear();
+        return new ArrayList<>(all);
+    }
+
+    boolean isEmpty() {
+        return harness.numKeyedStateEntries() == 0 && harness.numEventTimeTimers() == 0;
+    }
+
+    void restart() throws Exception {
+        OperatorSubtaskState snapshot = harness.snapshot(1, 1);
+        harness.close();
+        start();
+        harness.initializeState(snapshot);
+        harness.open();
+    }
+
+    private void start() throws Exception {
+        harness =
+                new KeyedOneInputStreamOperatorTestHarness<>(new KeyedProcessOperator<>(function.get()), key, keyType);
+    }
+
+    void stop() throws Exception {
+        harness.close();
+    }
+}

@@ -1,0 +1,63 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.common.serialization.SerializerConfigImpl;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.common.typeutils.TypeSerializer;
+import org.apache.flink.api.java.typeutils.runtime.PojoSerializer;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.PipelineOptions;
+import org.apache.flink.core.memory.DataInputDeserializer;
+import org.apache.flink.core.memory.DataOutputSerializer;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
+
+import io.furrow.analytics.collision.Phase;
+import io.furrow.analytics.collision.PositionFix;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class MotionTypesTest {
+    private static final PositionFix FIX = Courses.fix("a", new double[] {40.5, -3.25}, 1000);
+    private static final Leg LEG = new Leg(FIX, 0, 1000, 1, 2, 3, 0.1, 0.2, 0.3);
+    private static final Finding FINDING = new Finding(FIX, FIX, 1000, 9, 3, 500.5, 0, 1000, 400, 600, true);
+
+    static Object[] records() {
+        return new Object[] {
+            LEG,
+            new LegUpdate(-7, 1000, LegUpdate.Change.NO_LEG_AHEAD, LEG),
+            new KnownMotion(FIX, LEG),
+            new KnownMotion(FIX, null),
+            new Mover(LEG, List.of(LEG, LEG)),
+            new Mover(null, List.of()),
+            new Neighbourhood(Map.of(FIX.key(), new Mover(null, List.of(LEG)))),
+            FINDING,
+            new Foretold(1, 2, 3),
+            new Contact(FINDING, 1, 2, true),
+            new Approach(Phase.CROSSED, FIX, FIX, 1, 2, 3, 4, 5)
+        };
+    }
+
+    @ParameterizedTest
+    @MethodSource("records")
+    void goThroughFlinksOwnSerializer(Object written) throws Exception {
+        assertThat(copied(written)).isEqualTo(written);
+    }
+
+    private static <T> T copied(T written) throws Exception {
+        // Refuses every type that would fall to Kryo.
+        Configuration strict = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
+        @SuppressWarnings("unchecked")
+        Class<T> type = (Class<T>) written.getClass();
+        TypeSerializer<T> serializer = TypeInformation.of(type).createSerializer(new SerializerConfigImpl(strict));
+        assertThat(serializer).isInstanceOf(PojoSerializer.class);
+        DataOutputSerializer out = new DataOutputSerializer(256);
+        serializer.serialize(written, out);
+        DataInputDeserializer in = new DataInputDeserializer(out.getCopyOfBuffer());
+        T read = serializer.deserialize(in);
+        assertThat(in.available()).isZero();
+        return read;
+    }
+}

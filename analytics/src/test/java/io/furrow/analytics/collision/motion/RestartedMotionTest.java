@@ -1,0 +1,93 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Random;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.analytics.collision.PositionFix;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class RestartedMotionTest {
+    private static final long BOUND = 1500;
+
+    private final Random random = new Random(20261121);
+
+    @Test
+    void tellsTheSameHoweverOftenItRestartsAndKeepsNothingInTheEnd() throws Exception {
+        int told = 0;
+        for (int i = 0; i < 12; i++) {
+            MotionRules rules = Courses.rules(20);
+            Courses courses = new Courses(300 + i);
+            List<PositionFix> fixes = courses.world(Courses.CENTRES[i % Courses.CENTRES.length], Courses.START);
+            List<Approach> expected =
+                    MotionSimulationTest.sorted(MotionSimulation.approaches(fixes, rules, new Random(i)));
+
+            List<Approach> found = restarted(courses.shuffled(fixes, BOUND), rules);
+
+            assertThat(MotionSimulationTest.sorted(found)).isEqualTo(expected);
+            told += expected.size();
+        }
+        assertThat(told).isGreaterThan(12);
+    }
+
+    @Test
+    void leavesOutWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
+        MotionRules rules = Courses.rules(20);
+        var track = MotionStage.track(rules);
+        track.receive(List.of(Courses.fix("a", new double[] {40, 3}, 1, 90, Courses.START)));
+        assertThat(track.advance(Courses.START + 10)).isNotEmpty();
+        track.restart();
+
+        track.receive(List.of(Courses.fix("b", new double[] {40, 3}, 1, 90, Courses.START + 10)));
+        track.receive(List.of(Courses.fix("c", new double[] {40, 3}, 1, 90, Courses.START + 11)));
+
+        assertThat(track.advance(Courses.START + 20))
+                .isNotEmpty()
+                .extracting(update -> update.leg().fix().id())
+                .containsOnly("c");
+        track.stop();
+    }
+
+    private List<Approach> restarted(List<PositionFix> arrivals, MotionRules rules) throws Exception {
+        var track = MotionStage.track(rules);
+        var match = MotionStage.match(rules);
+        var predict = MotionStage.predict(rules);
+        var join = MotionStage.join(rules);
+        List<MotionStage<?, ?, ?>> stages = List.of(track, match, predict, join);
+        List<Approach> approaches = new ArrayList<>();
+        long newest = Long.MIN_VALUE;
+        for (int i = 0; i <= arrivals.size(); i++) {
+            boolean end = i == arrivals.size();
+            if (!end) {
+                track.receive(List.of(arrivals.get(i)));
+                newest = Math.max(newest, arrivals.get(i).time());
+            }
+            if (random.nextInt(10) == 0) {
+                stages.get(random.nextInt(stages.size())).restart();
+            }
+            if (end || random.nextInt(4) == 0) {
+                long watermark = end ? Long.MAX_VALUE : newest - BOUND - 1;
+                List<LegUpdate> updates = track.advance(watermark);
+                Collections.shuffle(updates, random);
+                match.receive(updates);
+                List<Finding> findings = match.advance(watermark);
+                Collections.shuffle(findings, random);
+                predict.receive(findings);
+                List<Finding> contacts = match.aside(MatchLegs.CONTACTS);
+                Collections.shuffle(contacts, random);
+                join.receive(contacts);
+                approaches.addAll(predict.advance(watermark));
+                approaches.addAll(join.advance(watermark));
+            }
+        }
+        for (MotionStage<?, ?, ?> stage : stages) {
+            assertThat(stage.isEmpty()).isTrue();
+            stage.stop();
+        }
+        return approaches;
+    }
+}
