@@ -11,6 +11,7 @@ import java.util.Optional;
 import java.util.Properties;
 import java.util.TreeMap;
 import java.util.regex.Pattern;
+import java.util.regex.PatternSyntaxException;
 
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
@@ -49,7 +50,9 @@ public abstract class JobOptions {
             split = ",",
             hideParamSyntax = true,
             defaultValue = "data.raw",
-            description = "Topics to read. Default: ${DEFAULT-VALUE}.")
+            description = "Topics to read, or regular expressions for whole names, for instance"
+                + " 'data[.]hoeing[.]replay[.].*': then also topics that come later, but none that a job writes. What"
+                + " is found in a replay's topic goes to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
     private List<String> input;
 
     @Option(
@@ -80,9 +83,9 @@ public abstract class JobOptions {
     @Option(
             names = "--idle-advance",
             description =
-                    "Let event time go on with the wall clock where no record has come for --idle-timeout, so that "
-                            + "what is open ends without further traffic. What comes after that can be late: the one switch with "
-                            + "which the same input does not always give the same result.")
+                    "Let event time go on with the wall clock where no record has come for --idle-timeout, so that"
+                            + " what is open ends without further traffic. What comes after that can be late: the one"
+                            + " switch with which the same input does not always give the same result.")
     private boolean idleAdvance;
 
     @Option(
@@ -144,6 +147,17 @@ public abstract class JobOptions {
 
     public List<String> input() {
         return List.copyOf(input);
+    }
+
+    /** The same as topics or a pattern; a name that is neither is refused. */
+    public InputTopics inputTopics() {
+        InputTopics topics = new InputTopics(input);
+        try {
+            topics.pattern();
+            return topics;
+        } catch (PatternSyntaxException e) {
+            throw refused("--input is neither a topic nor a regular expression: " + e.getMessage(), e);
+        }
     }
 
     public Delivery delivery() {

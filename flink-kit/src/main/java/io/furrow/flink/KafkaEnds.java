@@ -36,9 +36,10 @@ public final class KafkaEnds {
     /** The same for records in another form. */
     @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
     public static <T> KafkaSource<T> source(JobOptions options, KafkaRecordDeserializationSchema<T> form) {
-        return source(options, form, "furrow-" + options.jobName())
-                .setTopics(options.input())
-                .setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
+        InputTopics topics = options.inputTopics();
+        KafkaSourceBuilder<T> source = source(options, form, "furrow-" + options.jobName());
+        topics.pattern().ifPresentOrElse(source::setTopicPattern, () -> source.setTopics(topics.names()));
+        return source.setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
                 .build();
     }
 

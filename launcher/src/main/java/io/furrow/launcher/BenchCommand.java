@@ -23,7 +23,13 @@ import io.furrow.simulators.load.LoadPlan;
         name = "bench",
         description = "Measures the suite on this machine.",
         synopsisSubcommandLabel = "COMMAND",
-        subcommands = {NotificationBench.class, SinkBench.class, ImageBench.class, IngestBench.class})
+        subcommands = {
+            NotificationBench.class,
+            SinkBench.class,
+            ImageBench.class,
+            IngestBench.class,
+            AnalyticsBench.class
+        })
 final class BenchCommand {
     private static final String DOMAIN = "bench";
     /** A cold JVM cannot take what a warm one takes: it gets a quarter of the load, a half, then all of it. */

@@ -1,22 +1,31 @@
 package io.furrow.analytics.collision;
 
 import java.util.ArrayList;
+import java.util.Collection;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Consumer;
 
-/**
- * The devices of one grid cell. Which pairs are close follows from where the members are and is not stored.
- *
- * @param members by identity; changed in place
- */
-public record Cell(Map<String, Member> members) {
-    /** What happens to one device at one instant; null where it is not in the cell. */
-    private record Change(Member before, Member after) {}
+import org.apache.flink.api.common.typeinfo.TypeInfo;
 
-    static Cell empty() {
-        return new Cell(new HashMap<>());
+/**
+ * The devices of one grid cell; changed in place. Which pairs are close follows from where the members are and is not
+ * stored.
+ */
+@TypeInfo(CellFormat.class)
+public final class Cell {
+    private final Map<PositionFix.Device, Member> members = new HashMap<>();
+    /** Made again from the members where there is none, or one for another threshold. */
+    private FineGrid near;
+
+    private Cell() {}
+
+    /** What happens to one device at one instant; null where it is not in the cell. */
+    private record Change(Member before, Member after, List<Member> partners) {}
+
+    public static Cell empty() {
+        return new Cell();
     }
 
     boolean isEmpty() {
@@ -28,13 +37,25 @@ public record Cell(Map<String, Member> members) {
         return members.size();
     }
 
+    Collection<Member> members() {
+        return members.values();
+    }
+
+    /** Only before the first updates are applied. */
+    void put(Member member) {
+        members.put(member.fix().device(), member);
+    }
+
     /**
      * Applies updates instant by instant and tells what that means for pairs.
      *
      * @param updates in the order of {@link CellUpdate#SEQUENCE}, at most one per device and instant
      * @param out takes the sightings; their order within an instant has no meaning
      */
-    void apply(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
+    public void apply(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
+        if (near == null || near.reach() != proximity.reach()) {
+            near = new FineGrid(proximity.reach(), members.values());
+        }
         int from = 0;
         while (from < updates.size()) {
             long time = updates.get(from).time();
@@ -47,27 +68,42 @@ public record Cell(Map<String, Member> members) {
         }
     }
 
+    /**
+     * A pair whose devices both change is seen once, by the one that comes first in the updates: it leaves before the other,
+     * whom it still meets, and comes back after it.
+     */
     private void applyAtOnce(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
-        long time = updates.get(0).time();
         List<Change> changes = new ArrayList<>(updates.size());
         for (CellUpdate update : updates) {
-            changes.add(new Change(members.remove(update.fix().identity()), memberOf(update)));
+            Member before = members.remove(update.fix().device());
+            List<Member> partners = new ArrayList<>(0);
+            if (before != null) {
+                near.remove(before);
+                near.closeTo(before, proximity, partners);
+            }
+            changes.add(new Change(before, memberOf(update), partners));
         }
-        // Only those who did not change are members now, so no pair is compared twice.
-        for (int i = 0; i < changes.size(); i++) {
+        List<Member> met = new ArrayList<>(0);
+        for (int i = changes.size() - 1; i >= 0; i--) {
             Change change = changes.get(i);
-            for (Member unchanged : members.values()) {
-                compare(change, new Change(unchanged, unchanged), time, proximity, out);
-            }
-            for (Change other : changes.subList(i + 1, changes.size())) {
-                compare(change, other, time, proximity, out);
-            }
-        }
-        for (Change change : changes) {
+            long time = updates.get(i).time();
             if (change.after != null) {
-                members.put(change.after.fix().identity(), change.after);
+                near.closeTo(change.after, proximity, met);
+                for (Member other : met) {
+                    out.accept(Sighting.of(change.after.fix(), other.fix(), time, wasMet(change, other) ? 0 : 1));
+                }
+                met.clear();
+                near.add(change.after);
+                members.put(change.after.fix().device(), change.after);
+            }
+            for (Member other : change.partners) {
+                out.accept(Sighting.of(change.before.fix(), other.fix(), time, -1));
             }
         }
+    }
+
+    private static boolean wasMet(Change change, Member other) {
+        return change.partners.removeIf(partner -> partner.fix().isOfSameDevice(other.fix()));
     }
 
     private static Member memberOf(CellUpdate update) {
@@ -76,15 +112,5 @@ public record Cell(Map<String, Member> members) {
             case HALO -> Member.of(update.fix(), false);
             case GONE -> null;
         };
-    }
-
-    private static void compare(Change one, Change other, long time, Proximity proximity, Consumer<Sighting> out) {
-        boolean were = one.before != null && other.before != null && proximity.holds(one.before, other.before);
-        boolean are = one.after != null && other.after != null && proximity.holds(one.after, other.after);
-        if (are) {
-            out.accept(Sighting.of(one.after.fix(), other.after.fix(), time, were ? 0 : 1));
-        } else if (were) {
-            out.accept(Sighting.of(one.before.fix(), other.before.fix(), time, -1));
-        }
     }
 }

@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import org.apache.flink.api.common.typeinfo.TypeInfo;
+
 import io.furrow.analytics.eventtime.Timed;
 
 /**
@@ -12,6 +14,7 @@ import io.furrow.analytics.eventtime.Timed;
  * @param presence what the device is to the cell from then on
  * @param fix where it is from then on; where {@link Presence#GONE}, its last position in the cell
  */
+@TypeInfo(CellUpdateFormat.class)
 public record CellUpdate(long cell, long time, Presence presence, PositionFix fix) implements Timed {
     static final Comparator<CellUpdate> SEQUENCE = Comparator.comparingLong(CellUpdate::time)
             .thenComparing(update -> update.fix().identity());

@@ -16,8 +16,13 @@ public record CollisionDetection(
         DataStream<Encounter> encounters, DataStream<PositionFix> late, DataStream<CellOverflow> overflows) {
     /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
     public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules) {
-        SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::identity)
-                .process(new TrackDevices(rules))
+        return define(fixes, rules, false);
+    }
+
+    /** @param eager whether pairs that are close by what has arrived are told before the watermark decides */
+    public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules, boolean eager) {
+        SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::key)
+                .process(new TrackDevices(rules, eager))
                 .uid("track-devices")
                 .name("Track devices through the grid");
 
@@ -32,8 +37,10 @@ public record CollisionDetection(
                 .uid("follow-encounters")
                 .name("Follow encounters of each pair");
 
+        DataStream<Encounter> lasting = rules.steadiness().isNone() ? encounters : steady(encounters, rules);
+
         return new CollisionDetection(
-                rules.steadiness().isNone() ? encounters : steady(encounters, rules),
+                eager ? alarmed(lasting, updates.getSideOutput(TrackDevices.ACCEPTED), rules) : lasting,
                 updates.getSideOutput(TrackDevices.LATE),
                 sightings.getSideOutput(MatchPairs.OVERFLOWS));
     }
@@ -44,5 +51,26 @@ public record CollisionDetection(
                 .process(new SteadyEncounters(rules))
                 .uid("steady-encounters")
                 .name("Steady encounters of each pair");
+    }
+
+    /** Beside the exact stages, never instead of them. */
+    private static DataStream<Encounter> alarmed(
+            DataStream<Encounter> encounters, DataStream<PositionFix> accepted, CollisionRules rules) {
+        DataStream<Arrival> arrivals = DataStreamUtils.reinterpretAsKeyedStream(
+                        accepted, PositionFix::key, Types.STRING)
+                .process(new TrackArrivals(rules))
+                .uid("track-arrivals")
+                .name("Track arrivals through the grid");
+
+        DataStream<Glimpse> glimpses = arrivals.keyBy(Arrival::cell)
+                .process(new SpotPairs(rules))
+                .uid("spot-pairs")
+                .name("Spot pairs in each cell");
+
+        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, Types.STRING)
+                .connect(glimpses.keyBy(Glimpse::pair))
+                .process(new RaiseAlarms(rules))
+                .uid("raise-alarms")
+                .name("Raise alarms of each pair");
     }
 }

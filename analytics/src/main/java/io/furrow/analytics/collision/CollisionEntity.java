@@ -19,11 +19,11 @@ public final class CollisionEntity {
                 .integer("time", encounter.time());
         device(entity, "Device1", encounter.first());
         device(entity, "Device2", encounter.second());
-        return entity.text("encounter", encounter.id())
+        entity.text("encounter", encounter.id())
                 .text("phase", encounter.phase().code())
                 .number("minDistance", encounter.minDistance())
-                .integer("startTime", encounter.startTime())
-                .build();
+                .integer("startTime", encounter.startTime());
+        return (encounter.confirms().isEmpty() ? entity : entity.text("confirms", encounter.confirms())).build();
     }
 
     /** An entity of its own, {@code Analytics:Collision:<pair>:<phase>}: the pair's encounter stays as it is. */

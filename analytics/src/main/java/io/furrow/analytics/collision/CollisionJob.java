@@ -63,7 +63,8 @@ public final class CollisionJob {
                 .uid("assign-carriers")
                 .name("Assign carriers");
 
-        DataStream<TopicRecord> results = results(CollisionDetection.define(fixes, options.rules()), options)
+        DataStream<TopicRecord> results = results(
+                        CollisionDetection.define(fixes, options.rules(), options.eager()), options)
                 .union(read.getSideOutput(DeadLetters.TAG), devices.getSideOutput(DeadLetters.TAG));
         return options.motionRules().any() ? results.union(approaches(fixes, options)) : results;
     }

@@ -35,6 +35,13 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
     private String devices;
 
     @Option(
+            names = "--eager",
+            description =
+                    "Also tell at once, as provisional, of pairs that are close by what has arrived; a start names"
+                            + " what it confirms, the rest is withdrawn. Exact records stay the same.")
+    private boolean eager;
+
+    @Option(
             names = "--output",
             paramLabel = "TOPIC",
             defaultValue = Topics.COLLISION,
@@ -80,6 +87,10 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
         } catch (IllegalArgumentException e) {
             throw refused(e.getMessage(), e);
         }
+    }
+
+    public boolean eager() {
+        return eager;
     }
 
     public String output() {

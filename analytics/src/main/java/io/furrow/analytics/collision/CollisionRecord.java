@@ -6,8 +6,12 @@ import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
 
-/** What the job writes about encounters, about crowded cells and about positions that it could not count. */
+/**
+ * What the job writes about encounters, about crowded cells and about positions that it could not count: to the given topic,
+ * or to the replay's own of what was found in a replay.
+ */
 final class CollisionRecord {
     private static final String SOURCE = "/analytics/collision";
     private static final String LATE_TYPE = "Analytics:LatePosition";
@@ -19,7 +23,7 @@ final class CollisionRecord {
     /** In the scope of the device with the lesser id; both devices nearly always share one. */
     static TopicRecord of(Encounter encounter, String topic) {
         return ResultRecord.of(
-                topic,
+                Topics.resultOf(encounter.first().topic(), topic),
                 CollisionEntity.key(encounter),
                 CollisionEntity.of(encounter),
                 encounter.first().scope(),
@@ -39,13 +43,14 @@ final class CollisionRecord {
                 .integer("pairs", overflow.pairs())
                 .integer("pairsLeftOut", overflow.pairsLeftOut())
                 .build();
-        return ResultRecord.of(topic, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
+        String output = Topics.resultOf(overflow.witness().topic(), topic);
+        return ResultRecord.of(output, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
     }
 
     /** In the same scope. */
     static TopicRecord of(Approach approach, String topic) {
         return ResultRecord.of(
-                topic,
+                Topics.resultOf(approach.first().topic(), topic),
                 CollisionEntity.key(approach.first(), approach.second()),
                 CollisionEntity.of(approach),
                 approach.first().scope(),
@@ -61,6 +66,6 @@ final class CollisionRecord {
                 .integer("Time", fix.time())
                 .text("Mission", fix.mission())
                 .build();
-        return ResultRecord.of(topic, fix.id(), entity, fix.scope(), fix.time(), SOURCE);
+        return ResultRecord.of(Topics.resultOf(fix.topic(), topic), fix.id(), entity, fix.scope(), fix.time(), SOURCE);
     }
 }

@@ -66,6 +66,13 @@ public record CollisionRules(
                         thresholds.times(steadiness.leaveFactor()), positions, Steadiness.NONE, Duration.ZERO, cells);
     }
 
+    /** The same for positions of which one may have ceased to count before the other came. */
+    CollisionRules whileBothCount() {
+        Duration last = timeToLive().minusMillis(1);
+        Duration apart = maxSkew().isZero() || maxSkew().compareTo(last) > 0 ? last : maxSkew();
+        return apart.isZero() ? this : with(new PositionRules(timeToLive(), apart, positions.zones()));
+    }
+
     /** The greatest threshold of any pair. */
     public double thresholdMeters() {
         return thresholds.greatest();

@@ -9,6 +9,7 @@ package io.furrow.analytics.collision;
  * @param minDistance metres, the closest so far
  * @param startTime when the encounter started, epoch milliseconds
  * @param time when this phase was reached, epoch milliseconds
+ * @param confirms of a start the id of the provisional record that it confirms; else empty
  */
 public record Encounter(
         Phase phase,
@@ -17,11 +18,43 @@ public record Encounter(
         double distance,
         double minDistance,
         long startTime,
-        long time) {
+        long time,
+        String confirms) {
 
-    /** The pair and the start: a second pass over the same events names its encounters the same. */
+    public Encounter(
+            Phase phase,
+            PositionFix first,
+            PositionFix second,
+            double distance,
+            double minDistance,
+            long startTime,
+            long time) {
+        this(phase, first, second, distance, minDistance, startTime, time, "");
+    }
+
+    /**
+     * The pair and the start: a second pass over the same events names its encounters the same. Of what is provisional or
+     * withdrawn the pair and the times of both positions, because late data may still move the start.
+     */
     public String id() {
-        return pairId() + "@" + startTime;
+        return phase == Phase.PROVISIONAL || phase == Phase.WITHDRAWN
+                ? pairId() + "~" + first.time() + "~" + second.time()
+                : pairId() + "@" + startTime;
+    }
+
+    /** What has arrived of a pair, until the watermark decides. */
+    static Encounter provisional(PositionFix first, PositionFix second) {
+        double distance = Geodesy.distance(first, second);
+        long time = Math.max(first.time(), second.time());
+        return new Encounter(Phase.PROVISIONAL, first, second, distance, distance, time, time);
+    }
+
+    Encounter withdrawn() {
+        return of(Phase.WITHDRAWN, distance, minDistance, startTime, time);
+    }
+
+    Encounter confirming(Encounter provisional) {
+        return new Encounter(phase, first, second, distance, minDistance, startTime, time, provisional.id());
     }
 
     /** The same pair and places in another phase, or of an encounter with another start. */

@@ -1,17 +1,11 @@
 package io.furrow.analytics.collision;
 
-import java.util.List;
-import java.util.Optional;
-
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.PendingState;
 
 /**
  * Tells the life of each encounter: started, ongoing, ended. Key: the pair.
@@ -30,9 +24,7 @@ public final class FollowEncounters extends KeyedProcessFunction<String, Sightin
 
     private final Follower follower;
 
-    private transient OneTimer timer;
-    private transient Inbox<Sighting> inbox;
-    private transient ValueState<Meeting> meeting;
+    private transient PendingState<Sighting, Meeting> pair;
     private transient Counter violations;
 
     FollowEncounters(CollisionRules rules) {
@@ -41,27 +33,25 @@ public final class FollowEncounters extends KeyedProcessFunction<String, Sightin
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), Sighting.class, Sighting.SEQUENCE, timer);
-        meeting = getRuntimeContext().getState(new ValueStateDescriptor<>("meeting", Meeting.class));
+        pair = new PendingState<>(getRuntimeContext(), new PendingSightingsFormat(), Sighting.SEQUENCE);
         violations = getRuntimeContext().getMetricGroup().counter("violations");
     }
 
     @Override
     public void processElement(Sighting sighting, Context context, Collector<Encounter> out) throws Exception {
-        inbox.add(sighting, context.timerService());
+        pair.add(sighting, context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<Encounter> out) throws Exception {
-        timer.rang();
-        List<Sighting> due = inbox.takeDue(context.timerService());
-        Follower.Followed followed = follower.follow(Optional.ofNullable(meeting.value()), due, out::collect);
-        violations.inc(followed.violations());
-        if (followed.meeting().isPresent()) {
-            meeting.update(followed.meeting().get());
-        } else {
-            meeting.clear();
-        }
+        pair.advance(
+                time,
+                context.timerService(),
+                (before, due) -> {
+                    Follower.Followed followed = follower.follow(before, due, out::collect);
+                    violations.inc(followed.violations());
+                    return followed.meeting();
+                },
+                remembered -> PendingState.NEVER);
     }
 }

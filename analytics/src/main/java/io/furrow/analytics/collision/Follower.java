@@ -2,7 +2,6 @@ package io.furrow.analytics.collision;
 
 import java.io.Serializable;
 import java.util.List;
-import java.util.Optional;
 import java.util.function.Consumer;
 
 /**
@@ -18,23 +17,29 @@ final class Follower implements Serializable {
         ongoingEvery = rules.ongoingEvery().toMillis();
     }
 
-    /** What a pair's sightings come to; {@code violations} counts instants that no grid could have brought about. */
-    record Followed(Optional<Meeting> meeting, int violations) {}
+    /**
+     * What a pair's sightings come to.
+     *
+     * @param meeting null while the pair is not close
+     * @param violations instants that no grid could have brought about
+     */
+    record Followed(Meeting meeting, int violations) {}
 
     /**
      * Follows a pair through its sightings.
      *
+     * @param before null while the pair is not close
      * @param sightings in the order of {@link Sighting#SEQUENCE}
      * @param out takes the records in the order of time
      */
-    Followed follow(Optional<Meeting> before, List<Sighting> sightings, Consumer<Encounter> out) {
-        Optional<Meeting> meeting = before;
+    Followed follow(Meeting before, List<Sighting> sightings, Consumer<Encounter> out) {
+        Meeting meeting = before;
         int violations = 0;
         int from = 0;
         while (from < sightings.size()) {
             long time = sightings.get(from).time();
             int to = from;
-            int close = meeting.isPresent() ? 1 : 0;
+            int close = meeting != null ? 1 : 0;
             Sighting here = null;
             Sighting gone = null;
             for (; to < sightings.size() && sightings.get(to).time() == time; to++) {
@@ -44,20 +49,19 @@ final class Follower implements Serializable {
                 gone = sighting.change() < 0 ? sighting : gone;
             }
             violations += close == (here == null ? 0 : 1) ? 0 : 1;
-            meeting = here != null ? Optional.of(seen(meeting, here, out)) : ended(meeting, gone, out);
+            meeting = here != null ? seen(meeting, here, out) : ended(meeting, gone, out);
             from = to;
         }
         return new Followed(meeting, violations);
     }
 
-    private Meeting seen(Optional<Meeting> before, Sighting sighting, Consumer<Encounter> out) {
+    private Meeting seen(Meeting known, Sighting sighting, Consumer<Encounter> out) {
         double distance = Geodesy.distance(sighting.first(), sighting.second());
-        if (before.isEmpty()) {
+        if (known == null) {
             Meeting meeting = new Meeting(sighting.time(), distance, sighting.time());
             out.accept(encounter(Phase.STARTED, meeting, sighting, distance));
             return meeting;
         }
-        Meeting known = before.get();
         boolean report = sighting.time() - known.reported() >= ongoingEvery;
         Meeting meeting = new Meeting(
                 known.startTime(),
@@ -69,10 +73,11 @@ final class Follower implements Serializable {
         return meeting;
     }
 
-    private static Optional<Meeting> ended(Optional<Meeting> meeting, Sighting gone, Consumer<Encounter> out) {
-        meeting.ifPresent(known ->
-                out.accept(encounter(Phase.ENDED, known, gone, Geodesy.distance(gone.first(), gone.second()))));
-        return Optional.empty();
+    private static Meeting ended(Meeting known, Sighting gone, Consumer<Encounter> out) {
+        if (known != null) {
+            out.accept(encounter(Phase.ENDED, known, gone, Geodesy.distance(gone.first(), gone.second())));
+        }
+        return null;
     }
 
     private static Encounter encounter(Phase phase, Meeting meeting, Sighting sighting, double distance) {

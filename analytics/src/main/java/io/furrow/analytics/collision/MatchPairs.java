@@ -11,8 +11,7 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.PendingState;
 
 /**
  * Finds the close pairs of each grid cell. Key: the cell's id.
@@ -38,9 +37,7 @@ public final class MatchPairs extends KeyedProcessFunction<Long, CellUpdate, Sig
     private final PairLimit limit;
     private final Grid grid;
 
-    private transient OneTimer timer;
-    private transient Inbox<CellUpdate> inbox;
-    private transient ValueState<Cell> cell;
+    private transient PendingState<CellUpdate, Cell> cell;
     private transient ValueState<Crowd> crowd;
     private transient Counter leftOut;
 
@@ -52,34 +49,31 @@ public final class MatchPairs extends KeyedProcessFunction<Long, CellUpdate, Sig
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), CellUpdate.class, CellUpdate.SEQUENCE, timer);
-        cell = getRuntimeContext().getState(new ValueStateDescriptor<>("cell", Cell.class));
+        cell = new PendingState<>(getRuntimeContext(), new PendingUpdatesFormat(), CellUpdate.SEQUENCE);
         crowd = getRuntimeContext().getState(new ValueStateDescriptor<>("crowd", Crowd.class));
         leftOut = getRuntimeContext().getMetricGroup().counter("pairs.left-out");
     }
 
     @Override
     public void processElement(CellUpdate update, Context context, Collector<Sighting> out) throws Exception {
-        inbox.add(update, context.timerService());
+        cell.add(update, context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<Sighting> out) throws Exception {
-        timer.rang();
-        List<CellUpdate> due = inbox.takeDue(context.timerService());
-        Cell known = cell.value();
-        Cell now = known == null ? Cell.empty() : known;
-        if (limit.isNone()) {
-            now.apply(due, proximity, out::collect);
-        } else {
-            applyLimited(now, due, context, out);
-        }
-        if (now.isEmpty()) {
-            cell.clear();
-        } else {
-            cell.update(now);
-        }
+        cell.advance(
+                time,
+                context.timerService(),
+                (before, due) -> {
+                    Cell now = before == null ? Cell.empty() : before;
+                    if (limit.isNone()) {
+                        now.apply(due, proximity, out::collect);
+                    } else {
+                        applyLimited(now, due, context, out);
+                    }
+                    return now.isEmpty() ? null : now;
+                },
+                remembered -> PendingState.NEVER);
     }
 
     /** Instant by instant, so that what is told of an instant does not depend on how far the watermark went. */

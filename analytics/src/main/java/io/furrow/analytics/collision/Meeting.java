@@ -1,5 +1,7 @@
 package io.furrow.analytics.collision;
 
+import org.apache.flink.api.common.typeinfo.TypeInfo;
+
 /**
  * What is remembered of a pair while it is close.
  *
@@ -7,4 +9,5 @@ package io.furrow.analytics.collision;
  * @param minDistance metres, the closest so far
  * @param reported event time of the newest record about it
  */
+@TypeInfo(MeetingFormat.class)
 public record Meeting(long startTime, double minDistance, long reported) {}

@@ -10,7 +10,7 @@ package io.furrow.analytics.collision;
  * @param z component towards the north pole
  */
 public record Member(PositionFix fix, boolean resident, double x, double y, double z) {
-    static Member of(PositionFix fix, boolean resident) {
+    public static Member of(PositionFix fix, boolean resident) {
         double phi = Math.toRadians(fix.latitude());
         double lambda = Math.toRadians(fix.longitude());
         double cosine = Math.cos(phi);

@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import org.apache.flink.api.common.typeinfo.TypeInfo;
+
 import io.furrow.analytics.eventtime.Timed;
 import io.furrow.model.event.FiwareScope;
 
@@ -20,6 +22,7 @@ import io.furrow.model.event.FiwareScope;
  * @param heading degrees clockwise from north as reported, 0 to 360; NaN where nothing is known
  * @param time epoch milliseconds
  */
+@TypeInfo(PositionFixFormat.class)
 public record PositionFix(
         String topic,
         String identity,
@@ -50,6 +53,36 @@ public record PositionFix(
     /** One text per device of a topic. A topic's name has no {@code |}. */
     public String key() {
         return topic + '|' + identity;
+    }
+
+    /** The same as a key of maps. */
+    Device device() {
+        return new Device(topic, identity);
+    }
+
+    /** A device of a topic. What a record would have of its own is slower by the cost of a whole lookup. */
+    static final class Device {
+        private final String topic;
+        private final String identity;
+
+        private Device(String topic, String identity) {
+            this.topic = topic;
+            this.identity = identity;
+        }
+
+        @Override
+        public boolean equals(Object other) {
+            return other instanceof Device device && identity.equals(device.identity) && topic.equals(device.topic);
+        }
+
+        @Override
+        public int hashCode() {
+            return identity.hashCode();
+        }
+    }
+
+    boolean isOfSameDevice(PositionFix other) {
+        return identity.equals(other.identity) && topic.equals(other.topic);
     }
 
     /** The tenant and service path that the identity begins with. */

@@ -9,13 +9,14 @@ import java.util.Map;
  * millionth of the threshold's own {@link Geodesy#distance} decides, so that the answer is that of the definition to the
  * last bit.
  */
-final class Proximity implements Serializable {
+public final class Proximity implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final double GUARD_BAND = 1e-6;
 
     private final Thresholds thresholds;
     private final long maxSkewMillis;
     private final Limit greatest;
+    private final double reach;
     /** By types; null where all have one threshold. Grows with the pairs of types that are met. */
     private final Map<String, Map<String, Limit>> limits;
 
@@ -27,16 +28,22 @@ final class Proximity implements Serializable {
         }
     }
 
-    Proximity(CollisionRules rules) {
+    public Proximity(CollisionRules rules) {
         thresholds = rules.thresholds();
         maxSkewMillis =
                 rules.maxSkew().isZero() ? Long.MAX_VALUE : rules.maxSkew().toMillis();
         greatest = Limit.of(thresholds.greatest());
         limits = thresholds.ofTypes().isEmpty() ? null : new HashMap<>();
+        reach = Math.sqrt(greatest.surelyApart) * (1 + GUARD_BAND);
+    }
+
+    /** The greatest chord, in Earth radii, at which two devices can be close. */
+    double reach() {
+        return reach;
     }
 
     /** Two halo copies are not compared here: they meet in a cell where one of them is at home. */
-    boolean holds(Member a, Member b) {
+    public boolean holds(Member a, Member b) {
         double squaredChord =
                 Geodesy.square(a.x() - b.x()) + Geodesy.square(a.y() - b.y()) + Geodesy.square(a.z() - b.z());
         if (squaredChord > greatest.surelyApart || !a.resident() && !b.resident()) {
@@ -44,6 +51,7 @@ final class Proximity implements Serializable {
         }
         return within(limit(a.fix().type(), b.fix().type()), squaredChord, a, b)
                 && Math.abs(a.fix().time() - b.fix().time()) <= maxSkewMillis
+                && a.fix().topic().equals(b.fix().topic())
                 && !a.fix().sharesAggregateWith(b.fix());
     }
 

@@ -2,6 +2,8 @@ package io.furrow.analytics.collision;
 
 import java.util.Comparator;
 
+import org.apache.flink.api.common.typeinfo.TypeInfo;
+
 import io.furrow.analytics.eventtime.Timed;
 
 /**
@@ -12,6 +14,7 @@ import io.furrow.analytics.eventtime.Timed;
  * @param time epoch milliseconds
  * @param change +1 close in this cell from now on, −1 no more, 0 still
  */
+@TypeInfo(SightingFormat.class)
 public record Sighting(PositionFix first, PositionFix second, long time, int change) implements Timed {
     static final Comparator<Sighting> SEQUENCE = Comparator.comparingLong(Sighting::time);
 
@@ -21,12 +24,12 @@ public record Sighting(PositionFix first, PositionFix second, long time, int cha
                 : new Sighting(other, one, time, change);
     }
 
-    /** One text per pair; the length before it keeps two pairs from ever sharing one. */
-    String pair() {
+    /** One text per pair of a topic; the length before the first keeps two pairs from ever sharing one. */
+    public String pair() {
         return pair(first, second);
     }
 
     static String pair(PositionFix first, PositionFix second) {
-        return first.identity().length() + ":" + first.identity() + second.identity();
+        return first.topic() + '|' + first.identity().length() + ':' + first.identity() + second.identity();
     }
 }

@@ -5,8 +5,6 @@ import java.util.List;
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.ListState;
 import org.apache.flink.api.common.state.ListStateDescriptor;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.runtime.state.FunctionInitializationContext;
@@ -16,8 +14,7 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.eventtime.Inbox;
-import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.eventtime.PendingState;
 
 /**
  * Puts each device into the grid cells that have to know of it. Key: the device's identity.
@@ -37,19 +34,29 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
         private static final long serialVersionUID = 1L;
     };
 
+    /** Every position that is not late, as soon as it arrives. */
+    static final OutputTag<PositionFix> ACCEPTED = new OutputTag<>("accepted") {
+        private static final long serialVersionUID = 1L;
+    };
+
     private static final long serialVersionUID = 1L;
 
+    private final boolean eager;
     private final Tracker tracker;
 
-    private transient OneTimer timer;
-    private transient Inbox<PositionFix> inbox;
-    private transient ValueState<Track> track;
+    private transient PendingState<PositionFix, Track> device;
     private transient ListState<Long> progress;
     private transient long reached;
     private transient Counter accepted;
     private transient Counter late;
 
     TrackDevices(CollisionRules rules) {
+        this(rules, false);
+    }
+
+    /** @param eager whether {@link #ACCEPTED} is wanted */
+    TrackDevices(CollisionRules rules, boolean eager) {
+        this.eager = eager;
         tracker = new Tracker(rules.exact());
     }
 
@@ -65,9 +72,7 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
 
     @Override
     public void open(OpenContext context) {
-        timer = new OneTimer(getRuntimeContext());
-        inbox = new Inbox<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
-        track = getRuntimeContext().getState(new ValueStateDescriptor<>("track", Track.class));
+        device = new PendingState<>(getRuntimeContext(), new PendingFixesFormat(), PositionFix.SEQUENCE);
         accepted = getRuntimeContext().getMetricGroup().counter("accepted");
         late = getRuntimeContext().getMetricGroup().counter("late");
     }
@@ -81,23 +86,21 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
             return;
         }
         accepted.inc();
-        inbox.add(fix, context.timerService());
+        device.add(fix, context.timerService());
+        if (eager) {
+            context.output(ACCEPTED, fix);
+        }
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<CellUpdate> out) throws Exception {
-        timer.rang();
         long until = context.timerService().currentWatermark();
         reached = Math.max(reached, until);
-        List<PositionFix> due = inbox.takeDue(context.timerService());
-        Track before = track.value();
-        Track after = tracker.advance(before == null ? Track.NOWHERE : before, due, until, out::collect);
-        if (after.isNowhere()) {
-            track.clear();
-        } else {
-            track.update(after);
-            timer.ask(tracker.expiry(after), context.timerService());
-        }
+        device.advance(
+                time,
+                context.timerService(),
+                (before, due) -> tracker.advance(before, due, until, out::collect),
+                tracker::expiry);
     }
 
     @Override

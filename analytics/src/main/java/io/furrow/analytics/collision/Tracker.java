@@ -5,7 +5,7 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /** Moves a device through the grid: what its positions, and their end, mean for which cell at which instant. */
-final class Tracker implements Serializable {
+public final class Tracker implements Serializable {
     private static final long serialVersionUID = 1L;
     private static final long[] NO_CELLS = {};
 
@@ -13,14 +13,14 @@ final class Tracker implements Serializable {
     private final ExclusionZones zones;
     private final long timeToLive;
 
-    Tracker(CollisionRules rules) {
+    public Tracker(CollisionRules rules) {
         zones = rules.positions().zones();
         grid = new Grid(rules);
         timeToLive = rules.timeToLive().toMillis();
     }
 
     /**
-     * The track after all positions of one device up to an instant.
+     * The track after all positions of one device up to an instant; null for none, as before the first.
      *
      * @param due in the order of {@link PositionFix#SEQUENCE}, none later than {@code until}
      * @param out takes the updates of cells in the order of time
@@ -43,19 +43,24 @@ final class Tracker implements Serializable {
     }
 
     private Track expire(Track track, long until, Consumer<CellUpdate> out) {
-        if (track.isNowhere() || expiry(track) > until) {
+        if (track == null || expiry(track) > until) {
             return track;
         }
         for (long cell : track.cells()) {
             out.accept(new CellUpdate(cell, expiry(track), Presence.GONE, track.last()));
         }
-        return Track.NOWHERE;
+        return null;
     }
 
-    private Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
+    /**
+     * The track of a device that is somewhere else now.
+     *
+     * @param track null where it was nowhere
+     */
+    public Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
         boolean excluded = zones.cover(fix.latitude(), fix.longitude());
         long[] cells = excluded ? NO_CELLS : grid.cells(fix.latitude(), fix.longitude());
-        for (long left : track.cells()) {
+        for (long left : track == null ? NO_CELLS : track.cells()) {
             if (!contains(cells, left)) {
                 out.accept(new CellUpdate(left, fix.time(), Presence.GONE, track.last()));
             }

@@ -5,42 +5,66 @@ import java.util.Comparator;
 import java.util.List;
 
 import org.apache.flink.api.common.functions.RuntimeContext;
-import org.apache.flink.api.common.state.ListState;
-import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.api.java.typeutils.ListTypeInfo;
 import org.apache.flink.streaming.api.TimerService;
 
 /**
- * What came in for a key and waits for the watermark; the key's timer is set to the earliest of it. State: the list
- * {@code waiting}.
+ * What came in for a key and waits for the watermark; the key's timer is set to the earliest of it. State: the value
+ * {@code waiting}, one list, empty while nothing waits.
  */
 public final class Inbox<T extends Timed> {
-    private final ListState<T> waiting;
+    private final ValueState<List<T>> waiting;
     private final Comparator<T> sequence;
     private final OneTimer timer;
 
     public Inbox(RuntimeContext context, Class<T> type, Comparator<T> sequence, OneTimer timer) {
-        waiting = context.getListState(new ListStateDescriptor<>("waiting", type));
+        ListTypeInfo<T> list = new ListTypeInfo<>(TypeInformation.of(type));
+        waiting = context.getState(new ValueStateDescriptor<>("waiting", list));
         this.sequence = sequence;
         this.timer = timer;
     }
 
     public void add(T message, TimerService timers) throws Exception {
-        waiting.add(message);
+        List<T> before = waiting.value();
+        List<T> now = before == null ? new ArrayList<>(1) : before;
+        now.add(message);
+        waiting.update(now);
         timer.ask(message.time(), timers);
+    }
+
+    public boolean isEmpty() throws Exception {
+        return waiting.value() == null;
     }
 
     /** Removes what the watermark has passed and returns it in sequence. */
     public List<T> takeDue(TimerService timers) throws Exception {
-        List<T> due = new ArrayList<>();
-        List<T> later = new ArrayList<>();
-        for (T message : waiting.get()) {
+        List<T> all = waiting.value();
+        if (all == null) {
+            return List.of();
+        }
+        List<T> due = new ArrayList<>(all.size());
+        List<T> later = new ArrayList<>(0);
+        for (T message : all) {
             (message.time() <= timers.currentWatermark() ? due : later).add(message);
         }
-        waiting.update(later);
-        for (T message : later) {
-            timer.ask(message.time(), timers);
+        if (later.isEmpty()) {
+            waiting.clear();
+        } else {
+            waiting.update(later);
+            timer.ask(earliest(later), timers);
         }
         due.sort(sequence);
         return due;
+    }
+
+    private static long earliest(List<? extends Timed> messages) {
+        long earliest = Long.MAX_VALUE;
+        for (Timed message : messages) {
+            earliest = Math.min(earliest, message.time());
+        }
+        return earliest;
     }
 }

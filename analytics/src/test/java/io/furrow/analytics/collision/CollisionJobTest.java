@@ -100,8 +100,9 @@ class CollisionJobTest {
     void goesByTheTypesZonesAndLimitsOfItsOptions() throws Exception {
         PositionFix corner = Fixes.east("", 20, 0);
         Path yard = Files.writeString(folder.resolve("yard.geojson"), """
-                {"features": [{"geometry": {"type": "Polygon", "coordinates":
-                  [[[%1$s, -1], [11, -1], [11, 1], [%1$s, 1], [%1$s, -1]]]}}]}""".formatted(corner.longitude()));
+            {"features": [{"geometry": {"type": "Polygon", "coordinates":
+              [[[%1$s, -1], [11, -1], [11, 1], [%1$s, 1], [%1$s, -1]]]}}]}\
+            """.formatted(corner.longitude()));
         TopicRecord[] reported = {
             robot("r1", 0, 0), robot("r2", 7, 0), robot("r3", 100, 0), robot("r4", 100, 0), robot("r5", 7, 1000)
         };
@@ -206,6 +207,21 @@ class CollisionJobTest {
                 .as("as of the position's time")
                 .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
                 .containsExactlyInAnyOrder("l1-r1", "l1-r1", "r1-r2", "r1-r2");
+    }
+
+    @Test
+    void keepsAReplayToItselfAndItsResultsWithIt() throws Exception {
+        String replay = "data.hoeing.replay.0a1b2c3d";
+        List<TopicRecord> written = run(
+                options(),
+                robot("r1", 0, 0),
+                robot("r2", 2, 0).to(replay),
+                robot("r3", 4, 0).to(replay),
+                robot("r4", 300, 0));
+
+        assertThat(written)
+                .extracting(TopicRecord::topic, record -> new String(record.key(), StandardCharsets.UTF_8))
+                .containsExactly(tuple(replay + ".collision", "r2-r3"), tuple(replay + ".collision", "r2-r3"));
     }
 
     @Test

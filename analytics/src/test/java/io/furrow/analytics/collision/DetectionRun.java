@@ -3,6 +3,7 @@ package io.furrow.analytics.collision;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
+import java.util.function.Function;
 
 import org.apache.flink.api.common.JobExecutionResult;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
@@ -33,6 +34,15 @@ record DetectionRun(
 
     static DetectionRun of(List<PositionFix> arrivals, CollisionRules rules, int parallelism, InMemoryReporter metrics)
             throws Exception {
+        return of(arrivals, fixes -> CollisionDetection.define(fixes, rules), parallelism, metrics);
+    }
+
+    static DetectionRun of(
+            List<PositionFix> arrivals,
+            Function<DataStream<PositionFix>, CollisionDetection> defined,
+            int parallelism,
+            InMemoryReporter metrics)
+            throws Exception {
         Configuration settings = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
         env.setParallelism(parallelism);
@@ -43,7 +53,7 @@ record DetectionRun(
                 .assignTimestampsAndWatermarks(
                         WatermarkStrategy.<PositionFix>forGenerator(context -> new EachEvent<>(BOUND))
                                 .withTimestampAssigner((fix, previous) -> fix.time()));
-        CollisionDetection detection = CollisionDetection.define(fixes, rules);
+        CollisionDetection detection = defined.apply(fixes);
         CloseableIterator<Encounter> encounters = detection.encounters().collectAsync();
         CloseableIterator<PositionFix> late = detection.late().collectAsync();
         CloseableIterator<CellOverflow> overflows = detection.overflows().collectAsync();

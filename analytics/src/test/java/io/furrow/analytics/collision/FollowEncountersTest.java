@@ -1,7 +1,6 @@
 package io.furrow.analytics.collision;
 
 import java.util.List;
-import java.util.Optional;
 
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -84,8 +83,7 @@ class FollowEncountersTest {
     }
 
     private static int violations(Follower follower, Sighting... sightings) {
-        return follower.follow(Optional.empty(), List.of(sightings), encounter -> {})
-                .violations();
+        return follower.follow(null, List.of(sightings), encounter -> {}).violations();
     }
 
     /** b at the place, a so many metres east of it. */

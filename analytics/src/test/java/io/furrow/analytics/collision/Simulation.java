@@ -4,7 +4,6 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.Optional;
 import java.util.Random;
 import java.util.function.Function;
 
@@ -20,7 +19,7 @@ final class Simulation {
     private final Map<String, Track> tracks = new HashMap<>();
     private final Map<Long, Cell> cells = new HashMap<>();
     private final Map<Long, Crowd> crowds = new HashMap<>();
-    private final Map<String, Optional<Meeting>> meetings = new HashMap<>();
+    private final Map<String, Meeting> meetings = new HashMap<>();
     private final Map<String, Course> courses = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
     private final List<CollisionOracle.Overflow> overflows = new ArrayList<>();
@@ -67,7 +66,7 @@ final class Simulation {
         fixes.forEach((identity, of) -> {
             List<PositionFix> sorted = new ArrayList<>(of);
             sorted.sort(PositionFix.SEQUENCE);
-            Track before = tracks.getOrDefault(identity, Track.NOWHERE);
+            Track before = tracks.get(identity);
             tracks.put(identity, tracker.advance(before, sorted, until, updates::add));
         });
         List<Sighting> sightings = new ArrayList<>();
@@ -98,7 +97,7 @@ final class Simulation {
     private void follow(String pair, List<Sighting> sightings, long until) {
         sightings.sort(Sighting.SEQUENCE);
         List<Encounter> exact = steadier == null ? encounters : new ArrayList<>();
-        Optional<Meeting> before = meetings.getOrDefault(pair, Optional.empty());
+        Meeting before = meetings.get(pair);
         Follower.Followed followed = follower.follow(before, sightings, exact::add);
         violations += followed.violations();
         meetings.put(pair, followed.meeting());

@@ -101,7 +101,7 @@ class TrackDevicesTest {
     }
 
     @Test
-    void keepsOneTimerPerDevice() throws Exception {
+    void keepsATimerForTheNextPositionAndOneForTheEndHoweverManyWait() throws Exception {
         List<PositionFix> fixes = new ArrayList<>();
         for (int i = 0; i < 50; i++) {
             fixes.add(east("a", i, 1000 + 100 * i));
@@ -111,7 +111,9 @@ class TrackDevicesTest {
         stage.receive(fixes);
         assertThat(stage.timers()).isEqualTo(2);
         assertThat(stage.advance(3000)).isNotEmpty();
-        assertThat(stage.timers()).isEqualTo(2);
+        assertThat(stage.timers()).isEqualTo(4);
+        assertThat(stage.advance(5000)).isNotEmpty();
+        assertThat(stage.timers()).isEqualTo(4);
     }
 
     private long[] cells(PositionFix fix) {

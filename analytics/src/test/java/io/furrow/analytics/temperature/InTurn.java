@@ -143,7 +143,7 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
                 .pollInSameThread()
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
-                .atMost(Duration.ofSeconds(30))
+                .atMost(Duration.ofSeconds(60))
                 .until(condition);
     }
 }

@@ -172,6 +172,7 @@ record RandomCase(
                 "--slide=" + setting.slide() + "ms",
                 "--out-of-orderness=" + bound + "ms",
                 "--allowed-lateness=" + setting.lateness() + "ms",
+                "--repeat-window=1h", // a repetition that comes after it would be one more late reading
                 "--mad-floor=" + setting.floor(),
                 "--suspect-after=" + (inBounds ? 2 : 0),
                 "--empty-windows=" + (fillsEmptyWindows() ? "1d" : "0s"));

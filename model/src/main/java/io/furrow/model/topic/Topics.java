@@ -1,6 +1,7 @@
 package io.furrow.model.topic;
 
 import java.util.Optional;
+import java.util.regex.Pattern;
 
 /** The topics that the parts of Furrow meet in. */
 public final class Topics {
@@ -34,6 +35,10 @@ public final class Topics {
 
     private static final String DEAD = ".dead";
 
+    private static final String DATA = "data";
+    /** What is played back: {@code data.<mission>.replay.<first eight digits of an id>}. */
+    private static final Pattern REPLAY = Pattern.compile("data\\.[^.]+\\.replay\\.[0-9a-f]{8}");
+
     private Topics() {}
 
     /** All missions of a domain: {@code data.<domain>.realtime}. */
@@ -44,6 +49,20 @@ public final class Topics {
     /** One mission: {@code data.<domain>.realtime.<mission>}. */
     public static String realtime(String domain, String mission) {
         return realtime(domain) + "." + TopicName.of(mission);
+    }
+
+    /**
+     * Where a result goes: to the output, but what is found in a replay to a topic of that replay's own, for instance
+     * {@code data.collision.late} of {@code data.hoeing.replay.0a1b2c3d} to {@code data.hoeing.replay.0a1b2c3d.collision.late}.
+     *
+     * @param input the topic that the result was found in
+     * @param output where the same result goes for other topics
+     */
+    public static String resultOf(String input, String output) {
+        if (!REPLAY.matcher(input).matches()) {
+            return output;
+        }
+        return output.startsWith(DATA + ".") ? input + output.substring(DATA.length()) : input + "." + output;
     }
 
     /** Where the unreadable records of a topic go. */

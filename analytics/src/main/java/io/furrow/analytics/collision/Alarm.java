@@ -1,0 +1,73 @@
+package io.furrow.analytics.collision;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Consumer;
+
+/**
+ * What has been told of a pair before the watermark decided.
+ *
+ * @param firstVersion of the newest glimpse
+ * @param secondVersion of the newest glimpse
+ * @param close whether the pair was close in it
+ * @param open provisional records that are neither confirmed nor withdrawn, in the order of telling
+ */
+public record Alarm(long firstVersion, long secondVersion, boolean close, List<Encounter> open) {
+    static final Alarm NONE = new Alarm(Long.MIN_VALUE, Long.MIN_VALUE, false, List.of());
+
+    /**
+     * After a glimpse. One that knows less of either device is passed over: the cell will tell again when it knows. Of two
+     * with the same versions the close one counts: the other comes from a cell that the pair has left.
+     */
+    Alarm after(Glimpse glimpse, Consumer<Encounter> out) {
+        boolean same = glimpse.firstVersion() == firstVersion && glimpse.secondVersion() == secondVersion;
+        if (glimpse.firstVersion() < firstVersion || glimpse.secondVersion() < secondVersion) {
+            return this;
+        }
+        List<Encounter> now = open;
+        if (glimpse.close() && !close && !same) {
+            Encounter provisional = Encounter.provisional(glimpse.first(), glimpse.second());
+            if (open.stream().noneMatch(each -> each.id().equals(provisional.id()))) {
+                now = new ArrayList<>(open);
+                now.add(provisional);
+                out.accept(provisional);
+            }
+        }
+        return new Alarm(glimpse.firstVersion(), glimpse.secondVersion(), glimpse.close() || same && close, now);
+    }
+
+    /** After a start, which confirms the first provisional record that begins no earlier. */
+    Alarm after(Encounter start, Consumer<Encounter> out) {
+        List<Encounter> now = new ArrayList<>(open);
+        for (Encounter provisional : open) {
+            if (provisional.time() >= start.time()) {
+                now.remove(provisional);
+                out.accept(start.confirming(provisional));
+                return new Alarm(firstVersion, secondVersion, close, now);
+            }
+        }
+        out.accept(start);
+        return this;
+    }
+
+    /** After the decision on all up to an instant: what no start has confirmed is withdrawn. */
+    Alarm decided(long until, Consumer<Encounter> out) {
+        List<Encounter> now = new ArrayList<>(open);
+        for (Encounter provisional : open) {
+            if (provisional.time() <= until) {
+                now.remove(provisional);
+                out.accept(provisional.withdrawn());
+            }
+        }
+        return new Alarm(firstVersion, secondVersion, close, now);
+    }
+
+    /** Whether the pair is apart, all is decided, and no message of these versions can be under way any more. */
+    boolean isOver(long watermark) {
+        return !close && open.isEmpty() && lastVersion() <= watermark;
+    }
+
+    long lastVersion() {
+        return Math.max(firstVersion, secondVersion);
+    }
+}

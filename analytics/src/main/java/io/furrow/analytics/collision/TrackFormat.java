@@ -1,0 +1,49 @@
+package io.furrow.analytics.collision;
+
+import java.io.IOException;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.analytics.format.Format;
+
+/** How a {@link Track} is written. */
+public final class TrackFormat extends Format<Track> {
+    private static final long serialVersionUID = 1L;
+    /** The fix in its version 1, number of cells, cells. */
+    private static final int VERSION = 1;
+
+    private static final int FIX_VERSION = 1;
+
+    @Override
+    public Class<Track> type() {
+        return Track.class;
+    }
+
+    @Override
+    public int version() {
+        return VERSION;
+    }
+
+    @Override
+    public void write(Track track, DataOutputView out) throws IOException {
+        PositionFixFormat.INSTANCE.write(track.last(), out);
+        out.writeInt(track.cells().length);
+        for (long cell : track.cells()) {
+            out.writeLong(cell);
+        }
+    }
+
+    @Override
+    public Track read(int version, DataInputView in) throws IOException {
+        if (version != VERSION) {
+            throw unknown(version);
+        }
+        PositionFix last = PositionFixFormat.INSTANCE.read(FIX_VERSION, in);
+        long[] cells = new long[in.readInt()];
+        for (int i = 0; i < cells.length; i++) {
+            cells[i] = in.readLong();
+        }
+        return new Track(last, cells);
+    }
+}

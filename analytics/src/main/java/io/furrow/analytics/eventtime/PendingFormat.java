@@ -1,0 +1,79 @@
+package io.furrow.analytics.eventtime;
+
+import java.io.IOException;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.analytics.format.Format;
+
+/** How a {@link Pending} is written; a subclass says what its messages and its remembered value are. */
+public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M, S>> {
+    private static final long serialVersionUID = 1L;
+    /** Both timers, number of messages, messages, whether something is remembered, what it is. */
+    private static final int VERSION = 1;
+
+    private final Format<M> messages;
+    private final Format<S> remembered;
+
+    protected PendingFormat(Format<M> messages, Format<S> remembered) {
+        this.messages = messages;
+        this.remembered = remembered;
+    }
+
+    @Override
+    @SuppressWarnings("unchecked") // there is no class literal of a generic type
+    public final Class<Pending<M, S>> type() {
+        return (Class<Pending<M, S>>) (Class<?>) Pending.class;
+    }
+
+    /** Higher than the version of each part, so that it rises when one of them does. */
+    @Override
+    public final int version() {
+        return VERSION;
+    }
+
+    @Override
+    public final void write(Pending<M, S> pending, DataOutputView out) throws IOException {
+        out.writeLong(pending.wakeAt);
+        out.writeLong(pending.expiryAt);
+        out.writeInt(pending.waiting.size());
+        for (M message : pending.waiting) {
+            messages.write(message, out);
+        }
+        out.writeBoolean(pending.remembered != null);
+        if (pending.remembered != null) {
+            remembered.write(pending.remembered, out);
+        }
+    }
+
+    @Override
+    public final Pending<M, S> read(int version, DataInputView in) throws IOException {
+        if (version != VERSION) {
+            throw unknown(version);
+        }
+        Pending<M, S> pending = new Pending<>();
+        pending.wakeAt = in.readLong();
+        pending.expiryAt = in.readLong();
+        for (int left = in.readInt(); left > 0; left--) {
+            pending.waiting.add(messages.read(1, in));
+        }
+        pending.remembered = in.readBoolean() ? remembered.read(1, in) : null;
+        return pending;
+    }
+
+    @Override
+    public final Pending<M, S> copy(Pending<M, S> pending) {
+        Pending<M, S> copy = new Pending<>();
+        copy.wakeAt = pending.wakeAt;
+        copy.expiryAt = pending.expiryAt;
+        copy.waiting.addAll(pending.waiting);
+        copy.remembered = pending.remembered == null ? null : remembered.copy(pending.remembered);
+        return copy;
+    }
+
+    @Override
+    public final boolean isImmutable() {
+        return false;
+    }
+}

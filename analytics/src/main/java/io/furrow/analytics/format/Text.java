@@ -1,0 +1,39 @@
+package io.furrow.analytics.format;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+/** Texts in UTF-8 behind their length in one byte below 255, else in four more. */
+public final class Text {
+    private static final int LONG = 255;
+
+    private Text() {}
+
+    public static void write(String text, DataOutputView out) throws IOException {
+        if (text.isEmpty()) {
+            out.writeByte(0);
+            return;
+        }
+        byte[] bytes = text.getBytes(StandardCharsets.UTF_8);
+        if (bytes.length < LONG) {
+            out.writeByte(bytes.length);
+        } else {
+            out.writeByte(LONG);
+            out.writeInt(bytes.length);
+        }
+        out.write(bytes);
+    }
+
+    public static String read(DataInputView in) throws IOException {
+        int length = in.readUnsignedByte();
+        if (length == 0) {
+            return "";
+        }
+        byte[] bytes = new byte[length == LONG ? in.readInt() : length];
+        in.readFully(bytes);
+        return new String(bytes, StandardCharsets.UTF_8);
+    }
+}

@@ -1,0 +1,100 @@
+package io.furrow.analytics.collision;
+
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.runtime.testutils.InMemoryReporter;
+import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.extension.RegisterExtension;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class EagerDetectionTest {
+    private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
+
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
+            .setNumberSlotsPerTaskManager(4)
+            .build());
+
+    private static final int JOBS = 6;
+    private static final int CASES_PER_JOB = 50;
+    private static final long START = 1_700_000_000_000L;
+    private static final long WORLD_MILLIS = 60_000;
+
+    @Test
+    void confirmsOrWithdrawsOnceWhatItTellsAtOnceAndChangesNothingExact() throws Exception {
+        long seed = Long.getLong("furrow.collision.seed", System.nanoTime());
+        System.out.println("eager collisions from seed " + seed);
+        int confirmed = 0;
+        int withdrawn = 0;
+        for (int job = 0; job < JOBS; job++) {
+            double threshold = Worlds.THRESHOLDS[job % 4];
+            CollisionRules rules =
+                    job % 2 == 0 ? Worlds.rules(threshold, 3 + job, job > 2) : Worlds.anyRules(threshold, seed + job);
+            List<PositionFix> fixes = new ArrayList<>();
+            List<Encounter> expected = new ArrayList<>();
+            for (int i = 0; i < CASES_PER_JOB; i++) {
+                List<PositionFix> world = new Worlds(seed + 1000L * job + i)
+                        .wander(Worlds.centre(i), threshold, START + i * WORLD_MILLIS);
+                fixes.addAll(world);
+                expected.addAll(CollisionOracle.result(world, rules).encounters());
+            }
+            List<PositionFix> arrivals = new Worlds(seed + job).shuffled(fixes, DetectionRun.BOUND);
+            DetectionRun run = DetectionRun.of(
+                    arrivals,
+                    positions -> CollisionDetection.define(positions, rules, true),
+                    new int[] {1, 2, 4}[job % 3],
+                    METRICS);
+            String which = "job %d, seed %d, %s".formatted(job, seed, rules);
+            assertThat(CollisionOracle.difference(exact(run.encounters()), expected))
+                    .as(which)
+                    .isEmpty();
+            Set<String> provisional = ids(run.encounters(), Phase.PROVISIONAL);
+            List<String> resolved = new ArrayList<>();
+            run.encounters().stream()
+                    .map(Encounter::confirms)
+                    .filter(id -> !id.isEmpty())
+                    .forEach(resolved::add);
+            confirmed += resolved.size();
+            Set<String> taken = ids(run.encounters(), Phase.WITHDRAWN);
+            withdrawn += taken.size();
+            resolved.addAll(taken);
+            assertThat(resolved).as(which).containsExactlyInAnyOrderElementsOf(provisional);
+        }
+        System.out.println(confirmed + " confirmed, " + withdrawn + " withdrawn");
+        assertThat(confirmed).isGreaterThan(JOBS * CASES_PER_JOB);
+        assertThat(withdrawn).isGreaterThan(JOBS);
+    }
+
+    private static Set<String> ids(List<Encounter> encounters, Phase phase) {
+        Set<String> ids = new HashSet<>();
+        for (Encounter encounter : encounters) {
+            if (encounter.phase() == phase) {
+                assertThat(ids.add(encounter.id()))
+                        .as("one record of " + encounter)
+                        .isTrue();
+            }
+        }
+        return ids;
+    }
+
+    /** As they would be without eager records. */
+    private static List<Encounter> exact(List<Encounter> all) {
+        return all.stream()
+                .filter(encounter -> encounter.phase() != Phase.PROVISIONAL && encounter.phase() != Phase.WITHDRAWN)
+                .map(encounter -> encounter.of(
+                        encounter.phase(),
+                        encounter.distance(),
+                        encounter.minDistance(),
+                        encounter.startTime(),
+                        encounter.time()))
+                .toList();
+    }
+}

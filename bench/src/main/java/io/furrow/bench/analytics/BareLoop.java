@@ -1,0 +1,82 @@
+package io.furrow.bench.analytics;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import io.furrow.analytics.collision.Cell;
+import io.furrow.analytics.collision.CellUpdate;
+import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.Proximity;
+import io.furrow.analytics.collision.Sighting;
+import io.furrow.analytics.collision.Track;
+import io.furrow.analytics.collision.Tracker;
+
+/**
+ * The same grid and predicate in one thread and plain maps, for positions in order: no serialization, no state backend, no
+ * timers, no distance of what lasts. What Flink's stages could be at best, and what they must agree with.
+ */
+final class BareLoop {
+    private final Tracker tracker = new Tracker(CollisionRules.DEFAULT);
+    private final Proximity proximity = new Proximity(CollisionRules.DEFAULT);
+    private final Fleet fleet;
+    private final Track[] tracks;
+    private final Map<Long, Cell> cells = new HashMap<>();
+    private final Map<Long, List<CellUpdate>> instant = new HashMap<>();
+    private final Map<String, Integer> changes = new HashMap<>();
+    private final Map<String, Boolean> close = new HashMap<>();
+    private long now = Long.MIN_VALUE;
+    private long starts;
+
+    BareLoop(int devices) {
+        fleet = new Fleet(devices, 0, 1);
+        tracks = new Track[devices];
+    }
+
+    /** Encounters that start in one second of event time, which must follow the one before. */
+    long second(long second) {
+        starts = 0;
+        for (long part = 0; part < Fleet.TICKS_PER_SECOND; part++) {
+            fleet.tick(second * Fleet.TICKS_PER_SECOND + part, this::take);
+        }
+        apply();
+        return starts;
+    }
+
+    private void take(PositionFix fix) {
+        if (fix.time() != now) {
+            apply();
+            now = fix.time();
+        }
+        int device = Integer.parseInt(
+                fix.id(), fix.id().lastIndexOf(':') + 1, fix.id().length(), 10);
+        tracks[device] = tracker.move(
+                tracks[device],
+                fix,
+                update -> instant.computeIfAbsent(update.cell(), cell -> new ArrayList<>(1))
+                        .add(update));
+    }
+
+    private void apply() {
+        instant.forEach((cell, updates) ->
+                cells.computeIfAbsent(cell, id -> Cell.empty()).apply(updates, proximity, this::see));
+        instant.clear();
+        changes.forEach((pair, change) -> {
+            if (change > 0) {
+                starts++;
+                close.put(pair, true);
+            } else if (change < 0) {
+                close.remove(pair);
+            }
+        });
+        changes.clear();
+    }
+
+    private void see(Sighting sighting) {
+        if (sighting.change() != 0) {
+            changes.merge(sighting.pair(), sighting.change(), Integer::sum);
+        }
+    }
+}

@@ -1,0 +1,126 @@
+package io.furrow.bench.analytics;
+
+import java.io.IOException;
+import java.lang.management.ManagementFactory;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.stream.Stream;
+
+import com.sun.management.OperatingSystemMXBean;
+import org.apache.flink.configuration.CheckpointingOptions;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.ExecutionOptions;
+import org.apache.flink.configuration.MemorySize;
+import org.apache.flink.configuration.PipelineOptions;
+import org.apache.flink.configuration.TaskManagerOptions;
+import org.apache.flink.core.execution.JobClient;
+import org.apache.flink.core.execution.SavepointFormatType;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.analytics.collision.CollisionDetection;
+import io.furrow.analytics.collision.CollisionRules;
+
+/** Runs the three stages of collision detection in a Flink cluster of this JVM, fed from memory inside the job. */
+public final class CollisionMeasurement {
+    private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
+    private static final int MAX_PARALLELISM = 720;
+    /** The first second has everything start at once; few more are enough to tell whether the stages agree. */
+    private static final int MOST_COMPARED = 20;
+
+    private final Path directory;
+
+    /** @param directory for savepoints, which are weighed and left there */
+    public CollisionMeasurement(Path directory) {
+        this.directory = directory;
+    }
+
+    public CollisionRun run(CollisionPlan plan) throws Exception {
+        String name = "collision-" + plan.devices() + "-" + plan.parallelism() + "-" + System.nanoTime();
+        Progress progress = Progress.start(name, plan.parallelism());
+        JobClient job = start(plan, name);
+        TimeUnit.MILLISECONDS.sleep(plan.warmUp().toMillis());
+        Reading before = Reading.of(progress);
+        TimeUnit.MILLISECONDS.sleep(plan.measured().toMillis());
+        Reading after = Reading.of(progress);
+        double bytes = savepointBytes(job, name);
+        job.cancel().get(1, TimeUnit.MINUTES);
+        Bare bare = bare(plan, progress);
+        double updates = (after.eventMillis - before.eventMillis) / 1000.0 * plan.devices();
+        return new CollisionRun(
+                plan,
+                updates / (after.nanos - before.nanos) * 1e9,
+                (after.cpuNanos - before.cpuNanos) / 1e3 / updates,
+                (after.records - before.records) / updates,
+                bytes / plan.devices(),
+                bare.perSecond,
+                bare.compared,
+                bare.different);
+    }
+
+    /** How far a run is at an instant. */
+    private record Reading(long nanos, long cpuNanos, long eventMillis, long records) {
+        static Reading of(Progress progress) {
+            OperatingSystemMXBean system = (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
+            return new Reading(System.nanoTime(), system.getProcessCpuTime(), progress.millis(), progress.records());
+        }
+    }
+
+    private JobClient start(CollisionPlan plan, String name) throws Exception {
+        StreamExecutionEnvironment env =
+                StreamExecutionEnvironment.createLocalEnvironment(plan.parallelism(), settings());
+        CollisionDetection.define(MoveFleet.in(env, plan.devices()), CollisionRules.DEFAULT)
+                .encounters()
+                .sinkTo(new CountEncounters(name))
+                .uid("count");
+        return env.executeAsync(name);
+    }
+
+    private Configuration settings() {
+        Configuration settings = new Configuration();
+        settings.set(PipelineOptions.GENERIC_TYPES, false);
+        settings.set(PipelineOptions.OBJECT_REUSE, true);
+        settings.set(PipelineOptions.MAX_PARALLELISM, MAX_PARALLELISM);
+        settings.set(ExecutionOptions.BUFFER_TIMEOUT, BUFFER_TIMEOUT);
+        settings.set(CheckpointingOptions.CHECKPOINT_STORAGE, "filesystem");
+        settings.set(
+                CheckpointingOptions.CHECKPOINTS_DIRECTORY, directory.toUri().toString());
+        settings.set(TaskManagerOptions.NETWORK_MEMORY_MIN, MemorySize.ofMebiBytes(64));
+        settings.set(TaskManagerOptions.NETWORK_MEMORY_MAX, MemorySize.ofMebiBytes(64));
+        return settings;
+    }
+
+    private double savepointBytes(JobClient job, String name)
+            throws IOException, InterruptedException, ExecutionException {
+        Path savepoint = Files.createDirectories(directory.resolve(name));
+        job.triggerSavepoint(savepoint.toUri().toString(), SavepointFormatType.NATIVE)
+                .get();
+        try (Stream<Path> files = Files.walk(savepoint)) {
+            return files.filter(Files::isRegularFile)
+                    .mapToLong(file -> file.toFile().length())
+                    .sum();
+        }
+    }
+
+    /** The bare loop over the same seconds, and in how many of them the two disagree. */
+    private record Bare(double perSecond, int compared, int different) {}
+
+    private static Bare bare(CollisionPlan plan, Progress progress) {
+        BareLoop loop = new BareLoop(plan.devices());
+        int complete = (int) Math.min(MOST_COMPARED, progress.millis() / 1000 - 1);
+        int different = 0;
+        long second = 0;
+        for (; second < complete; second++) {
+            different += loop.second(second) == progress.starts(second) ? 0 : 1;
+        }
+        long start = System.nanoTime();
+        long from = second;
+        while (System.nanoTime() - start < plan.measured().toNanos() / 4) {
+            loop.second(second++);
+        }
+        double seconds = (System.nanoTime() - start) / 1e9;
+        return new Bare((second - from) * plan.devices() / seconds, Math.max(0, complete), different);
+    }
+}

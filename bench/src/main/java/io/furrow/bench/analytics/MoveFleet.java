@@ -1,0 +1,71 @@
+package io.furrow.bench.analytics;
+
+import org.apache.flink.api.common.eventtime.Watermark;
+import org.apache.flink.api.common.eventtime.WatermarkGenerator;
+import org.apache.flink.api.common.eventtime.WatermarkOutput;
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.functions.FlatMapFunction;
+import org.apache.flink.api.connector.source.lib.NumberSequenceSource;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.collision.PositionFix;
+
+/**
+ * Makes the fixes of a {@link Fleet} inside the job, each subtask those of its share of the devices, as fast as they are
+ * taken. Shares and ticks are told by numbers: a range of {@link #RANGE} per share, so that Flink's own source of numbers
+ * gives each subtask one range.
+ */
+final class MoveFleet implements FlatMapFunction<Long, PositionFix> {
+    private static final long serialVersionUID = 1L;
+
+    private static final long RANGE = 1L << 40;
+
+    private final int devices;
+    private final int shares;
+    private transient Fleet fleet;
+
+    private MoveFleet(int devices, int shares) {
+        this.devices = devices;
+        this.shares = shares;
+    }
+
+    /** Event time moves on by a fifth of a second at a time, as it does at Flink's usual interval of watermarks. */
+    static DataStream<PositionFix> in(StreamExecutionEnvironment env, int devices) {
+        int shares = env.getParallelism();
+        return env.fromSource(
+                        new NumberSequenceSource(0, shares * RANGE - 1), WatermarkStrategy.noWatermarks(), "Ticks")
+                .uid("ticks")
+                .flatMap(new MoveFleet(devices, shares))
+                .uid("fleet")
+                .assignTimestampsAndWatermarks(WatermarkStrategy.<PositionFix>forGenerator(context -> new EachTick())
+                        .withTimestampAssigner((fix, previous) -> fix.time()))
+                .uid("event-time");
+    }
+
+    @Override
+    public void flatMap(Long number, Collector<PositionFix> out) {
+        if (fleet == null) {
+            fleet = new Fleet(devices, (int) (number / RANGE), shares);
+        }
+        fleet.tick(number % RANGE, out::collect);
+    }
+
+    private static final class EachTick implements WatermarkGenerator<PositionFix> {
+        private long next = Fleet.START;
+
+        @Override
+        public void onEvent(PositionFix fix, long time, WatermarkOutput output) {
+            if (time >= next) {
+                long tick = 1000 / Fleet.TICKS_PER_SECOND;
+                long start = time - Math.floorMod(time, tick);
+                output.emitWatermark(new Watermark(start - 1));
+                next = start + tick;
+            }
+        }
+
+        @Override
+        public void onPeriodicEmit(WatermarkOutput output) {}
+    }
+}

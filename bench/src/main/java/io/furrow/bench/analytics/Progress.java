@@ -1,0 +1,59 @@
+package io.furrow.bench.analytics;
+
+import java.util.Arrays;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.atomic.LongAdder;
+
+import io.furrow.analytics.collision.Encounter;
+import io.furrow.analytics.collision.Phase;
+
+/** How far a job of this JVM has come, told by its last operator. */
+final class Progress {
+    private static final ConcurrentHashMap<String, Progress> RUNS = new ConcurrentHashMap<>();
+
+    private final long[] watermarks;
+    private final LongAdder records = new LongAdder();
+    private final ConcurrentHashMap<Long, LongAdder> starts = new ConcurrentHashMap<>();
+
+    private Progress(int subtasks) {
+        watermarks = new long[subtasks];
+        Arrays.fill(watermarks, Fleet.START);
+    }
+
+    static Progress start(String run, int subtasks) {
+        Progress progress = new Progress(subtasks);
+        RUNS.put(run, progress);
+        return progress;
+    }
+
+    static Progress of(String run) {
+        return RUNS.get(run);
+    }
+
+    synchronized void reached(int subtask, long watermark) {
+        watermarks[subtask] = Math.max(watermarks[subtask], watermark);
+    }
+
+    /** Milliseconds of event time that all subtasks have behind them. */
+    synchronized long millis() {
+        return Arrays.stream(watermarks).min().orElse(Fleet.START) - Fleet.START;
+    }
+
+    void written(Encounter encounter) {
+        records.increment();
+        if (encounter.phase() == Phase.STARTED) {
+            starts.computeIfAbsent((encounter.time() - Fleet.START) / 1000, second -> new LongAdder())
+                    .increment();
+        }
+    }
+
+    long records() {
+        return records.sum();
+    }
+
+    /** Encounters that started in a second of event time. */
+    long starts(long second) {
+        LongAdder adder = starts.get(second);
+        return adder == null ? 0 : adder.sum();
+    }
+}

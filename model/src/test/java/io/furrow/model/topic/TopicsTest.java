@@ -1,0 +1,21 @@
+package io.furrow.model.topic;
+
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class TopicsTest {
+    @ParameterizedTest
+    @CsvSource({
+        "data.raw, data.collision, data.collision",
+        "data.farm.realtime.hoeing, data.collision, data.collision",
+        "data.hoeing.replay.0a1b2c3d, data.collision, data.hoeing.replay.0a1b2c3d.collision",
+        "data.hoeing.replay.0a1b2c3d, data.collision.late, data.hoeing.replay.0a1b2c3d.collision.late",
+        "data.hoeing.replay.0a1b2c3d, alarms, data.hoeing.replay.0a1b2c3d.alarms",
+        "data.hoeing.replay.0a1b2c3d.collision, data.collision, data.collision"
+    })
+    void whatIsFoundInAReplayStaysWithIt(String input, String output, String expected) {
+        assertThat(Topics.resultOf(input, output)).isEqualTo(expected);
+    }
+}
