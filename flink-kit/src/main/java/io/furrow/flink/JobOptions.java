@@ -51,8 +51,8 @@ public abstract class JobOptions {
             hideParamSyntax = true,
             defaultValue = "data.raw",
             description = "Topics to read, or regular expressions for whole names, for instance"
-                + " 'data[.]hoeing[.]replay[.].*': then also topics that come later, but none that a job writes. What"
-                + " is found in a replay's topic goes to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
+                    + " 'data[.]hoeing[.]replay[.].*': then also topics that come later, but none that a job writes. What"
+                    + " is found in a replay's topic goes to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
     private List<String> input;
 
     @Option(

@@ -17,8 +17,8 @@ import io.furrow.model.topic.Topics;
         sortOptions = false,
         description =
                 "Which device entered and left which field, when, and how long it stayed; also where the field changed"
-                    + " or went, or the device fell silent. Exact in event time: the same at any parallelism, in any"
-                    + " order of arrival and in a second pass.")
+                        + " or went, or the device fell silent. Exact in event time: the same at any parallelism, in any"
+                        + " order of arrival and in a second pass.")
 public final class PresenceOptions extends JobOptions implements Callable<Integer> {
     @Mixin
     private final FieldOptions fields = new FieldOptions();
