@@ -9,28 +9,34 @@ import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.function.DoubleUnaryOperator;
 
+import io.furrow.analytics.collision.PairId;
 import io.furrow.analytics.collision.Phase;
 import io.furrow.analytics.collision.PositionFix;
 
 /** The definition of this package as code: every pair at every instant; the closest found by search, not by a formula. */
 final class MotionOracle {
-    static final Comparator<Told> ORDER =
-            Comparator.comparingLong(Told::time).thenComparing(Told::id).thenComparing(Told::phase);
+    static final Comparator<Told> ORDER = Comparator.comparingLong(Told::time)
+            .thenComparing(Told::pair)
+            .thenComparing(Told::phase)
+            .thenComparing(Told::start);
 
     private final MotionRules rules;
     private final List<Told> told = new ArrayList<>();
 
-    /** What of a record has to agree to the last digit, and metres that have to agree nearly. */
-    record Told(Phase phase, String id, long time, double dcpa) {
+    /** What of a record has to agree. */
+    record Told(Phase phase, String pair, long start, long time, double dcpa) {
         static Told of(Approach approach) {
-            return new Told(approach.phase(), approach.id(), approach.time(), approach.dcpa());
+            return new Told(
+                    approach.phase(), approach.pairId(), approach.startTime(), approach.time(), approach.dcpa());
         }
 
+        /** The place of a minimum is found by search to a fraction of a second only, its depth to a millimetre. */
         boolean agreesWith(Told other) {
-            // A closest approach that lasts, or one found by search, may be a millisecond off.
+            boolean crossed = phase == Phase.CROSSED;
             return phase == other.phase
-                    && id.equals(other.id)
-                    && Math.abs(time - other.time) <= (phase == Phase.CROSSED ? 2 : 0)
+                    && pair.equals(other.pair)
+                    && Math.abs(start - other.start) <= (crossed ? 1 : 0)
+                    && Math.abs(time - other.time) <= (crossed ? 200 : 0)
                     && Math.abs(dcpa - other.dcpa) < 1e-3;
         }
     }
@@ -88,7 +94,7 @@ final class MotionOracle {
             start = goesOn ? start : now;
             if (!goesOn || now - reported >= rules.common().ongoingEvery().toMillis()) {
                 reported = now;
-                told.add(new Told(Phase.PREDICTED, id(first, second, start, "predicted"), now, dcpa));
+                told.add(new Told(Phase.PREDICTED, pair(first, second), start, now, dcpa));
             }
             held = now;
         }
@@ -144,8 +150,8 @@ final class MotionOracle {
         if (!close) {
             PositionFix first = a.firstEntry().getValue();
             PositionFix second = b.firstEntry().getValue();
-            String id = id(first, second, (long) Math.floor(found[0]), "crossed");
-            told.add(new Told(Phase.CROSSED, id, (long) found[1], found[2]));
+            long start = (long) Math.floor(found[0]);
+            told.add(new Told(Phase.CROSSED, pair(first, second), start, (long) found[1], found[2]));
         }
     }
 
@@ -205,8 +211,8 @@ final class MotionOracle {
         return rules.common().thresholds().between(a.type(), b.type());
     }
 
-    private static String id(PositionFix a, PositionFix b, long start, String phase) {
-        return io.furrow.analytics.collision.PairId.of(a.identity(), b.identity()) + "@" + start + "-" + phase;
+    private static String pair(PositionFix a, PositionFix b) {
+        return PairId.of(a.identity(), b.identity());
     }
 
     /** Where a convex function is least: golden sections would do the same with fewer calls. */
