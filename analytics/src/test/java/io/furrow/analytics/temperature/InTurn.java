@@ -71,7 +71,16 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     }
 
     static MiniClusterExtension cluster(int slots) {
-        metrics = InMemoryReporter.createWithRetainedMetrics();
+        return cluster(slots, InMemoryReporter.create());
+    }
+
+    /** Whose metrics outlive the job, and with them all that the job held. */
+    static MiniClusterExtension rememberingCluster(int slots) {
+        return cluster(slots, InMemoryReporter.createWithRetainedMetrics());
+    }
+
+    private static MiniClusterExtension cluster(int slots, InMemoryReporter reporter) {
+        metrics = reporter;
         return new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
                 .setNumberTaskManagers(1)
                 .setNumberSlotsPerTaskManager(slots)

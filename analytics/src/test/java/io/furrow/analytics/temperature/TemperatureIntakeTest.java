@@ -20,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 @Timeout(60)
 class TemperatureIntakeTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = InTurn.cluster(2);
+    static final MiniClusterExtension FLINK = InTurn.rememberingCluster(2);
 
     @Test
     void countsReadingsFromOutsideOfAllFields() throws Exception {
