@@ -67,6 +67,7 @@ final class FarmRun implements AutoCloseable {
             "--checkpoint-interval=300ms",
             "--restart-delay=50ms",
             "--topic-retention=36500d",
+            "--catalog-retention=36500d", // the load ends with a record of much later, at which entries would go or not
             "--parallelism=" + parallelism
         };
         JobCommandLine.of(options).parseArgs(args);

@@ -8,6 +8,7 @@ import java.io.OutputStream;
 import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
+import java.util.Set;
 import java.util.function.LongConsumer;
 import java.util.stream.Stream;
 import java.util.zip.GZIPInputStream;
@@ -25,6 +26,7 @@ import org.apache.flink.util.IOUtils;
  */
 public final class MissionFiles {
     private static final int BUFFER = 64 * 1024;
+    private static final Set<String> OBJECT_STORES = Set.of("s3", "s3a", "s3p", "gs", "oss");
 
     private MissionFiles() {}
 
@@ -89,7 +91,7 @@ public final class MissionFiles {
                 count = content.writeTo(lines);
             }
             RecoverableFsDataOutputStream.Committer finished = out.closeForCommit();
-            if (files.isDistributedFS() && files.exists(file)) {
+            if (!replaces(files) && files.exists(file)) {
                 files.delete(file, false);
             }
             finished.commit();
@@ -101,6 +103,11 @@ public final class MissionFiles {
                 removeUnfinished(file);
             }
         }
+    }
+
+    /** Whether a finished file takes the place of another by itself: in local folders, and where names are only keys. */
+    private static boolean replaces(FileSystem files) {
+        return !files.isDistributedFS() || OBJECT_STORES.contains(files.getUri().getScheme());
     }
 
     private static OutputStream unclosed(RecoverableFsDataOutputStream out) {

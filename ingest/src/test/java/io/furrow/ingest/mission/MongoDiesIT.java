@@ -56,7 +56,7 @@ class MongoDiesIT {
 
         try (MongoProcess mongo = new MongoProcess(directory.resolve("b"))) {
             // With little patience the job fails now and then and goes on from a checkpoint, too.
-            JobClient job = job(mongo, Duration.ofMillis(300));
+            JobClient job = job(mongo, Duration.ofSeconds(1));
             int kills = killUnderLoad(mongo, job);
             job.getJobExecutionResult().get();
 
@@ -87,7 +87,7 @@ class MongoDiesIT {
         Configuration settings = new Configuration();
         settings.set(CheckpointingOptions.CHECKPOINTING_INTERVAL, Duration.ofMillis(200));
         settings.set(RestartStrategyOptions.RESTART_STRATEGY, "fixed-delay");
-        settings.set(RestartStrategyOptions.RESTART_STRATEGY_FIXED_DELAY_ATTEMPTS, 100);
+        settings.set(RestartStrategyOptions.RESTART_STRATEGY_FIXED_DELAY_ATTEMPTS, 10_000);
         settings.set(RestartStrategyOptions.RESTART_STRATEGY_FIXED_DELAY_DELAY, Duration.ofMillis(100));
         settings.set(PipelineOptions.GENERIC_TYPES, false);
         settings.set(PipelineOptions.OBJECT_REUSE, true);
