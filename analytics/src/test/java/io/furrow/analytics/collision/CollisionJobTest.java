@@ -3,16 +3,10 @@ package io.furrow.analytics.collision;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
-import java.util.Map;
 
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.graph.StreamNode;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
@@ -20,19 +14,21 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.JobUids;
-import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
-import io.furrow.flink.device.DeviceInput;
-import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.topic.Topics;
 
+import static io.furrow.analytics.collision.ReportedRun.START;
+import static io.furrow.analytics.collision.ReportedRun.entity;
+import static io.furrow.analytics.collision.ReportedRun.options;
+import static io.furrow.analytics.collision.ReportedRun.placed;
+import static io.furrow.analytics.collision.ReportedRun.record;
+import static io.furrow.analytics.collision.ReportedRun.robot;
+import static io.furrow.analytics.collision.ReportedRun.run;
+import static io.furrow.analytics.collision.ReportedRun.text;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
@@ -47,13 +43,6 @@ class CollisionJobTest {
     @TempDir
     private Path folder;
 
-    private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
-    private static final long START = 1_700_000_000_000L;
-
-    /** A laser on the robot r1; until the test's start it was on r2. */
-    private static final TopicAtStart DEVICES = () -> List.of(
-            device(new DeviceVersion("l1", "farm", "/north", "", "", 0, null, 1, "r2")),
-            device(new DeviceVersion("l1", "farm", "/north", "", "", START, null, 2, "r1")));
 
     @Test
     void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
@@ -258,72 +247,5 @@ class CollisionJobTest {
                         "reported-changes",
                         "track-devices",
                         "write-topics");
-    }
-
-    private static List<TopicRecord> run(CollisionOptions options, TopicRecord... records) throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        env.setParallelism(options.parallelism().orElse(2));
-        DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(
-                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(2000))
-                                .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .setParallelism(1)
-                .uid("timestamps");
-        DataStream<TopicRecord> devices = env.fromData(DEVICES.read(), TypeInformation.of(TopicRecord.class))
-                .uid("read-devices")
-                .setParallelism(1);
-        List<TopicRecord> written = CollisionJob.define(
-                        new CollisionJob.Inputs(source, new DeviceInput(devices, DEVICES)), options)
-                .executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
-        written.sort(Comparator.comparingLong(TopicRecord::timestamp));
-        return written;
-    }
-
-    private static TopicRecord device(DeviceVersion version) {
-        return new TopicRecord(
-                Topics.DEVICES,
-                0,
-                version.sequence(),
-                version.from(),
-                version.key().getBytes(StandardCharsets.UTF_8),
-                version.toBytes(),
-                Map.of());
-    }
-
-    private static CollisionOptions options(String... args) {
-        CollisionOptions options = new CollisionOptions();
-        JobCommandLine.of(options).parseArgs(args);
-        return options;
-    }
-
-    /** So many metres east of a place on the equator. */
-    private static TopicRecord robot(String id, double east, long time) {
-        EntityBuilder robot = Entity.builder(id, "ROBOT").text("Mission", "hoeing");
-        return record(id, time, text(placed(robot, east)));
-    }
-
-    private static EntityBuilder placed(EntityBuilder entity, double east) {
-        PositionFix place = Fixes.east("", east, 0);
-        return entity.number("Latitude", place.latitude()).number("Longitude", place.longitude());
-    }
-
-    private static String text(EntityBuilder entity) {
-        return new String(entity.build().toBytes(), StandardCharsets.UTF_8);
-    }
-
-    private static TopicRecord record(String key, long time, String value) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
-        Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/north");
-        return new TopicRecord("data.raw", 0, 7, START + time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
-    }
-
-    private static Entity entity(TopicRecord record) {
-        try {
-            return Entity.parse(record.value());
-        } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new AssertionError("what the job wrote is an entity", e);
-        }
     }
 }

@@ -54,6 +54,18 @@ final class Stage<K, I, O> {
         return new Stage<>(() -> new SteadyEncounters(rules), Encounter::pair, Types.STRING, Encounter::time);
     }
 
+    static Stage<String, PositionFix, Arrival> arrivals(CollisionRules rules) throws Exception {
+        return new Stage<>(() -> new TrackArrivals(rules), PositionFix::key, Types.STRING, PositionFix::time);
+    }
+
+    static Stage<Long, Arrival, Glimpse> spot(CollisionRules rules) throws Exception {
+        return new Stage<>(
+                () -> new SpotPairs(rules),
+                Arrival::cell,
+                Types.LONG,
+                arrival -> arrival.fix().time());
+    }
+
     void receive(List<I> inputs) throws Exception {
         for (I input : inputs) {
             receive(input);
@@ -67,6 +79,11 @@ final class Stage<K, I, O> {
     /** What comes out on the way to the watermark. */
     List<O> advance(long watermark) throws Exception {
         harness.processWatermark(new Watermark(watermark));
+        return told();
+    }
+
+    /** What has come out since this was last asked. */
+    List<O> told() {
         List<O> out = new ArrayList<>(harness.extractOutputValues());
         harness.getOutput().clear();
         return out;
