@@ -6,6 +6,9 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.TreeMap;
+import java.util.TreeSet;
+import java.util.concurrent.atomic.AtomicLong;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -18,8 +21,10 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.analytics.field.FieldRecords;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
@@ -32,6 +37,9 @@ import static org.awaitility.Awaitility.await;
 /** The job as it is started, between the topics of a real broker. */
 @Timeout(120)
 class TemperatureJobIT {
+    /** Event time between two rounds, ms. */
+    private static final long ROUND = 1_000_000;
+
     private static final byte[] GARBAGE = "temperature=18".getBytes(StandardCharsets.UTF_8);
 
     @Test
@@ -66,6 +74,66 @@ class TemperatureJobIT {
         }
     }
 
+    /** Each reading is written once the one before it has shown, in a result, that the fields are so. */
+    @Test
+    void goesByTheFieldsAsTheyComeChangeAndGo(@TempDir Path dir) throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(dir.resolve("kafka"));
+                EmbeddedFlink flink = EmbeddedFlink.start(1, 0)) {
+            FieldRecords fields = new FieldRecords();
+            write(kafka, List.of(fields.square("north", 0, "a")));
+            flink.submit(TemperatureJob.assemble(onTopics(kafka)).getStreamGraph());
+            try (var results = consumer(kafka, Topics.TEMPERATURE)) {
+                averages(kafka, results, 0, "north a");
+                write(kafka, List.of(fields.square("south", 0, "b")));
+                averages(kafka, results, 1, "north a", "south b");
+                write(kafka, List.of(fields.square("south", 0, "c")));
+                averages(kafka, results, 2, "north a", "south c");
+                write(kafka, List.of(fields.takeAway("north", 0)));
+                averages(kafka, results, 3, "south c");
+                write(kafka, List.of(fields.end("south", 4 * ROUND), fields.square("east", 4 * ROUND, "e")));
+                averages(kafka, results, 4, "east e");
+            }
+        }
+    }
+
+    /**
+     * Reports, second by second of event time, until a window of the round shows these fields and their domains; what the job had not
+     * read yet of the fields shows in the next.
+     */
+    private static void averages(
+            EmbeddedKafka kafka, KafkaConsumer<byte[], byte[]> results, int round, String... expected) {
+        AtomicLong second = new AtomicLong(round * ROUND);
+        TreeMap<Double, TreeSet<String>> windows = new TreeMap<>();
+        await().pollInSameThread().atMost(Duration.ofSeconds(60)).until(() -> {
+            write(kafka, List.of(Farm.reading("t1", 18, 55, 15, second.getAndAdd(1_000))));
+            for (ConsumerRecord<byte[], byte[]> record : results.poll(Duration.ofMillis(100))) {
+                Entity result = Entity.parse(record.value());
+                windows.computeIfAbsent(result.number("windowStart").orElseThrow(), start -> new TreeSet<>())
+                        .add(result.text("field").orElseThrow() + " "
+                                + result.text("Domain").orElse(""));
+            }
+            return windows.tailMap((double) (round * ROUND)).containsValue(new TreeSet<>(List.of(expected)));
+        });
+        assertThat(second.get()).as("event time of a round").isLessThan((round + 1) * ROUND);
+    }
+
+    private static TemperatureOptions onTopics(EmbeddedKafka kafka) {
+        TemperatureOptions options = new TemperatureOptions();
+        JobCommandLine.of(options)
+                .parseArgs(
+                        "--bootstrap-servers",
+                        kafka.bootstrapServers(),
+                        "--idle-timeout",
+                        "2s",
+                        "--parallelism",
+                        "1",
+                        "--window",
+                        "1s",
+                        "--out-of-orderness",
+                        "0s");
+        return options;
+    }
+
     private static void write(EmbeddedKafka kafka, List<TopicRecord> records) {
         try (var producer = new KafkaProducer<>(
                 Map.of("bootstrap.servers", kafka.bootstrapServers()),
@@ -81,18 +149,25 @@ class TemperatureJobIT {
         }
     }
 
-    private static ConsumerRecord<byte[], byte[]> first(EmbeddedKafka kafka, String topic) {
-        try (var consumer = new KafkaConsumer<>(
+    private static KafkaConsumer<byte[], byte[]> consumer(EmbeddedKafka kafka, String topic) {
+        KafkaConsumer<byte[], byte[]> consumer = new KafkaConsumer<>(
                 Map.of(
                         "bootstrap.servers",
                         kafka.bootstrapServers(),
                         "group.id",
-                        "first-of-" + topic,
+                        "reader-of-" + topic,
                         "auto.offset.reset",
-                        "earliest"),
+                        "earliest",
+                        "metadata.max.age.ms",
+                        "1000"),
                 new ByteArrayDeserializer(),
-                new ByteArrayDeserializer())) {
-            consumer.subscribe(List.of(topic));
+                new ByteArrayDeserializer());
+        consumer.subscribe(List.of(topic));
+        return consumer;
+    }
+
+    private static ConsumerRecord<byte[], byte[]> first(EmbeddedKafka kafka, String topic) {
+        try (var consumer = consumer(kafka, topic)) {
             // A consumer is used from one thread only.
             return await().pollInSameThread()
                     .atMost(Duration.ofSeconds(60))
