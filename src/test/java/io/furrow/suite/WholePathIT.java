@@ -3,14 +3,17 @@ package io.furrow.suite;
 import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.control.field.FieldsTopic;
 import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.simulators.device.Fleet;
 import io.furrow.simulators.device.Scenario;
@@ -51,6 +54,24 @@ class WholePathIT {
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
             assertThat(average.at("/averageTemperature/value").asDouble())
                     .isLessThan(average.at("/plainMean/value").asDouble());
+        });
+    }
+
+    /** As {@code ./furrow fields import} writes it. */
+    @Test
+    void averagesAFieldThatIsImportedWhileItRuns() throws Exception {
+        FieldsTopic fields = new FieldsTopic(running.suite().kafka().clientProperties());
+        FieldVersion known = fields.read().stream()
+                .filter(field -> field.id().equals("field-1"))
+                .findFirst()
+                .orElseThrow();
+        fields.write(List.of(new FieldVersion("imported", 0, known.geometry(), known.properties())));
+
+        await().atMost(PATIENCE).untilAsserted(() -> {
+            JsonNode average = running.ngsi()
+                    .entities("id=Analytics:FieldTemperature:imported")
+                    .path(0);
+            assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
         });
     }
 

@@ -1,10 +1,5 @@
 package io.furrow.launcher;
 
-import java.io.IOException;
-import java.io.InputStream;
-import java.nio.file.Files;
-import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
 import java.util.ArrayList;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -25,7 +20,6 @@ import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.ingest.normalise.NormaliseJob;
 import io.furrow.ingest.normalise.NormaliseOptions;
-import io.furrow.simulators.device.Scenario;
 
 /** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */
 final class JobPlans {
@@ -48,7 +42,7 @@ final class JobPlans {
      *
      * @throws SuiteNotStartedException if a job refuses its options, in the job's own words
      */
-    Map<String, StreamExecutionEnvironment> all() throws IOException {
+    Map<String, StreamExecutionEnvironment> all() {
         try {
             return assembled();
         } catch (ParameterException e) {
@@ -56,7 +50,7 @@ final class JobPlans {
         }
     }
 
-    private Map<String, StreamExecutionEnvironment> assembled() throws IOException {
+    private Map<String, StreamExecutionEnvironment> assembled() {
         Map<String, StreamExecutionEnvironment> plans = new LinkedHashMap<>();
         plans.put(
                 "ingest",
@@ -70,17 +64,10 @@ final class JobPlans {
         plans.put("normalise", NormaliseJob.assemble(parsed("normalise", new NormaliseOptions())));
         plans.put(
                 "temperature",
-                TemperatureJob.assemble(parsed(
-                        "temperature",
-                        new TemperatureOptions(),
-                        "--fields",
-                        fields().toString(),
-                        "--window",
-                        settings.window())));
+                TemperatureJob.assemble(
+                        parsed("temperature", new TemperatureOptions(), "--window", settings.window())));
         plans.put("collision", CollisionJob.assemble(parsed("collision", new CollisionOptions())));
-        plans.put(
-                "presence",
-                PresenceJob.assemble(parsed("presence", new PresenceOptions(), "--fields", fields().toString())));
+        plans.put("presence", PresenceJob.assemble(parsed("presence", new PresenceOptions())));
         return plans;
     }
 
@@ -95,17 +82,5 @@ final class JobPlans {
         kafka.propertiesFile().ifPresent(file -> args.addAll(List.of("--kafka-properties", file.toString())));
         JobCommandLine.of(options).parseArgs(args.toArray(String[]::new));
         return options;
-    }
-
-    /** The fields given, or those of the demonstration farm as a file. */
-    private Path fields() throws IOException {
-        if (settings.fields() != null) {
-            return settings.fields();
-        }
-        Path file = directory.resolve("fields.geojson");
-        try (InputStream demo = Scenario.class.getResourceAsStream("/io/furrow/simulators/demo/fields.geojson")) {
-            Files.copy(demo, file, StandardCopyOption.REPLACE_EXISTING);
-        }
-        return file;
     }
 }

@@ -7,6 +7,7 @@ import java.util.Map;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
 
+import io.furrow.control.field.FieldsTopic;
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
@@ -147,6 +148,8 @@ public final class Suite implements AutoCloseable {
                 progress.step(
                         "Flink",
                         () -> EmbeddedFlink.start(SLOTS, settings.ports().flink())));
+        SuiteFields fields = new SuiteFields(new FieldsTopic(kafka.clientProperties()));
+        progress.step("fields", () -> fields.write(settings.fields(), directory));
         jobs = new Jobs(flink, directory.resolve("jobs"));
         progress.step("jobs", () -> {
             new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);

@@ -39,7 +39,9 @@ final class SuiteOptions {
     @Option(
             names = "--fields",
             paramLabel = "FILE",
-            description = "GeoJSON file with the farm's fields. Default: the fields of the demonstration farm.")
+            description = "GeoJSON, Shapefile or GeoPackage with the farm's fields, put on service.fields at the start as the "
+                    + "fields of all times before the first import. Default: what is there; if nothing is, the fields of the "
+                    + "demonstration farm.")
     Path fields;
 
     @Option(

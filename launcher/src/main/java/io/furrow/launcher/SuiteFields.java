@@ -1,0 +1,75 @@
+package io.furrow.launcher;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.time.Instant;
+import java.util.List;
+
+import io.furrow.control.field.FieldChange;
+import io.furrow.control.field.FieldFile;
+import io.furrow.control.field.FieldsTopic;
+import io.furrow.control.field.ImportOptions;
+import io.furrow.control.field.ImportedField;
+import io.furrow.control.field.RefusedFeature;
+import io.furrow.control.field.UnusableFileException;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.simulators.device.Scenario;
+
+/**
+ * The fields with which a suite starts, on {@code service.fields} as {@code ./furrow fields import} would put them there, valid from
+ * the beginning of time: what is imported while the suite runs comes after them.
+ */
+final class SuiteFields {
+    private static final String DEMO = "/io/furrow/simulators/demo/fields.geojson";
+
+    private final FieldsTopic topic;
+
+    SuiteFields(FieldsTopic topic) {
+        this.topic = topic;
+    }
+
+    /**
+     * Writes the fields of the file; without one those of the demonstration farm, if there are no fields yet.
+     *
+     * @param file may be null
+     * @throws SuiteNotStartedException if the file cannot be used wholly
+     */
+    List<FieldVersion> write(Path file, RunDirectory directory) throws IOException {
+        List<FieldVersion> known = topic.read();
+        if (file == null && !known.isEmpty()) {
+            return List.of();
+        }
+        List<FieldVersion> wanted = file == null ? read(demo(directory)) : read(file);
+        List<FieldVersion> changed = FieldChange.of(wanted, known, false, Instant.EPOCH.toEpochMilli()).stream()
+                .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
+                .map(FieldChange::version)
+                .toList();
+        topic.write(changed);
+        return changed;
+    }
+
+    private static List<FieldVersion> read(Path file) {
+        try {
+            FieldFile read = FieldFile.read(file, new ImportOptions(null, null, null, null, null, Instant.EPOCH));
+            if (!read.refused().isEmpty()) {
+                RefusedFeature first = read.refused().get(0);
+                throw new SuiteNotStartedException(
+                        "--fields %s: feature %d %s".formatted(file, first.number(), first.reason()));
+            }
+            return read.fields().stream().map(ImportedField::version).toList();
+        } catch (UnusableFileException e) {
+            throw new SuiteNotStartedException("--fields " + e.getMessage(), e);
+        }
+    }
+
+    private static Path demo(RunDirectory directory) throws IOException {
+        Path file = directory.resolve("fields.geojson");
+        try (InputStream demo = Scenario.class.getResourceAsStream(DEMO)) {
+            Files.copy(demo, file, StandardCopyOption.REPLACE_EXISTING);
+        }
+        return file;
+    }
+}

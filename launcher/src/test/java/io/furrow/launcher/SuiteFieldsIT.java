@@ -1,0 +1,73 @@
+package io.furrow.launcher;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Properties;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.field.FieldsTopic;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.field.FieldVersion;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class SuiteFieldsIT {
+    private static final String FEATURE = "{\"type\":\"Feature\",\"id\":\"%s\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\","
+            + "\"coordinates\":[[[0,0],[%s,0],[0.01,0.01],[0,0.01],[0,0]]]}}";
+
+    @TempDir
+    Path folder;
+
+    @Test
+    void leavesToImportsWhatHasBeenImported() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
+                RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            FieldsTopic topic = new FieldsTopic(client);
+            SuiteFields fields = new SuiteFields(topic);
+
+            List<FieldVersion> demo = fields.write(null, directory);
+            assertThat(demo).extracting(FieldVersion::validFrom).isNotEmpty().containsOnly(0L);
+            assertThat(topic.read()).extracting(FieldVersion::id).contains("field-1");
+
+            FieldVersion imported = demo.get(0);
+            FieldVersion end = new FieldVersion(imported.id(), 1_000, null, imported.properties());
+            topic.write(List.of(end));
+            assertThat(fields.write(null, directory)).as("there are fields").isEmpty();
+
+            Path own = file(FEATURE.formatted("own", "0.01"));
+            assertThat(fields.write(own, directory)).extracting(FieldVersion::key).hasSize(1);
+            assertThat(fields.write(own, directory)).as("it is as it was").isEmpty();
+            assertThat(topic.read())
+                    .extracting(FieldVersion::key)
+                    .contains(end.key(), "own@1970-01-01T00:00:00.000Z");
+        }
+    }
+
+    @Test
+    void refusesAFileThatCannotBeUsedWholly() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
+                RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            SuiteFields fields = new SuiteFields(new FieldsTopic(client));
+            Path own = file(FEATURE.formatted("good", "0.01"), FEATURE.formatted("b d", "0.01"));
+
+            assertThatThrownBy(() -> fields.write(own, directory))
+                    .isInstanceOf(SuiteNotStartedException.class)
+                    .hasMessageStartingWith("--fields " + own + ": feature 2 ");
+            assertThat(new FieldsTopic(client).read()).isEmpty();
+        }
+    }
+
+    private Path file(String... features) throws Exception {
+        return Files.writeString(
+                folder.resolve("own.geojson"),
+                "{\"type\":\"FeatureCollection\",\"features\":[" + String.join(",", features) + "]}");
+    }
+}
