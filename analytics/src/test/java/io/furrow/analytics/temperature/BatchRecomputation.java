@@ -9,8 +9,8 @@ import java.util.Set;
 import java.util.TreeMap;
 import java.util.TreeSet;
 
-import io.furrow.analytics.temperature.RandomCase.Arrival;
-import io.furrow.analytics.temperature.RandomCase.Change;
+import io.furrow.analytics.temperature.RandomCases.Arrival;
+import io.furrow.analytics.temperature.RandomCases.Change;
 
 /** The definition, written down a second time: lists instead of streams, and nothing of the job's own code. */
 final class BatchRecomputation {
@@ -20,7 +20,7 @@ final class BatchRecomputation {
         Change newest;
     }
 
-    private final RandomCase random;
+    private final RandomCases random;
     private final Map<String, TreeMap<Long, Change>> known = new TreeMap<>();
     /** Field → start of the window. */
     private final TreeMap<String, TreeMap<Long, Window>> windows = new TreeMap<>();
@@ -28,11 +28,11 @@ final class BatchRecomputation {
     private final List<String> late = new ArrayList<>();
     private long watermark = Long.MIN_VALUE;
 
-    private BatchRecomputation(RandomCase random) {
+    private BatchRecomputation(RandomCases random) {
         this.random = random;
     }
 
-    static BatchRecomputation of(RandomCase random) {
+    static BatchRecomputation of(RandomCases random) {
         BatchRecomputation batch = new BatchRecomputation(random);
         List<Change> changes = new ArrayList<>(random.changes());
         Set<Object> seen = new HashSet<>();

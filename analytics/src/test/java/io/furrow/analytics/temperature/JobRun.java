@@ -42,7 +42,7 @@ record JobRun(JobID id, List<TopicRecord> records) {
     }
 
     /** With fields that change in turn with the arrivals. */
-    static JobRun over(RandomCase random) throws Exception {
+    static JobRun over(RandomCases random) throws Exception {
         TemperatureOptions options = random.options();
         StreamExecutionEnvironment env = environment(options);
         DataStream<TopicRecord> readings = source(env, random.arrivals(), random.changesBefore(), options);

@@ -83,6 +83,16 @@ record Shape(List<List<Ring>> parts) {
         };
     }
 
+    Shape movedEast(double degrees) {
+        return new Shape(parts.stream()
+                .map(part -> part.stream()
+                        .map(ring -> new Ring(Stream.of(ring.corners())
+                                .map(corner -> new double[] {corner[0] + degrees, corner[1]})
+                                .toArray(double[][]::new)))
+                        .toList())
+                .toList());
+    }
+
     boolean covers(double longitude, double latitude) {
         return parts.stream().anyMatch(part -> {
             if (part.stream().anyMatch(ring -> ring.hasOnBorder(longitude, latitude))) {

@@ -20,8 +20,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 /**
- * The job against a recomputation in one pass over lists that shares no code with it. A seed makes a whole case; cases without
- * late readings run with one, two and four subtasks.
+ * The job against a recomputation in one pass over lists that shares no code with it. A seed makes ten whole cases that run as one
+ * job; those without late readings with one, two and four subtasks.
  */
 @Timeout(120)
 class TemperatureOracleTest {
@@ -32,13 +32,13 @@ class TemperatureOracleTest {
     static final MiniClusterExtension FLINK = InTurn.cluster(4);
 
     static LongStream seeds() {
-        return LongStream.range(0, CASES);
+        return LongStream.range(0, CASES / RandomCases.TOGETHER);
     }
 
     @ParameterizedTest(name = "seed {0}")
     @MethodSource("seeds")
     void agreesWithABatchRecomputation(long seed) throws Exception {
-        RandomCase random = RandomCase.of(seed, PARALLELISM[(int) (seed / 2 % PARALLELISM.length)]);
+        RandomCases random = RandomCases.of(seed, PARALLELISM[(int) (seed / 2 % PARALLELISM.length)]);
         BatchRecomputation expected = BatchRecomputation.of(random);
         JobRun run = JobRun.over(random);
 
@@ -64,8 +64,8 @@ class TemperatureOracleTest {
 
     @Test
     void hasCasesOfEveryKind() {
-        List<RandomCase> random =
-                seeds().mapToObj(seed -> RandomCase.of(seed, 1)).toList();
+        List<RandomCases> random =
+                seeds().mapToObj(seed -> RandomCases.of(seed, 1)).toList();
         List<BatchRecomputation> cases =
                 random.stream().map(BatchRecomputation::of).toList();
 
@@ -78,13 +78,13 @@ class TemperatureOracleTest {
                 .anyMatch(result -> result.get("Domain").equals("d1"));
         assertThat(cases.stream().mapToInt(each -> each.suspects().size())).anyMatch(reports -> reports > 0);
         assertThat(random.stream().flatMap(each -> each.changes().stream()))
-                .anyMatch(RandomCase.Change::taken)
+                .anyMatch(RandomCases.Change::taken)
                 .anyMatch(change -> change.before() > 0 && change.shape() == null && !change.taken())
                 .anyMatch(change -> change.before() > 0 && change.shape() != null);
         assertThat(random.stream()
                         .flatMap(each -> each.changes().stream())
                         .filter(change -> change.shape() != null)
-                        .map(RandomCase.Change::shape))
+                        .map(RandomCases.Change::shape))
                 .anyMatch(shape -> shape.parts().size() == 2)
                 .anyMatch(shape -> shape.parts().get(0).size() == 2);
     }

@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature;
 
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 import java.util.Random;
 
@@ -10,14 +11,17 @@ import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 
 /**
- * Fields, devices and the readings that arrive from them: out of order, repeated, from defective devices, from borders, while
+ * Several cases that run as one job, because a job takes longer to start than a case to run. They are at places and times so far apart
+ * that none sees anything of another; what they share are the options.
+ *
+ * <p>A case: fields, devices and the readings that arrive from them: out of order, repeated, from defective devices, from borders, while
  * fields come, change, go and are taken away. Corners are on whole and half degrees, and devices stand on half degrees, so
  * that many stand on borders and corners.
  *
  * @param changes of fields, in the order in which they come; those before the first reading are known at the start
  * @param bound out-of-orderness, ms; half of the cases keep it, the others have late readings
  */
-record RandomCase(
+record RandomCases(
         List<Change> changes, List<Arrival> readings, Setting setting, long bound, boolean inBounds, int parallelism) {
     /** Numbers of the job's options, in ms. */
     record Setting(long window, long slide, long lateness, double floor) {}
@@ -29,45 +33,74 @@ record RandomCase(
      * @param shape null where the field ends
      * @param taken whether the version is taken away
      */
-    record Change(int before, String field, long validFrom, String domain, Shape shape, boolean taken) {}
+    record Change(int before, String field, long validFrom, String domain, Shape shape, boolean taken) {
+        /** What is known at the start stays so. */
+        private Change behind(int readings) {
+            return before == 0 ? this : new Change(before + readings, field, validFrom, domain, shape, taken);
+        }
+    }
 
     /** A reading as the oracle sees it, and as the job does. */
     record Arrival(String device, double latitude, double longitude, double value, long time, TopicRecord record) {}
+
+    /** Where and when one of the cases is. */
+    private record Place(int number) {
+        private static final int DEGREES = 10;
+        private static final long MILLIS = 240_000;
+
+        double east() {
+            return DEGREES * number;
+        }
+
+        long begin() {
+            return BEGIN + MILLIS * number;
+        }
+
+        String named(String id) {
+            return "c" + number + id;
+        }
+    }
 
     private record Device(String id, double latitude, double longitude, double bias) {}
 
     private static final long BEGIN = 1_700_000_000_000L;
     private static final int LENGTH = 120_000;
+    static final int TOGETHER = 10;
 
     /** @param parallelism with late readings one: among several it depends on chance who sees the watermark first */
-    static RandomCase of(long seed, int parallelism) {
+    static RandomCases of(long seed, int parallelism) {
         Random random = Seeds.random(seed);
         boolean inBounds = seed % 2 == 0;
+        boolean live = seed % 4 != 0;
         long slide = (1 + random.nextInt(6)) * 5_000L;
         long window = slide * (1 + random.nextInt(3));
         long bound = random.nextInt(10_000);
         long lateness = inBounds ? 0 : random.nextInt(3) * 3_000L;
         Setting setting = new Setting(window, slide, lateness, random.nextBoolean() ? 0 : 0.2);
-        List<Arrival> arrivals = arrivals(random, inBounds ? bound : bound + 20_000);
-        return new RandomCase(
-                changes(random, arrivals.size(), random.nextInt(4) != 0),
-                arrivals,
-                setting,
-                bound,
-                inBounds,
-                inBounds ? parallelism : 1);
+        List<Change> changes = new ArrayList<>();
+        List<Arrival> readings = new ArrayList<>();
+        for (int number = 0; number < TOGETHER; number++) {
+            Place place = new Place(number);
+            List<Arrival> arrivals = arrivals(random, place, inBounds ? bound : bound + 20_000);
+            changes(random, place, arrivals.size(), live)
+                    .forEach(change -> changes.add(change.behind(readings.size())));
+            readings.addAll(arrivals);
+        }
+        changes.sort(Comparator.comparingInt(Change::before)); // keeps the order of those that come together
+        return new RandomCases(changes, readings, setting, bound, inBounds, inBounds ? parallelism : 1);
     }
 
-    private static List<Change> changes(Random random, int readings, boolean live) {
+    private static List<Change> changes(Random random, Place place, int readings, boolean live) {
         List<Change> changes = new ArrayList<>();
         for (int i = 0; i < 1 + random.nextInt(4); i++) {
-            changes.add(new Change(0, "f" + i, 0, random.nextBoolean() ? "" : "d", Shape.of(random), false));
+            String field = place.named("f" + i);
+            changes.add(new Change(0, field, 0, random.nextBoolean() ? "" : "d", shape(random, place), false));
         }
         int more = random.nextInt(5);
         for (int i = 0; i < more; i++) {
-            String field = "f" + random.nextInt(5);
-            long validFrom = BEGIN + random.nextInt(LENGTH);
-            Shape shape = random.nextInt(3) == 0 ? null : Shape.of(random);
+            String field = place.named("f" + random.nextInt(5));
+            long validFrom = place.begin() + random.nextInt(LENGTH);
+            Shape shape = random.nextInt(3) == 0 ? null : shape(random, place);
             changes.add(new Change(when(random, readings, live), field, validFrom, "d" + i, shape, false));
         }
         if (live && random.nextBoolean()) {
@@ -75,25 +108,31 @@ record RandomCase(
             int then = some.before() + random.nextInt(readings - some.before());
             changes.add(new Change(Math.max(then, 1), some.field(), some.validFrom(), "", null, true));
         }
-        changes.sort(java.util.Comparator.comparingInt(Change::before)); // keeps the order of those that come together
+        changes.sort(Comparator.comparingInt(Change::before));
         return changes;
+    }
+
+    private static Shape shape(Random random, Place place) {
+        return Shape.of(random).movedEast(place.east());
     }
 
     private static int when(Random random, int readings, boolean live) {
         return live ? random.nextInt(readings) : 0;
     }
 
-    private static List<Arrival> arrivals(Random random, long disorder) {
+    private static List<Arrival> arrivals(Random random, Place place, long disorder) {
         List<Device> devices = new ArrayList<>();
         for (int i = 0; i < 2 + random.nextInt(8); i++) {
             double bias = random.nextInt(4) == 0 ? 40 * random.nextGaussian() : 0.3 * random.nextGaussian();
-            devices.add(new Device("d" + i, 1 + random.nextInt(12) / 2.0, random.nextInt(12) / 2.0, bias));
+            double latitude = 1 + random.nextInt(12) / 2.0;
+            double longitude = place.east() + random.nextInt(12) / 2.0;
+            devices.add(new Device(place.named("d" + i), latitude, longitude, bias));
         }
         List<Arrival> arrivals = new ArrayList<>();
         List<long[]> order = new ArrayList<>();
         for (int i = 0; i < 300; i++) {
             Device device = devices.get(random.nextInt(devices.size()));
-            long time = BEGIN + random.nextInt(LENGTH);
+            long time = place.begin() + random.nextInt(LENGTH);
             if (i % 3 != 0 && time % 60_000 > 30_000) { // thinner now and then, so that windows stay empty
                 time -= 30_000;
             }
