@@ -82,7 +82,7 @@ public final class NotificationMeasurement implements AutoCloseable {
     public NotificationRun run(String name, HttpLoadPlan plan, Duration calibration) throws InterruptedException {
         firstNumber += NUMBERS_PER_RUN;
         ArrivalCheck check = new ArrivalCheck(firstNumber);
-        try (RecordReader reader = new TopicReader(kafka, topic, FETCHING, check::add)) {
+        try (TopicReader reader = new TopicReader(kafka, topic, FETCHING, check::add)) {
             reader.start();
             CpuByPart before = CpuByPart.now();
             long start = System.nanoTime();
