@@ -1,8 +1,8 @@
 package io.furrow.launcher;
 
+import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
-import picocli.CommandLine;
 
 import io.furrow.flink.JobCommandLine;
 
