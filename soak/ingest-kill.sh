@@ -107,7 +107,7 @@ load() {
 
 run_job() {
     "$FLINK_HOME/bin/flink" run -d "$(ls "$home"/ingest/target/furrow-ingest-*-job.jar)" ingest \
-        --bootstrap-servers "$bootstrap" --delivery exactly-once --catalog-retention 36500d --mongo "$mongo" --images "file://$run/images" \
+        --bootstrap-servers "$bootstrap" --delivery exactly-once --mongo "$mongo" --images "file://$run/images" \
         --checkpoint-interval 2s --restart-delay 500ms --restart-delay-max 2s --topic-retention 36500d \
         --state-backend "$backend" --parallelism 2 >"$logs/run.out" 2>&1 ||
         { tail -n 5 "$logs/run.out" >&2; fail "flink run of ingest failed."; }

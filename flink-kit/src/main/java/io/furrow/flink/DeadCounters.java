@@ -8,15 +8,20 @@ import org.apache.flink.metrics.MetricGroup;
 
 import io.furrow.model.ngsi.Reason;
 
-/** Counts what an operator sets aside: {@code dead}, and the same in a group per {@code reason}. */
+/**
+ * Counts what an operator sets aside: {@code dead}, the same in a group per {@code reason}, and, of what belongs to them, in
+ * groups per {@code domain} and {@code mission}.
+ */
 public final class DeadCounters {
     private final MetricGroup group;
     private final Counter all;
+    private final PerMission<Counter> perMission;
     private final Map<Reason, Counter> perReason = new EnumMap<>(Reason.class);
 
     public DeadCounters(MetricGroup group) {
         this.group = group;
         this.all = group.counter("dead");
+        this.perMission = new PerMission<>(group, PerMission.USUAL_LIMIT, mission -> mission.counter("dead"));
     }
 
     public void count(Reason reason) {
@@ -25,5 +30,11 @@ public final class DeadCounters {
                 .computeIfAbsent(
                         reason, first -> group.addGroup("reason", first.code()).counter("dead"))
                 .inc();
+    }
+
+    /** The same of something whose domain and mission are known; each may be empty. */
+    public void count(Reason reason, String domain, String mission) {
+        count(reason);
+        perMission.of(domain, mission).inc();
     }
 }

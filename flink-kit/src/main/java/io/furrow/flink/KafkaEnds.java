@@ -137,10 +137,9 @@ public final class KafkaEnds {
             onPeriodicEmit(output);
         }
 
-        /** One less than what Flink takes for the end of the stream. */
         @Override
         public void onPeriodicEmit(WatermarkOutput output) {
-            output.emitWatermark(new Watermark(Long.MAX_VALUE - 1));
+            output.emitWatermark(new Watermark(EndOfEventTime.BESIDE));
         }
     }
 }

@@ -70,7 +70,8 @@ final class IngestBranches {
 
     void keepMissions(DataStream<ReportedEvent> events) {
         if (options.missions().isOn()) {
-            DataStream<MissionEvent> ofMissions = events.map(event -> new MissionEvent(event.mission(), event.record()))
+            DataStream<MissionEvent> ofMissions = events.map(
+                            event -> new MissionEvent(event.domain(), event.mission(), event.record()))
                     .returns(MissionEvent.class)
                     .uid("name-missions")
                     .name("Name the mission");

@@ -106,6 +106,19 @@ class IngestJobTest {
     }
 
     @Test
+    void setsAsideWhatOnlyALaterStageWouldFailAt() throws Exception {
+        TopicRecord withoutValue = record("x", "k", "{\"id\":\"k\",\"type\":\"T\",\"n\":{\"type\":\"Number\"}}");
+        TopicRecord endless =
+                record("y", "k", "{\"id\":\"k\",\"type\":\"T\",\"n\":{\"type\":\"Number\",\"value\":1e1001}}");
+        TopicRecord good = record("a", thermometer("t1", "farm", ""));
+
+        assertThat(run(options(), withoutValue, endless, good))
+                .extracting(record -> record.topic() + " " + record.headers().get(DeadLetter.REASON))
+                .containsExactlyInAnyOrder(
+                        "data.raw.dead not-an-entity", "data.raw.dead too-deep", "data.farm.realtime null");
+    }
+
+    @Test
     void usesTheDefaultsWhereAnEntityNamesNoDomainOrMission() throws Exception {
         TopicRecord robot = record("a", Entity.builder("robot", "ROBOT"));
 

@@ -64,9 +64,10 @@ class IngestMetricsListedTest {
                         operator, names -> assertThat(names).as(operator).containsAll(metrics)));
         assertThat(METRICS.getMetricsByGroup().entrySet())
                 .as("documents of the mission, over all subtasks")
-                .filteredOn(group ->
-                        "listed".equals(group.getKey().getAllVariables().get("<mission>"))
-                                && group.getValue().containsKey("documents"))
+                .filteredOn(group -> "listed"
+                                .equals(group.getKey().getAllVariables().get("<mission>"))
+                        && "farm".equals(group.getKey().getAllVariables().get("<domain>"))
+                        && group.getValue().containsKey("documents"))
                 .extracting(group -> ((Counter) group.getValue().get("documents")).getCount())
                 .satisfies(counts -> assertThat(
                                 counts.stream().mapToLong(Long::longValue).sum())

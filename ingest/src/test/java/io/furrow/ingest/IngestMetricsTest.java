@@ -1,6 +1,8 @@
 package io.furrow.ingest;
 
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.Base64;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.TreeMap;
@@ -15,11 +17,14 @@ import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.image.Pictures;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -36,39 +41,61 @@ class IngestMetricsTest {
     private static final long TIME = 1_700_000_000_000L;
 
     @Test
-    void countsWhatPassesPerDomainAndMissionAndMeasuresEachHop() throws Exception {
+    void countsWhatPassesPerDomainAndMissionAndMeasuresEachHop(@TempDir Path images) throws Exception {
         IngestOptions options = new IngestOptions();
-        JobCommandLine.of(options).parseArgs();
+        JobCommandLine.of(options).parseArgs("--images", images.toUri().toString());
         TopicRecord weeding = report("a", 0, "weeding");
         TopicRecord sowing = report("b", 0, "sowing");
         TopicRecord garbage =
                 new TopicRecord("data.raw", 0, 7, TIME, new byte[] {1}, new byte[] {'{'}, new HashMap<>());
 
-        IngestRun.of(options, KnownDevices.of(), weeding, weeding, weeding, sowing, garbage);
+        TopicRecord broken = camera("c", "sowing", "no picture");
+        TopicRecord whole = camera("d", "weeding", Base64.getEncoder().encodeToString(Pictures.png(1)));
+
+        IngestRun.of(options, KnownDevices.of(), weeding, weeding, weeding, sowing, garbage, broken, whole);
 
         assertThat(counted("routed"))
-                .containsEntry("", 2L)
-                .containsEntry("farm/weeding", 1L)
-                .containsEntry("farm/sowing", 1L);
+                .containsEntry("", 4L)
+                .containsEntry("farm/weeding", 2L)
+                .containsEntry("farm/sowing", 2L);
         assertThat(counted("repeated")).containsEntry("", 2L).containsEntry("farm/weeding", 2L);
-        assertThat(counted("bytes")).containsEntry("farm/weeding", (long) weeding.value().length);
-        assertThat(counted("dead")).containsEntry("", 1L).containsEntry("not-json", 1L);
+        assertThat(counted("bytes").get("farm/weeding")).isGreaterThan(weeding.value().length);
+        assertThat(counted("dead"))
+                .containsEntry("", 2L)
+                .containsEntry("not-json", 1L)
+                .containsEntry("not-an-image", 1L)
+                .containsEntry("farm/sowing", 1L);
+        assertThat(counted("images")).containsEntry("", 1L).containsEntry("farm/weeding", 1L);
+        assertThat(counted("imageBytes")).containsEntry("farm/weeding", (long) Pictures.png(1).length);
         assertThat(counted("late")).containsEntry("farm/weeding", 0L);
         assertThat(largest("lag.device-to-source")).isEqualTo(250);
         assertThat(largest("lag.source-to-ingest")).isBetween(1000L, System.currentTimeMillis() - TIME);
     }
 
     private static TopicRecord report(String id, long after, String mission) {
-        Entity entity = Entity.builder("t", "T")
-                .text("Domain", "farm")
-                .text("Mission", mission)
-                .build();
+        return record(
+                id,
+                TIME + after,
+                Entity.builder("t", "T").text("Domain", "farm").text("Mission", mission));
+    }
+
+    private static TopicRecord camera(String id, String mission, String image) {
+        return record(
+                id,
+                TIME,
+                Entity.builder("t", "T")
+                        .text("Domain", "farm")
+                        .text("Mission", mission)
+                        .text("Image", image));
+    }
+
+    private static TopicRecord record(String id, long time, EntityBuilder entity) {
         Map<String, String> headers = Map.of(
                 HeaderNames.CE_ID, id,
                 HeaderNames.TS_DEVICE, Long.toString(TIME),
                 HeaderNames.TS_SOURCE, Long.toString(TIME + 250));
         byte[] key = "t".getBytes(StandardCharsets.UTF_8);
-        return new TopicRecord("data.raw", 0, 0, TIME + after, key, entity.toBytes(), new HashMap<>(headers));
+        return new TopicRecord("data.raw", 0, 0, time, key, entity.build().toBytes(), new HashMap<>(headers));
     }
 
     /** Over all subtasks, by domain and mission or by reason; under no name what has neither. */

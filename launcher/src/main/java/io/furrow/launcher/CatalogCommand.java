@@ -82,11 +82,8 @@ final class CatalogCommand implements Callable<Integer> {
     @Option(names = "--mission", paramLabel = "NAME", description = "Only this mission.")
     private String mission;
 
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            description = "Show this text.")
-    private boolean help;
+    @Mixin
+    private HelpOption help;
 
     @Override
     public Integer call() {

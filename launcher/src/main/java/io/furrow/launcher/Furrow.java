@@ -2,7 +2,7 @@ package io.furrow.launcher;
 
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
-import picocli.CommandLine.Option;
+import picocli.CommandLine.Mixin;
 
 import io.furrow.flink.JobCommandLine;
 
@@ -22,11 +22,8 @@ import io.furrow.flink.JobCommandLine;
             BenchCommand.class
         })
 public final class Furrow {
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            description = "Show this text.")
-    private boolean help;
+    @Mixin
+    private HelpOption help;
 
     private Furrow() {}
 

@@ -59,11 +59,8 @@ final class ImageBench implements Callable<Integer> {
             description = "Of the stage. Default: " + "${DEFAULT-VALUE}.")
     private int parallelism;
 
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            description = "Show this text.")
-    private boolean help;
+    @Mixin
+    private HelpOption help;
 
     @Override
     public Integer call() throws Exception {

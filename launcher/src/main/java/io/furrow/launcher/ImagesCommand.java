@@ -1,7 +1,7 @@
 package io.furrow.launcher;
 
 import picocli.CommandLine.Command;
-import picocli.CommandLine.Option;
+import picocli.CommandLine.Mixin;
 
 import io.furrow.ingest.image.PurgeImages;
 
@@ -12,9 +12,6 @@ import io.furrow.ingest.image.PurgeImages;
         synopsisSubcommandLabel = "COMMAND",
         subcommands = PurgeImages.class)
 final class ImagesCommand {
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            description = "Show this text.")
-    private boolean help;
+    @Mixin
+    private HelpOption help;
 }

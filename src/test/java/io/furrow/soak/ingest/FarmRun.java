@@ -1,9 +1,13 @@
 package io.furrow.soak.ingest;
 
 import java.io.IOException;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.JobID;
@@ -67,7 +71,6 @@ final class FarmRun implements AutoCloseable {
             "--checkpoint-interval=300ms",
             "--restart-delay=50ms",
             "--topic-retention=36500d",
-            "--catalog-retention=36500d", // the load ends with a record of much later, at which entries would go or not
             "--parallelism=" + parallelism
         };
         JobCommandLine.of(options).parseArgs(args);
@@ -127,12 +130,26 @@ final class FarmRun implements AutoCloseable {
     /** @param drained whether event time goes to its end first, so that nothing waits for it any more */
     private String stopJob(boolean drained) throws Exception {
         await().atMost(PATIENCE).until(this::isRunning);
-        String savepoint = flink.cluster()
-                .stopWithSavepoint(
-                        job, folder.resolve("savepoints").toUri().toString(), drained, SavepointFormatType.CANONICAL)
-                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
-        await().atMost(PATIENCE).until(() -> flink.status(job).isGloballyTerminalState());
-        return savepoint;
+        String target = folder.resolve("savepoints").toUri().toString();
+        try {
+            String savepoint = flink.cluster()
+                    .stopWithSavepoint(job, target, drained, SavepointFormatType.CANONICAL)
+                    .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+            await().atMost(PATIENCE).until(() -> flink.status(job).isGloballyTerminalState());
+            return savepoint;
+        } catch (ExecutionException e) {
+            throw new IllegalStateException("no savepoint; what failed in the job: " + exceptions(), e);
+        }
+    }
+
+    /** What the web UI tells of the job's failures, newest first, as JSON. */
+    private String exceptions() throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(
+                        flink.webUi().resolve("/jobs/" + job + "/exceptions?maxExceptions=5"))
+                .build();
+        return HttpClient.newHttpClient()
+                .send(request, HttpResponse.BodyHandlers.ofString())
+                .body();
     }
 
     /** What there is when all has come out and the job has ended. */

@@ -100,20 +100,20 @@ public final class IngestMeasurement {
         String name = "%s-%s-%d".formatted(peer, delivery, turn).toLowerCase(Locale.ROOT);
         try (WrittenTopics written =
                 new WrittenTopics(kafka, topics, PARTITIONS, List.of(Topics.LATEST, Topics.CATALOG))) {
-            Arrivals arrivals = new Arrivals(expected);
+            Throughput throughput = new Throughput(expected);
             Running job = flink.start(name, job(name, peer, delivery));
             try {
                 long end = System.nanoTime() + PATIENCE.toNanos();
-                while (!arrivals.areAll()) {
+                while (!throughput.areAll()) {
                     if (System.nanoTime() > end) {
                         throw new IllegalStateException("%s: %d of %d records after %d s"
                                 .formatted(name, written.readable(), expected, PATIENCE.toSeconds()));
                     }
                     TimeUnit.MILLISECONDS.sleep(LOOK_MS);
-                    arrivals.add(written.readable());
+                    throughput.add(written.readable());
                 }
                 long missing = expected - written.counted(expected, PATIENCE);
-                Arrivals.Pace pace = arrivals.pace();
+                Throughput.Pace pace = throughput.pace();
                 return new IngestRun(
                         peer,
                         delivery,

@@ -7,6 +7,7 @@ import java.util.Map;
 import java.util.Set;
 
 import org.HdrHistogram.Histogram;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.header.Headers;
 
@@ -25,6 +26,12 @@ final class Arrivals {
         for (Hop hop : Hop.values()) {
             delays.put(hop, new Histogram(LONGEST_MS, DIGITS));
         }
+    }
+
+    /** To be called as soon as they are there. */
+    void add(ConsumerRecords<byte[], byte[]> records) {
+        long now = System.currentTimeMillis();
+        records.forEach(record -> add(record.headers(), now));
     }
 
     /** @param now when the reader had the record, epoch ms */

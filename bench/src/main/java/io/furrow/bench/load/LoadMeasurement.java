@@ -20,6 +20,7 @@ import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.TopicExistsException;
 
+import io.furrow.bench.arrival.TopicReader;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.load.LoadFleet;
@@ -30,6 +31,8 @@ import io.furrow.simulators.load.LoadPlan;
  * the suite says otherwise; sender, suite and reader share the machine and its clock.
  */
 public final class LoadMeasurement {
+    private static final Map<String, String> FETCHING =
+            Map.of("max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
     /** After the last message is sent, this long without an arrival means that the rest is lost. */
     private static final Duration QUIET = Duration.ofSeconds(15);
 
@@ -58,7 +61,7 @@ public final class LoadMeasurement {
         LoadFleet.provision(devices, plan);
         awaitQuiet(topic);
         Arrivals arrivals = new Arrivals();
-        try (TopicReader reader = new TopicReader(kafka, topic, arrivals)) {
+        try (TopicReader reader = new TopicReader(kafka, topic, FETCHING, arrivals::add)) {
             reader.start();
             long sent = send(plan, arrivals);
             awaitArrivals(sent, arrivals);

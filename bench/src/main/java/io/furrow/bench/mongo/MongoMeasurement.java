@@ -153,6 +153,7 @@ public final class MongoMeasurement {
                 HeaderNames.TS_INGEST,
                 Long.toString(TIME + number + 9));
         return new MissionEvent(
+                "",
                 MISSION,
                 TopicRecord.of("data.raw", TIME + number, "t", json.getBytes(StandardCharsets.UTF_8), headers));
     }

@@ -5,6 +5,7 @@ import java.util.BitSet;
 import java.util.List;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
 
 import io.furrow.bench.http.NotificationRequest;
 
@@ -22,6 +23,12 @@ final class ArrivalCheck {
     /** @param firstNumber of this load; smaller numbers are of an earlier one and are passed over */
     ArrivalCheck(long firstNumber) {
         this.firstNumber = firstNumber;
+    }
+
+    /** To be called as soon as they are there. */
+    void add(ConsumerRecords<byte[], byte[]> records) {
+        long now = System.nanoTime();
+        records.forEach(record -> add(record, now));
     }
 
     /** @param nanos when the reader had it */

@@ -16,6 +16,7 @@ import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
+import io.furrow.bench.arrival.TopicReader;
 import io.furrow.bench.http.BareServer;
 import io.furrow.bench.http.HttpLoad;
 import io.furrow.bench.http.HttpLoadPlan;
@@ -26,6 +27,10 @@ import io.furrow.bench.http.HttpLoadResult;
  * processors; each run is followed by the same load on a {@link BareServer} and by a {@link BareProducer}.
  */
 public final class NotificationMeasurement implements AutoCloseable {
+    /** In large pieces, because the reader shares the processors. */
+    private static final Map<String, String> FETCHING = Map.of(
+            "fetch.min.bytes", Integer.toString(256 * 1024), "fetch.max.wait.ms", "100", "max.poll.records", "5000");
+
     private static final String BARE_TOPIC = "bench.bare";
     private static final int PARTITIONS = 4;
     private static final short REPLICAS = 1;
@@ -77,7 +82,7 @@ public final class NotificationMeasurement implements AutoCloseable {
     public NotificationRun run(String name, HttpLoadPlan plan, Duration calibration) throws InterruptedException {
         firstNumber += NUMBERS_PER_RUN;
         ArrivalCheck check = new ArrivalCheck(firstNumber);
-        try (RecordReader reader = new RecordReader(kafka, topic, check::add)) {
+        try (TopicReader reader = new TopicReader(kafka, topic, FETCHING, check::add)) {
             reader.start();
             CpuByPart before = CpuByPart.now();
             long start = System.nanoTime();

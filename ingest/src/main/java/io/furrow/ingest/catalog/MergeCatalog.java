@@ -12,6 +12,7 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.EndOfEventTime;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
@@ -76,17 +77,13 @@ public final class MergeCatalog extends KeyedProcessFunction<String, CatalogEntr
             unwritten.clear();
             out.collect(record(entry, entry.last(), entry.toBytes(deleted.value())));
             postpone(timestamp, context);
-        } else if (Long.valueOf(timestamp).equals(expiry.value()) && !isEndOfInput(context)) {
+        } else if (Long.valueOf(timestamp).equals(expiry.value())
+                && !EndOfEventTime.isAt(context.timerService().currentWatermark())) {
             out.collect(record(entry, timestamp, null));
             whole.clear();
             deleted.clear();
             expiry.clear();
         }
-    }
-
-    /** The end of the input is not the end of time: what is there stays. */
-    private static boolean isEndOfInput(OnTimerContext context) {
-        return context.timerService().currentWatermark() == Long.MAX_VALUE;
     }
 
     private void postpone(long timestamp, OnTimerContext context) throws Exception {

@@ -58,7 +58,7 @@ final class ImageMover {
                 return Moved.unchanged(record);
             }
         } catch (UnreadableException e) {
-            return new Moved(record, List.of(), List.of(DeadLetters.of(record, e, STAGE)), 0);
+            return new Moved(record, List.of(), List.of(DeadLetters.of(record, e, STAGE)), e.reason(), 0);
         }
         ImageName name = ImageName.of(event.domain(), event.mission(), event.entityId(), record.timestamp());
         List<byte[]> values = new ArrayList<>();
@@ -79,11 +79,12 @@ final class ImageMover {
         }
         TopicRecord moved = record.withValue(ImageSpan.replace(record.value(), spans, values));
         return broken == null
-                ? new Moved(moved, manifest, List.of(), bytes)
+                ? new Moved(moved, manifest, List.of(), null, bytes)
                 : new Moved(
                         moved.with(BROKEN, broken.reason().code()),
                         manifest,
                         List.of(DeadLetters.of(record, broken, STAGE)),
+                        broken.reason(),
                         bytes);
     }
 

@@ -3,6 +3,7 @@ package io.furrow.ingest.image;
 import java.util.List;
 
 import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Reason;
 
 /**
  * What became of the images of an event.
@@ -10,11 +11,12 @@ import io.furrow.flink.TopicRecord;
  * @param record the event with references instead; without images the record itself
  * @param manifest a record on {@code data.images} for each image stored
  * @param deadLetters at most one, the event as it was, where one of its images is broken
+ * @param broken the reason of the dead letter; null where there is none
  * @param bytes of the images stored
  */
-record Moved(TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, long bytes) {
+record Moved(TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, Reason broken, long bytes) {
     static Moved unchanged(TopicRecord record) {
-        return new Moved(record, List.of(), List.of(), 0);
+        return new Moved(record, List.of(), List.of(), null, 0);
     }
 
     int images() {

@@ -13,6 +13,7 @@ import com.mongodb.MongoException;
 import com.mongodb.MongoInterruptedException;
 import com.mongodb.MongoSocketException;
 import com.mongodb.bulk.BulkWriteError;
+import com.mongodb.client.MongoCollection;
 import com.mongodb.client.model.BulkWriteOptions;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.ReplaceOneModel;
@@ -72,8 +73,11 @@ final class BulkSender {
         List<MissionDocument> open = documents;
         int breaks = 0;
         while (!open.isEmpty()) {
+            boolean prepared = false;
             try {
-                collections.prepared(collection).bulkWrite(upserts(open), UNORDERED);
+                MongoCollection<RawBsonDocument> target = collections.prepared(collection);
+                prepared = true;
+                target.bulkWrite(upserts(open), UNORDERED);
                 return;
             } catch (MongoBulkWriteException e) {
                 open = notWritten(e, open, refused);
@@ -89,7 +93,8 @@ final class BulkSender {
                     throw wrongSetting(e);
                 }
                 breaks += e instanceof MongoSocketException && collections.serverAnswers() ? 1 : 0;
-                if (failure == MongoFailure.REFUSED || breaks == BREAKS) {
+                // What is refused before is the making of indexes: another writer may be making them at this moment.
+                if (prepared && (failure == MongoFailure.REFUSED || breaks == BREAKS)) {
                     findRefused(collection, open, e, refused);
                     return;
                 }

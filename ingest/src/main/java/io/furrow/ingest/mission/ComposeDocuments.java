@@ -35,7 +35,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
         try {
             out.collect(compose(event));
         } catch (UnreadableException e) {
-            dead.count(e.reason());
+            dead.count(e.reason(), event.domain(), event.mission());
             context.output(DeadLetters.TAG, DeadLetters.of(event.record(), e, STAGE));
         }
     }
@@ -56,7 +56,7 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
                 entity == null ? key(record) : entity.id(),
                 DocumentForm.kept(record.headers()),
                 entity == null ? null : entity.json()));
-        return new MissionDocument(MissionCollections.nameOf(event.mission()), id, bson, record);
+        return new MissionDocument(MissionCollections.nameOf(event.mission()), id, bson, event);
     }
 
     private static String key(TopicRecord record) throws UnreadableException {

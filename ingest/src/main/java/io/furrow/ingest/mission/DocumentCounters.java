@@ -1,52 +1,33 @@
 package io.furrow.ingest.mission;
 
-import java.util.HashMap;
-import java.util.Map;
-
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.MetricGroup;
 
+import io.furrow.flink.DeadCounters;
 import io.furrow.flink.PerMission;
-import io.furrow.model.topic.TopicName;
+import io.furrow.model.ngsi.Reason;
 
 /**
- * Counts what MongoDB has acknowledged: {@code documents}, and the same in a group per {@code mission}; the first so many
- * missions of a subtask have their own, all others share {@code others}.
+ * Counts what MongoDB has acknowledged, {@code documents}, and what it has refused, {@code dead}; in all and in groups per {@code
+ * domain} and {@code mission}.
  */
 final class DocumentCounters {
-    private final MetricGroup group;
-    private final Counter all;
-    private final Map<String, Counter> perCollection = new HashMap<>();
-    private Counter others;
+    private final Counter documents;
+    private final PerMission<Counter> perMission;
+    private final DeadCounters dead;
 
     DocumentCounters(MetricGroup group) {
-        this.group = group;
-        this.all = group.counter("documents");
+        documents = group.counter("documents");
+        perMission = new PerMission<>(group, PerMission.USUAL_LIMIT, mission -> mission.counter("documents"));
+        dead = new DeadCounters(group);
     }
 
-    void add(MissionDocument document, long number) {
-        all.inc(number);
-        of(document.collection()).inc(number);
+    void written(MissionDocument document) {
+        documents.inc();
+        perMission.of(document.event().domain(), document.event().mission()).inc();
     }
 
-    private Counter of(String collection) {
-        Counter known = perCollection.get(collection);
-        if (known != null) {
-            return known;
-        }
-        if (perCollection.size() < PerMission.USUAL_LIMIT) {
-            String part = collection.substring(MissionCollections.PREFIX.length());
-            Counter made = counter(TopicName.original(part).orElse(part));
-            perCollection.put(collection, made);
-            return made;
-        }
-        if (others == null) {
-            others = counter("others");
-        }
-        return others;
-    }
-
-    private Counter counter(String mission) {
-        return group.addGroup("mission", mission).counter("documents");
+    void refused(MissionDocument document) {
+        dead.count(Reason.REFUSED, document.event().domain(), document.event().mission());
     }
 }

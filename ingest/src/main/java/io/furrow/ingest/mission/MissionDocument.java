@@ -1,12 +1,10 @@
 package io.furrow.ingest.mission;
 
-import io.furrow.flink.TopicRecord;
-
 /**
  * A document for a collection of MongoDB.
  *
  * @param id its {@code _id}, the event id
  * @param bson all of it, {@code _id} included
- * @param record what it was made of, for the dead letter if the server refuses it
+ * @param event what it was made of, for the dead letter if the server refuses it; null where it came from an archive
  */
-public record MissionDocument(String collection, String id, byte[] bson, TopicRecord record) {}
+public record MissionDocument(String collection, String id, byte[] bson, MissionEvent event) {}

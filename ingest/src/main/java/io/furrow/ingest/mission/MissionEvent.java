@@ -5,7 +5,8 @@ import io.furrow.flink.TopicRecord;
 /**
  * An event and the mission that it belongs to.
  *
+ * @param domain empty where there is none
  * @param mission empty where there is none
  * @param record as it goes to the mission's topic, event id and hop stamps in its headers; no value where the entity was deleted
  */
-public record MissionEvent(String mission, TopicRecord record) {}
+public record MissionEvent(String domain, String mission, TopicRecord record) {}

@@ -2,7 +2,10 @@ package io.furrow.ingest.mission;
 
 import java.io.IOException;
 import java.util.ArrayList;
+import java.util.Collections;
+import java.util.IdentityHashMap;
 import java.util.List;
+import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.ExecutorService;
@@ -12,7 +15,6 @@ import java.util.concurrent.Future;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.apache.flink.metrics.groups.SinkWriterMetricGroup;
 
-import io.furrow.flink.DeadCounters;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Reason;
@@ -31,7 +33,6 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     private final SinkWriter<TopicRecord> deadLetters;
     private final AutoCloseable connection;
     private final ExecutorService thread = Executors.newSingleThreadExecutor(MissionWriter::named);
-    private final DeadCounters dead;
     private final DocumentCounters documents;
     private final SinkWriterMetricGroup metrics;
 
@@ -50,7 +51,6 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
         this.deadLetters = deadLetters;
         this.connection = connection;
         this.metrics = metrics;
-        this.dead = new DeadCounters(metrics);
         this.documents = new DocumentCounters(metrics);
     }
 
@@ -86,23 +86,33 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
 
     private void awaitUnderWay() throws IOException, InterruptedException {
         Future<List<BulkSender.Refusal>> answer = underWay;
-        List<MissionDocument> written = sent;
+        List<MissionDocument> bulk = sent;
         underWay = CompletableFuture.completedFuture(List.of());
         sent = List.of();
         try {
             List<BulkSender.Refusal> refused = answer.get();
-            written.forEach(document -> documents.add(document, 1));
+            Set<MissionDocument> notWritten = Collections.newSetFromMap(new IdentityHashMap<>());
             for (BulkSender.Refusal refusal : refused) {
-                documents.add(refusal.document(), -1);
-                dead.count(Reason.REFUSED);
-                UnreadableException why = new UnreadableException(Reason.REFUSED, refusal.reason());
-                deadLetters.write(DeadLetters.of(refusal.document().record(), why, ComposeDocuments.STAGE), NO_CONTEXT);
+                notWritten.add(refusal.document());
+                setAside(refusal);
+            }
+            for (MissionDocument document : bulk) {
+                if (!notWritten.contains(document)) {
+                    documents.written(document);
+                }
             }
         } catch (ExecutionException e) {
             throw e.getCause() instanceof IOException known
                     ? known
                     : new IOException("documents could not be written", e.getCause());
         }
+    }
+
+    private void setAside(BulkSender.Refusal refusal) throws IOException, InterruptedException {
+        documents.refused(refusal.document());
+        UnreadableException why = new UnreadableException(Reason.REFUSED, refusal.reason());
+        TopicRecord record = refusal.document().event().record();
+        deadLetters.write(DeadLetters.of(record, why, ComposeDocuments.STAGE), NO_CONTEXT);
     }
 
     @Override

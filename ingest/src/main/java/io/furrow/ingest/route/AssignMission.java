@@ -78,7 +78,9 @@ public final class AssignMission
 
     private ReportedEvent deleted(ReportedEvent event, ReadOnlyContext context) throws Exception {
         KnownRoute known = route.value();
-        route.clear();
+        if (known != null && known.time() <= event.time()) {
+            route.clear();
+        }
         return known == null ? completed(event, context) : event.belongingTo(known.domain(), known.mission());
     }
 

@@ -54,7 +54,7 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
     }
 
     private static ReportedEvent change(TopicRecord record, FiwareScope scope) throws UnreadableException {
-        String known = record.headers().get(HeaderNames.CE_ID);
+        String known = knownId(record);
         Entity entity = known == null ? Entity.parse(record.value()) : Entity.parse(record.value(), ROUTE);
         String id = known == null ? EventId.of(scope, entity, Instant.ofEpochMilli(record.timestamp())) : known;
         return new ReportedEvent(
@@ -67,12 +67,18 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
                 known == null ? record.with(HeaderNames.CE_ID, id) : record);
     }
 
+    /** Null where there is none: an empty one would make all events of an entity repeats of the first. */
+    private static String knownId(TopicRecord record) {
+        String id = record.headers().get(HeaderNames.CE_ID);
+        return id == null || id.isBlank() ? null : id;
+    }
+
     private static ReportedEvent deletion(TopicRecord record, FiwareScope scope) throws UnreadableException {
         if (record.key() == null || record.key().length == 0) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has neither a value nor a key");
         }
         String entityId = new String(record.key(), StandardCharsets.UTF_8);
-        String known = record.headers().get(HeaderNames.CE_ID);
+        String known = knownId(record);
         Instant time = Instant.ofEpochMilli(record.timestamp());
         String id = known == null ? new EntityDeletion(entityId, scope, time, time, Origin.KAFKA).id() : known;
         TopicRecord deletion = known == null ? record.with(HeaderNames.CE_ID, id) : record;

@@ -18,12 +18,12 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
 /** Images and the events of cameras for tests; the same seed, the same bytes. */
-final class Pictures {
+public final class Pictures {
     static final long TIME = 1_700_000_000_123L;
 
     private Pictures() {}
 
-    static byte[] png(int seed) {
+    public static byte[] png(int seed) {
         return image("png", seed);
     }
 

@@ -8,15 +8,14 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicInteger;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.stream.IntStream;
 
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.model.IndexOptions;
 import com.mongodb.client.model.Indexes;
-import org.bson.BsonBinaryWriter;
 import org.bson.Document;
-import org.bson.io.BasicOutputBuffer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -124,6 +123,18 @@ class BulkSenderTest {
     }
 
     @Test
+    void takesAFailureToMakeAnIndexForNoFaultOfADocument() throws Exception {
+        AtomicInteger refusals = new AtomicInteger(3); // another writer drops the index that this one is about to drop
+        collections =
+                new MissionCollections(RefusingIndexes.of(client, refusals), Retention.FOR_EVER, Clock.systemUTC());
+
+        assertThat(sender().send(documents(0, 1))).isEmpty();
+
+        assertThat(refusals).hasValue(0);
+        assertThat(ids()).hasSize(1);
+    }
+
+    @Test
     void triesAgainUntilTheServerIsBack() throws Exception {
         sender().send(documents(0, 10));
         int port = Integer.parseInt(mongo.uri().substring(mongo.uri().lastIndexOf(':') + 1));
@@ -167,16 +178,6 @@ class BulkSenderTest {
 
         assertThat(ids()).containsExactly("new");
         assertThat(collections.get("mission_kept").countDocuments()).isEqualTo(1);
-    }
-
-    private static byte[] bsonOf17MiB() {
-        BasicOutputBuffer buffer = new BasicOutputBuffer();
-        BsonBinaryWriter out = new BsonBinaryWriter(buffer);
-        out.writeStartDocument();
-        out.writeString("_id", "unfit");
-        out.writeString("text", "x".repeat(17 * 1024 * 1024));
-        out.writeEndDocument();
-        return buffer.toByteArray();
     }
 
     @Test

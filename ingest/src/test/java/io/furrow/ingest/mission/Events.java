@@ -40,6 +40,7 @@ final class Events {
                 HeaderNames.TS_INGEST,
                 Long.toString(time + 9)));
         return new MissionEvent(
+                "farm",
                 mission,
                 new TopicRecord("data.raw", 0, 7, time, "t1".getBytes(StandardCharsets.UTF_8), value, headers));
     }

@@ -97,6 +97,16 @@ class AssignMissionTest {
     }
 
     @Test
+    void remembersTheRouteOfAnEntityThatCameBackBeforeItsDeletionCame() throws Exception {
+        report("robot", 200, "farm", "sowing");
+        delete("robot", 150);
+        delete("robot", 300);
+
+        assertThat(routes()).containsExactly("farm/sowing", "farm/sowing", "farm/sowing");
+        assertThat(operator.numKeyedStateEntries()).isZero();
+    }
+
+    @Test
     void forgetsDevicesThatEndedLongerAgoThanTheyAreKept() throws Exception {
         broadcast(0, version("robot", "farm", "weeding", 100, 1));
         broadcast(1, new DeviceChange("|/|robot", 1, 200, null));

@@ -52,7 +52,7 @@ public record Entity(ObjectNode json) {
 
     /**
      * The same with the wanted attributes only, for readers that need few of many: an image that nobody asked for is passed
-     * over. What is passed over is checked to be JSON and an object, no further.
+     * over. What is refused is the same.
      */
     public static Entity parse(byte[] normalized, Set<String> wanted) throws UnreadableException {
         return EntityExcerpt.read(normalized, wanted);

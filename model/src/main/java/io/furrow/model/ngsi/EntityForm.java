@@ -14,8 +14,7 @@ enum EntityForm {
         @Override
         ObjectNode attribute(String name, JsonNode reported) throws UnreadableException {
             if (!reported.isObject() || !reported.has("value")) {
-                throw new UnreadableException(
-                        Reason.NOT_AN_ENTITY, "attribute '" + name + "' is no object with a member 'value'");
+                throw noAttribute(name);
             }
             if (isNormal((ObjectNode) reported)) {
                 return (ObjectNode) reported;
@@ -32,6 +31,11 @@ enum EntityForm {
     };
 
     private static final Set<String> ATTRIBUTE_MEMBERS = Set.of("type", "value", "metadata");
+
+    static UnreadableException noAttribute(String name) {
+        return new UnreadableException(
+                Reason.NOT_AN_ENTITY, "attribute '" + name + "' is no object with a member 'value'");
+    }
 
     abstract ObjectNode attribute(String name, JsonNode reported) throws UnreadableException;
 

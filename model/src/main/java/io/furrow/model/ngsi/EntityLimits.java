@@ -42,7 +42,7 @@ final class EntityLimits {
     }
 
     /** Half of a surrogate pair has no UTF-8 form: as a record key or in a hash it would become a question mark. */
-    private static void checkText(String text) throws UnreadableException {
+    static void checkText(String text) throws UnreadableException {
         for (int i = 0; i < text.length(); i++) {
             if (Character.isSurrogate(text.charAt(i))) {
                 boolean pair = i + 1 < text.length() && Character.isSurrogatePair(text.charAt(i), text.charAt(i + 1));
@@ -54,7 +54,7 @@ final class EntityLimits {
         }
     }
 
-    private static void checkExponent(BigDecimal number) throws UnreadableException {
+    static void checkExponent(BigDecimal number) throws UnreadableException {
         long exponent = (long) number.precision() - number.scale();
         if (Math.abs(exponent) > MAX_EXPONENT) {
             throw new UnreadableException(

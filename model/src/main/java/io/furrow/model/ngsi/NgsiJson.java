@@ -49,10 +49,7 @@ public final class NgsiJson {
      * @throws UnreadableException with {@link Reason#NOT_JSON} or {@link Reason#TOO_DEEP}
      */
     public static JsonNode read(byte[] bytes) throws UnreadableException {
-        int wrong = Utf8.firstWrong(bytes);
-        if (wrong >= 0) {
-            throw new UnreadableException(Reason.NOT_JSON, "byte " + wrong + " of the body is not UTF-8");
-        }
+        checkUtf8(bytes);
         return understand(() -> {
             JsonNode node = MAPPER.readTree(bytes);
             if (node == null || node.isMissingNode()) {
@@ -60,6 +57,14 @@ public final class NgsiJson {
             }
             return node;
         });
+    }
+
+    /** Jackson's own decoder is too lenient, and looks only at what it is asked for. */
+    static void checkUtf8(byte[] bytes) throws UnreadableException {
+        int wrong = Utf8.firstWrong(bytes);
+        if (wrong >= 0) {
+            throw new UnreadableException(Reason.NOT_JSON, "byte " + wrong + " of the body is not UTF-8");
+        }
     }
 
     /** Something that Jackson does with input. */

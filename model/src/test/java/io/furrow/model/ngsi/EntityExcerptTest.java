@@ -1,12 +1,17 @@
 package io.furrow.model.ngsi;
 
-import java.nio.charset.StandardCharsets;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.util.Random;
 import java.util.Set;
+import java.util.stream.Stream;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
 
+import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatExceptionOfType;
 
@@ -60,7 +65,67 @@ class EntityExcerptTest {
                 .satisfies(refusal -> assertThat(refusal.reason()).isEqualTo(Reason.TOO_DEEP));
     }
 
+    static Stream<String> attributes() {
+        return Stream.of(
+                "{}",
+                "{\"type\":\"Text\"}",
+                "{\"metadata\":{\"value\":1}}",
+                "{\"value\":\"half a pair \\ud800\"}",
+                "{\"value\":\"a pair \\ud83d\\ude00\"}",
+                "{\"value\":{\"\\udc00\":1}}",
+                "{\"value\":1e1001}",
+                "{\"value\":[1E-1001]}",
+                "{\"value\":1e99999999999}",
+                "{\"value\":1e3}",
+                "{\"value\":" + "1".repeat(1001) + "}",
+                "{\"value\":0." + "1".repeat(1001) + "}",
+                "{\"value\":1,\"value\":2}",
+                "{\"value\":{\"a\":1,\"a\":2}}",
+                "{\"value\":" + "[".repeat(62) + "]".repeat(62) + "}",
+                "{\"value\":" + "[".repeat(63) + "]".repeat(63) + "}",
+                "{\"value\":\"" + "x".repeat(NgsiJson.MAX_STRING + 1) + "\"}");
+    }
+
+    @ParameterizedTest(name = "{index}") // the text may have megabytes
+    @MethodSource("attributes")
+    void refusesInAnAttributeThatNobodyWantsWhatAReadingOfAllRefuses(String attribute) {
+        byte[] entity = bytes("{\"id\":\"c\",\"x\":" + attribute + "}");
+
+        assertThat(refusal(() -> Entity.parse(entity, Set.of("Mission"))))
+                .isEqualTo(refusal(() -> Entity.parse(entity)));
+    }
+
+    @Test
+    void refusesWhatWasDamagedAtRandomWhereAReadingOfAllDoes() {
+        long seed = System.nanoTime();
+        Random random = new Random(seed);
+        byte[] signs = bytes("{}[]\":,\\u0d8eE-1 \u00e9");
+        for (int i = 0; i < 20_000; i++) {
+            byte[] damaged = bytes(CAMERA);
+            for (int changes = 1 + random.nextInt(2); changes > 0; changes--) {
+                damaged[random.nextInt(damaged.length)] = signs[random.nextInt(signs.length)];
+            }
+
+            String whole = refusal(() -> Entity.parse(damaged));
+            assertThat(refusal(() -> Entity.parse(damaged, Set.of("Mission"))).isEmpty())
+                    .as("seed %d, round %d: %s, as a whole %s", seed, i, new String(damaged, UTF_8), whole)
+                    .isEqualTo(whole.isEmpty());
+        }
+    }
+
+    /** Its reason; empty where there is none. */
+    private static String refusal(NgsiJson.Reading<Entity> reading) {
+        try {
+            reading.read();
+            return "";
+        } catch (UnreadableException e) {
+            return e.reason().code();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
     private static byte[] bytes(String text) {
-        return text.getBytes(StandardCharsets.UTF_8);
+        return text.getBytes(UTF_8);
     }
 }

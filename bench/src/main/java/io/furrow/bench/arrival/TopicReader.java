@@ -1,8 +1,10 @@
-package io.furrow.bench.load;
+package io.furrow.bench.arrival;
 
 import java.time.Duration;
 import java.util.List;
+import java.util.Map;
 import java.util.Properties;
+import java.util.function.Consumer;
 
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -12,22 +14,29 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** Reads one topic from its end of now on, on a thread of its own, and stamps what arrives. */
-final class TopicReader implements AutoCloseable {
+/** Reads what is committed in one topic from its end of now on, on a thread of its own. */
+public final class TopicReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicReader.class);
-    private static final String FETCH_BYTES = Integer.toString(8 * 1024 * 1024);
 
     private final KafkaConsumer<byte[], byte[]> consumer;
-    private final Arrivals arrivals;
+    private final Consumer<ConsumerRecords<byte[], byte[]>> arrival;
     private final Thread thread = new Thread(this::read, "bench-reader");
 
-    TopicReader(Properties client, String topic, Arrivals arrivals) {
+    /**
+     * @param fetching settings of the consumer beside those of the client
+     * @param arrival gets what came together, on the reader's thread, as soon as it is there
+     */
+    public TopicReader(
+            Properties client,
+            String topic,
+            Map<String, String> fetching,
+            Consumer<ConsumerRecords<byte[], byte[]>> arrival) {
         Properties properties = new Properties();
         properties.putAll(client);
+        properties.putAll(fetching);
         properties.setProperty("isolation.level", "read_committed");
-        properties.setProperty("max.partition.fetch.bytes", FETCH_BYTES);
         this.consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());
-        this.arrivals = arrivals;
+        this.arrival = arrival;
         List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
                 .map(info -> new TopicPartition(topic, info.partition()))
                 .toList();
@@ -36,16 +45,14 @@ final class TopicReader implements AutoCloseable {
         partitions.forEach(consumer::position); // seeks are lazy; from here on nothing is missed
     }
 
-    void start() {
+    public void start() {
         thread.start();
     }
 
     private void read() {
         try (consumer) {
             while (true) {
-                ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
-                long now = System.currentTimeMillis();
-                records.forEach(record -> arrivals.add(record.headers(), now));
+                arrival.accept(consumer.poll(Duration.ofMillis(200)));
             }
         } catch (WakeupException e) {
             LOG.debug("closed", e);

@@ -7,7 +7,7 @@ import java.util.List;
 import com.sun.management.OperatingSystemMXBean;
 
 /** How many records could be read at which time, and what processor time this JVM had used by then. */
-final class Arrivals {
+final class Throughput {
     private static final double FROM = 0.1;
     private static final double TO = 0.9;
 
@@ -18,7 +18,7 @@ final class Arrivals {
     private final List<Look> looks = new ArrayList<>();
 
     /** @param expected how many there will be */
-    Arrivals(long expected) {
+    Throughput(long expected) {
         this.expected = expected;
     }
 
