@@ -149,7 +149,7 @@ public final class Suite implements AutoCloseable {
                         "Flink",
                         () -> EmbeddedFlink.start(SLOTS, settings.ports().flink())));
         SuiteFields fields = new SuiteFields(new FieldsTopic(kafka.clientProperties()));
-        progress.step("fields", () -> fields.write(settings.fields(), directory));
+        progress.step("fields", () -> fields.write(settings, directory));
         jobs = new Jobs(flink, directory.resolve("jobs"));
         progress.step("jobs", () -> {
             new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);

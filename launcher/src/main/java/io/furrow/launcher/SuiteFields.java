@@ -32,14 +32,16 @@ final class SuiteFields {
     }
 
     /**
-     * Writes the fields of the file; without one those of the demonstration farm, if there are no fields yet.
+     * Writes the fields of the settings' file; without one those of the demonstration farm, if the broker is the suite's own and
+     * has no fields yet.
      *
-     * @param file may be null
      * @throws SuiteNotStartedException if the file cannot be used wholly
      */
-    List<FieldVersion> write(Path file, RunDirectory directory) throws IOException {
+    List<FieldVersion> write(SuiteSettings settings, RunDirectory directory) throws IOException {
+        Path file = settings.fields();
         List<FieldVersion> known = topic.read();
-        if (file == null && !known.isEmpty()) {
+        boolean isOwnBroker = settings.kafka() == null;
+        if (file == null && !(isOwnBroker && known.isEmpty())) {
             return List.of();
         }
         List<FieldVersion> wanted = file == null ? read(demo(directory)) : read(file);

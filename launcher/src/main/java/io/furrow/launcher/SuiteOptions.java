@@ -39,9 +39,10 @@ final class SuiteOptions {
     @Option(
             names = "--fields",
             paramLabel = "FILE",
-            description = "GeoJSON, Shapefile or GeoPackage with the farm's fields, put on service.fields at the start as the "
-                    + "fields of all times before the first import. Default: what is there; if nothing is, the fields of the "
-                    + "demonstration farm.")
+            description =
+                    "GeoJSON, Shapefile or GeoPackage with the farm's fields, put on service.fields at the start as the "
+                            + "fields of all times before the first import. Default: what is there; on a broker of the suite's own where "
+                            + "nothing is, the fields of the demonstration farm.")
     Path fields;
 
     @Option(

@@ -9,7 +9,7 @@ import java.nio.file.Path;
  * @param kafkaProperties for every Kafka client; null for none
  * @param fiwareService tenant
  * @param window of the temperature job, for instance {@code 10s}
- * @param fields GeoJSON; null for the demonstration farm's
+ * @param fields a file; null for what is on the topic, or on an own broker without fields for the demonstration farm's
  * @param orion a context broker that already runs; null to start the stand-in
  * @param kafka bootstrap servers that already run; null to start a broker
  * @param mongo URI of a MongoDB that already runs; null to start a server

@@ -16,8 +16,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class SuiteFieldsIT {
-    private static final String FEATURE = "{\"type\":\"Feature\",\"id\":\"%s\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\","
-            + "\"coordinates\":[[[0,0],[%s,0],[0.01,0.01],[0,0.01],[0,0]]]}}";
+    private static final String FEATURE =
+            "{\"type\":\"Feature\",\"id\":\"%s\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\","
+                    + "\"coordinates\":[[[0,0],[%s,0],[0.01,0.01],[0,0.01],[0,0]]]}}";
 
     @TempDir
     Path folder;
@@ -31,21 +32,44 @@ class SuiteFieldsIT {
             FieldsTopic topic = new FieldsTopic(client);
             SuiteFields fields = new SuiteFields(topic);
 
-            List<FieldVersion> demo = fields.write(null, directory);
+            List<FieldVersion> demo = fields.write(ownBroker(null), directory);
             assertThat(demo).extracting(FieldVersion::validFrom).isNotEmpty().containsOnly(0L);
             assertThat(topic.read()).extracting(FieldVersion::id).contains("field-1");
 
             FieldVersion imported = demo.get(0);
             FieldVersion end = new FieldVersion(imported.id(), 1_000, null, imported.properties());
             topic.write(List.of(end));
-            assertThat(fields.write(null, directory)).as("there are fields").isEmpty();
+            assertThat(fields.write(ownBroker(null), directory))
+                    .as("there are fields")
+                    .isEmpty();
 
             Path own = file(FEATURE.formatted("own", "0.01"));
-            assertThat(fields.write(own, directory)).extracting(FieldVersion::key).hasSize(1);
-            assertThat(fields.write(own, directory)).as("it is as it was").isEmpty();
-            assertThat(topic.read())
+            assertThat(fields.write(ownBroker(own), directory))
                     .extracting(FieldVersion::key)
-                    .contains(end.key(), "own@1970-01-01T00:00:00.000Z");
+                    .hasSize(1);
+            assertThat(fields.write(ownBroker(own), directory))
+                    .as("it is as it was")
+                    .isEmpty();
+            assertThat(topic.read()).extracting(FieldVersion::key).contains(end.key(), "own@1970-01-01T00:00:00.000Z");
+        }
+    }
+
+    @Test
+    void givesABrokerThatRunsAlreadyOnlyTheFieldsOfAFile() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
+                RunDirectory directory = RunDirectory.open(folder.resolve("data"))) {
+            String servers = kafka.bootstrapServers();
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", servers);
+            FieldsTopic topic = new FieldsTopic(client);
+            SuiteFields fields = new SuiteFields(topic);
+
+            assertThat(fields.write(settings(null, servers), directory)).isEmpty();
+            assertThat(topic.read()).isEmpty();
+
+            Path own = file(FEATURE.formatted("own", "0.01"));
+            fields.write(settings(own, servers), directory);
+            assertThat(topic.read()).extracting(FieldVersion::id).containsExactly("own");
         }
     }
 
@@ -58,11 +82,19 @@ class SuiteFieldsIT {
             SuiteFields fields = new SuiteFields(new FieldsTopic(client));
             Path own = file(FEATURE.formatted("good", "0.01"), FEATURE.formatted("b d", "0.01"));
 
-            assertThatThrownBy(() -> fields.write(own, directory))
+            assertThatThrownBy(() -> fields.write(ownBroker(own), directory))
                     .isInstanceOf(SuiteNotStartedException.class)
                     .hasMessageStartingWith("--fields " + own + ": feature 2 ");
             assertThat(new FieldsTopic(client).read()).isEmpty();
         }
+    }
+
+    private static SuiteSettings ownBroker(Path fields) {
+        return settings(fields, null);
+    }
+
+    private static SuiteSettings settings(Path fields, String kafka) {
+        return new SuiteSettings(null, "farm", "10s", fields, SuiteSettings.Ports.free(), null, kafka, null);
     }
 
     private Path file(String... features) throws Exception {

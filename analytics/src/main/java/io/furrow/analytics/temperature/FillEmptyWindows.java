@@ -12,6 +12,7 @@ import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.field.Field;
 import io.furrow.analytics.field.KnownFields;
+import io.furrow.flink.EndOfEventTime;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 
@@ -26,8 +27,6 @@ import io.furrow.flink.TopicRecord;
  */
 final class FillEmptyWindows extends KeyedBroadcastProcessFunction<String, FieldAverage, TopicRecord, FieldAverage> {
     private static final long serialVersionUID = 1L;
-    /** Where event time is when the readings have ended; the stream of fields is always there. */
-    private static final long END = Long.MAX_VALUE - 1;
 
     private final TopicAtStart atStart;
     private final long window;
@@ -81,7 +80,7 @@ final class FillEmptyWindows extends KeyedBroadcastProcessFunction<String, Field
         if (known == null || time != lastInstant(known)) {
             return; // of a window whose result has come
         }
-        boolean isEnd = context.timerService().currentWatermark() >= END;
+        boolean isEnd = EndOfEventTime.isAt(context.timerService().currentWatermark());
         if (isEnd || !isWithinLimit(known) || !empty(known, out)) {
             silent.clear();
             return;

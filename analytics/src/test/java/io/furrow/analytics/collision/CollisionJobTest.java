@@ -43,7 +43,6 @@ class CollisionJobTest {
     @TempDir
     private Path folder;
 
-
     @Test
     void tellsTheLifeOfAnEncounterAsEntitiesOfItsPair() throws Exception {
         List<TopicRecord> written = run(

@@ -63,7 +63,8 @@ class EagerJobTest {
         List<String> resolved = new ArrayList<>();
         told.forEach(each -> each.text("confirms").ifPresent(resolved::add));
         assertThat(resolved).hasSizeGreaterThan(20);
-        withPhase(told, "withdrawn").forEach(each -> resolved.add(each.text("encounter").orElseThrow()));
+        withPhase(told, "withdrawn")
+                .forEach(each -> resolved.add(each.text("encounter").orElseThrow()));
         assertThat(resolved)
                 .hasSizeGreaterThan(50)
                 .containsExactlyInAnyOrderElementsOf(withPhase(told, "provisional").stream()
@@ -76,11 +77,14 @@ class EagerJobTest {
     }
 
     private static boolean isExact(Entity told) {
-        return List.of("started", "ongoing", "ended").contains(told.text("phase").orElseThrow());
+        return List.of("started", "ongoing", "ended")
+                .contains(told.text("phase").orElseThrow());
     }
 
     private static String transition(Entity told) {
-        return told.text("encounter").orElseThrow() + told.text("phase") + told.number("time")
+        return told.text("encounter").orElseThrow()
+                + told.text("phase")
+                + told.number("time")
                 + told.number("minDistance");
     }
 

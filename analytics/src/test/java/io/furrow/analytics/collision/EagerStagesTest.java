@@ -46,13 +46,13 @@ class EagerStagesTest {
         var stage = Stage.spot(RULES);
         stage.receive(resident("a", 0, 1000, 1000));
         stage.receive(resident("b", 3, 1100, 1100));
-        assertThat(stage.told()).containsExactly(new Glimpse(
-                east("a", 0, 1000), east("b", 3, 1100), 1000, 1100, true));
+        assertThat(stage.told()).containsExactly(new Glimpse(east("a", 0, 1000), east("b", 3, 1100), 1000, 1100, true));
         stage.restart();
         stage.receive(resident("b", 9, 1050, 1050));
         assertThat(stage.told()).as("older than what is known").isEmpty();
         stage.receive(resident("b", 9, 1200, 1200));
-        assertThat(stage.told()).extracting(Glimpse::close, Glimpse::secondVersion)
+        assertThat(stage.told())
+                .extracting(Glimpse::close, Glimpse::secondVersion)
                 .containsExactly(org.assertj.core.groups.Tuple.tuple(false, 1200L));
         assertThat(stage.timers()).isEqualTo(1);
         stage.advance(4199);
@@ -82,7 +82,9 @@ class EagerStagesTest {
         stage.restart();
         stage.receive(new Arrival(7, 1000, Presence.RESIDENT, here));
         stage.receive(resident("b", 3, 1100, 1100));
-        assertThat(stage.told()).as("what left with version 1200 is not brought back by 1000").isEmpty();
+        assertThat(stage.told())
+                .as("what left with version 1200 is not brought back by 1000")
+                .isEmpty();
         stage.advance(9000);
         assertLeavesNothing(stage);
     }
@@ -205,10 +207,7 @@ class EagerStagesTest {
 
         private void start() throws Exception {
             harness = new KeyedTwoInputStreamOperatorTestHarness<>(
-                    new KeyedCoProcessOperator<>(new RaiseAlarms(rules)),
-                    Encounter::pair,
-                    Glimpse::pair,
-                    Types.STRING);
+                    new KeyedCoProcessOperator<>(new RaiseAlarms(rules)), Encounter::pair, Glimpse::pair, Types.STRING);
         }
 
         private List<Encounter> told() {
