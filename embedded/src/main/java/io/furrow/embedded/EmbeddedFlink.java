@@ -18,6 +18,7 @@ import org.apache.flink.streaming.api.graph.ExecutionPlan;
 /** A Flink cluster of one job manager and one task manager in this JVM, with the web UI on 127.0.0.1. */
 public final class EmbeddedFlink implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
+    private static final long START_SECONDS = 30;
     private static final long STOP_SECONDS = 8;
 
     private final MiniCluster cluster;
@@ -35,9 +36,8 @@ public final class EmbeddedFlink implements AutoCloseable {
      * @param webPort 0 for a free one
      */
     public static EmbeddedFlink start(int slots, int webPort) {
-        int port = FreePort.orFree(webPort);
         Configuration configuration = new Configuration();
-        configuration.set(RestOptions.PORT, port);
+        configuration.set(RestOptions.BIND_PORT, Integer.toString(webPort));
         configuration.set(RestOptions.BIND_ADDRESS, HOST);
         configuration.set(RestOptions.ADDRESS, HOST);
         configuration.set(TaskManagerOptions.MANAGED_MEMORY_SIZE, MemorySize.ofMebiBytes(32));
@@ -51,10 +51,10 @@ public final class EmbeddedFlink implements AutoCloseable {
                 .build());
         try {
             cluster.start();
+            return new EmbeddedFlink(cluster, cluster.getRestAddress().get(START_SECONDS, TimeUnit.SECONDS));
         } catch (Exception e) { // declared as such by Flink
             throw new IllegalStateException("Flink did not start", e);
         }
-        return new EmbeddedFlink(cluster, URI.create("http://" + HOST + ":" + port));
     }
 
     public URI webUi() {

@@ -45,7 +45,7 @@ final class IngestBench implements Callable<Integer> {
     @Option(
             names = "--records",
             paramLabel = "N",
-            defaultValue = "600000",
+            defaultValue = "900000",
             description = "Records of the input topic. Default: ${DEFAULT-VALUE}.")
     private int records;
 
@@ -87,7 +87,7 @@ final class IngestBench implements Callable<Integer> {
     @Option(
             names = "--checkpoint-millis",
             paramLabel = "MS",
-            defaultValue = "5000",
+            defaultValue = "2000",
             description = "Milliseconds between checkpoints. Default: ${DEFAULT-VALUE}.")
     private long checkpointMillis;
 
