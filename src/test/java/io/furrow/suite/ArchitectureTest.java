@@ -52,7 +52,7 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** They share the fields and how to act in event time. */
+    /** They share the fields, how to act in event time and how state is written. */
     @ParameterizedTest
     @ValueSource(strings = "io.furrow.analytics.(*)..")
     void keepsJobsApart(String jobs) {
@@ -62,7 +62,10 @@ class ArchitectureTest {
                 .notDependOnEachOther()
                 .ignoreDependency(
                         resideInAnyPackage("io.furrow.analytics.."),
-                        resideInAnyPackage("io.furrow.analytics.eventtime", "io.furrow.analytics.field"))
+                        resideInAnyPackage(
+                                "io.furrow.analytics.eventtime",
+                                "io.furrow.analytics.field",
+                                "io.furrow.analytics.format"))
                 .check(CLASSES);
     }
 
