@@ -18,7 +18,7 @@ import org.apache.flink.util.Collector;
  * <p><b>Emits</b>: the exact records as they are, but for what a start confirms; before them provisional records, each of
  * which a start confirms or a withdrawal follows once the watermark has passed it (and the dwell that a start waits for).
  */
-final class RaiseAlarms extends KeyedCoProcessFunction<String, Encounter, Glimpse, Encounter> {
+final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse, Encounter> {
     private static final long serialVersionUID = 1L;
 
     private final long dwell;

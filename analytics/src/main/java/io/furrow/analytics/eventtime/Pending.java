@@ -4,49 +4,44 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * All that a key has, in one value: messages that wait for the watermark, what is remembered, and when its timers ring.
- * Changed in place.
+ * All that a key has: messages that wait for the watermark, and what is remembered. Changed in place.
  *
  * @param <M> the messages
  * @param <S> what is remembered between them
  */
-public final class Pending<M extends Timed, S> {
-    static final long NO_TIMER = Long.MAX_VALUE;
-
+public class Pending<M extends Timed, S> {
     List<M> waiting = new ArrayList<>(1);
     S remembered;
-    /** For the earliest message. */
-    long wakeAt = NO_TIMER;
-    /** At or before the instant at which what is remembered ends. */
-    long expiryAt = NO_TIMER;
 
     Pending() {}
 
+    final void takeOver(Pending<M, S> other) {
+        waiting = other.waiting;
+        remembered = other.remembered;
+    }
+
     /** Removes what the watermark has passed, in no order. */
-    List<M> takeDue(long watermark) {
-        List<M> due = new ArrayList<>(waiting.size());
-        List<M> later = new ArrayList<>(1);
+    final List<M> takeDue(long watermark) {
+        int count = 0;
         for (M message : waiting) {
-            (message.time() <= watermark ? due : later).add(message);
+            count += message.time() <= watermark ? 1 : 0;
         }
-        waiting = later;
+        if (count == 0) {
+            return List.of();
+        }
+        List<M> all = waiting;
+        waiting = new ArrayList<>(Math.max(1, all.size() - count));
+        if (count == all.size()) {
+            return all;
+        }
+        List<M> due = new ArrayList<>(count);
+        for (M message : all) {
+            (message.time() <= watermark ? due : waiting).add(message);
+        }
         return due;
     }
 
-    long earliest() {
-        long earliest = NO_TIMER;
-        for (M message : waiting) {
-            earliest = Math.min(earliest, message.time());
-        }
-        return earliest;
-    }
-
-    void rang(long time) {
-        wakeAt = wakeAt == time ? NO_TIMER : wakeAt;
-        expiryAt = expiryAt == time ? NO_TIMER : expiryAt;
-    }
-
-    boolean isEmpty() {
+    final boolean isEmpty() {
         return remembered == null && waiting.isEmpty();
     }
 }

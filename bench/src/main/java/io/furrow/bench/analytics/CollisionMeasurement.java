@@ -26,7 +26,7 @@ import io.furrow.analytics.collision.CollisionRules;
 /** Runs the three stages of collision detection in a Flink cluster of this JVM, fed from memory inside the job. */
 public final class CollisionMeasurement {
     private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
-    private static final int MAX_PARALLELISM = 720;
+    static final int MAX_PARALLELISM = 720;
     /** The first second has everything start at once; few more are enough to tell whether the stages agree. */
     private static final int MOST_COMPARED = 20;
 
