@@ -13,6 +13,7 @@ import java.util.function.Consumer;
  * @param open provisional records that are neither confirmed nor withdrawn, in the order of telling
  */
 public record Alarm(long firstVersion, long secondVersion, boolean close, List<Encounter> open) {
+    static final long NEVER = Long.MAX_VALUE;
     static final Alarm NONE = new Alarm(Long.MIN_VALUE, Long.MIN_VALUE, false, List.of());
 
     /**
@@ -36,17 +37,19 @@ public record Alarm(long firstVersion, long secondVersion, boolean close, List<E
         return new Alarm(glimpse.firstVersion(), glimpse.secondVersion(), glimpse.close() || same && close, now);
     }
 
-    /** After a start, which confirms the first provisional record that begins no earlier. */
-    Alarm after(Encounter start, Consumer<Encounter> out) {
-        List<Encounter> now = new ArrayList<>(open);
-        for (Encounter provisional : open) {
-            if (provisional.time() >= start.time()) {
-                now.remove(provisional);
-                out.accept(start.confirming(provisional));
-                return new Alarm(firstVersion, secondVersion, close, now);
+    /** After an exact record. A start confirms the first provisional record that begins no earlier than its encounter. */
+    Alarm after(Encounter exact, Consumer<Encounter> out) {
+        if (exact.phase() == Phase.STARTED) {
+            for (Encounter provisional : open) {
+                if (provisional.time() >= exact.startTime()) {
+                    List<Encounter> now = new ArrayList<>(open);
+                    now.remove(provisional);
+                    out.accept(exact.confirming(provisional));
+                    return new Alarm(firstVersion, secondVersion, close, now);
+                }
             }
         }
-        out.accept(start);
+        out.accept(exact);
         return this;
     }
 
@@ -67,7 +70,15 @@ public record Alarm(long firstVersion, long secondVersion, boolean close, List<E
         return !close && open.isEmpty() && lastVersion() <= watermark;
     }
 
-    long lastVersion() {
+    /** The first watermark that decides something; {@link #NEVER} where only another glimpse can. */
+    long nextDecision(long dwell) {
+        if (open.isEmpty()) {
+            return close ? NEVER : lastVersion();
+        }
+        return open.get(0).time() + dwell; // told in the order of time
+    }
+
+    private long lastVersion() {
         return Math.max(firstVersion, secondVersion);
     }
 }

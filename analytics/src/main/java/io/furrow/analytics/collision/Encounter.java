@@ -1,5 +1,7 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.analytics.eventtime.Timed;
+
 /**
  * One moment in the life of an encounter of two devices; complete in itself, a reader needs no earlier record.
  *
@@ -19,7 +21,8 @@ public record Encounter(
         double minDistance,
         long startTime,
         long time,
-        String confirms) {
+        String confirms)
+        implements Timed {
 
     public Encounter(
             Phase phase,

@@ -1,27 +1,36 @@
 package io.furrow.analytics.collision;
 
+import java.util.Comparator;
+
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.streaming.api.TimerService;
 import org.apache.flink.streaming.api.functions.co.KeyedCoProcessFunction;
 import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
 
 /**
  * Tells at once of pairs that are close by what has arrived, and names in the exact start what it confirms. Key: the pair.
  *
- * <p><b>State</b>: the newest glimpse's versions, and what is provisional.
+ * <p><b>State</b>: exact records that wait, the newest glimpse's versions, and what is provisional.
  *
- * <p><b>Cleared</b>: when the pair is apart, all is decided, and the watermark has passed the newest versions.
+ * <p><b>Cleared</b>: when no record waits, the pair is apart, all is decided, and the watermark has passed the newest versions.
  *
  * <p><b>Late</b>: a glimpse that knows less than the newest is passed over.
  *
- * <p><b>Emits</b>: the exact records as they are, but for what a start confirms; before them provisional records, each of
- * which a start confirms or a withdrawal follows once the watermark has passed it (and the dwell that a start waits for).
+ * <p><b>Emits</b>: provisional records at once, each of which a start confirms or a withdrawal follows once the watermark has
+ * passed it (and the dwell that a start waits for); the exact records as they are, but for what a start confirms, when the
+ * watermark of both inputs has passed them: an exact record may overtake the glimpses of the very positions that it goes by.
  */
 final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse, Encounter> {
     private static final long serialVersionUID = 1L;
 
     private final long dwell;
+    private transient OneTimer timer;
+    private transient Inbox<Encounter> exact;
     private transient ValueState<Alarm> alarm;
 
     RaiseAlarms(CollisionRules rules) {
@@ -33,44 +42,48 @@ final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse,
 
     @Override
     public void open(OpenContext context) {
+        timer = new OneTimer(getRuntimeContext());
+        exact = new Inbox<>(getRuntimeContext(), Encounter.class, Comparator.comparingLong(Encounter::time), timer);
         alarm = getRuntimeContext().getState(new ValueStateDescriptor<>("alarm", Alarm.class));
     }
 
     @Override
-    public void processElement1(Encounter exact, Context context, Collector<Encounter> out) throws Exception {
-        Alarm known = alarm.value();
-        if (known == null || exact.phase() != Phase.STARTED) {
-            out.collect(exact);
-        } else {
-            alarm.update(known.after(exact, out::collect));
-        }
+    public void processElement1(Encounter encounter, Context context, Collector<Encounter> out) throws Exception {
+        exact.add(encounter, context.timerService());
     }
 
     @Override
     public void processElement2(Glimpse glimpse, Context context, Collector<Encounter> out) throws Exception {
-        Alarm known = alarm.value();
-        Alarm now = (known == null ? Alarm.NONE : known).after(glimpse, provisional -> {
-            context.timerService().registerEventTimeTimer(provisional.time() + dwell);
-            out.collect(provisional);
-        });
-        alarm.update(now);
-        if (!now.close()) {
-            context.timerService().registerEventTimeTimer(now.lastVersion());
-        }
+        Alarm now = known().after(glimpse, out::collect);
+        remember(now, context.timerService());
     }
 
     @Override
     public void onTimer(long time, OnTimerContext context, Collector<Encounter> out) throws Exception {
-        Alarm known = alarm.value();
-        if (known == null) {
-            return;
-        }
+        timer.rang();
         long watermark = context.timerService().currentWatermark();
-        Alarm now = known.decided(watermark - dwell, out::collect);
+        Alarm now = known();
+        for (Encounter encounter : exact.takeDue(context.timerService())) {
+            now = now.after(encounter, out::collect);
+        }
+        now = now.decided(watermark - dwell, out::collect);
         if (now.isOver(watermark)) {
             alarm.clear();
         } else {
-            alarm.update(now);
+            remember(now, context.timerService());
         }
+    }
+
+    private void remember(Alarm now, TimerService timers) throws Exception {
+        alarm.update(now);
+        long next = now.nextDecision(dwell);
+        if (next != Alarm.NEVER) {
+            timer.ask(next, timers);
+        }
+    }
+
+    private Alarm known() throws Exception {
+        Alarm known = alarm.value();
+        return known == null ? Alarm.NONE : known;
     }
 }

@@ -1,8 +1,6 @@
 package io.furrow.analytics.presence;
 
 import java.util.Set;
-import java.util.stream.Collectors;
-import java.util.stream.Stream;
 
 import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.metrics.Counter;
@@ -14,7 +12,7 @@ import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityReader;
 import io.furrow.model.ngsi.PositionReading;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -29,15 +27,16 @@ final class LocateDevices extends ProcessFunction<TopicRecord, PresenceFix> {
     /** The results of Furrow itself, which come back through the context broker. */
     private static final String OWN_TYPES = "Analytics:";
 
-    private static final Set<String> WANTED = Stream.concat(PositionReading.ATTRIBUTES.stream(), Stream.of("Mission"))
-            .collect(Collectors.toUnmodifiableSet());
+    private static final String MISSION = "Mission";
 
+    private transient EntityReader entity;
     private transient Counter rejected;
     private transient Counter skipped;
     private transient Counter faulty;
 
     @Override
     public void open(OpenContext context) {
+        entity = new EntityReader(Set.of(MISSION));
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         rejected = metrics.counter("rejected");
         skipped = metrics.counter("skipped");
@@ -51,11 +50,11 @@ final class LocateDevices extends ProcessFunction<TopicRecord, PresenceFix> {
             return;
         }
         try {
-            Entity entity = Entity.parse(record.value(), WANTED);
+            entity.read(record.value());
             if (entity.type().startsWith(OWN_TYPES)) {
                 skipped.inc();
             } else {
-                locate(entity, record, out);
+                locate(record, out);
             }
         } catch (UnreadableException e) {
             rejected.inc();
@@ -63,8 +62,8 @@ final class LocateDevices extends ProcessFunction<TopicRecord, PresenceFix> {
         }
     }
 
-    private void locate(Entity entity, TopicRecord record, Collector<PresenceFix> out) {
-        PositionReading reading = PositionReading.of(entity);
+    private void locate(TopicRecord record, Collector<PresenceFix> out) {
+        PositionReading reading = entity.position();
         if (reading instanceof PositionReading.Located located) {
             FiwareScope scope = FiwareScope.of(
                     record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
@@ -72,7 +71,7 @@ final class LocateDevices extends ProcessFunction<TopicRecord, PresenceFix> {
                     record.topic(),
                     scope.identity(entity.id()),
                     entity.id(),
-                    entity.text("Mission").orElse(""),
+                    entity.text(MISSION).orElse(""),
                     located.position().latitude(),
                     located.position().longitude(),
                     record.timestamp()));

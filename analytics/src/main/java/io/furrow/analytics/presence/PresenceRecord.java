@@ -9,8 +9,12 @@ import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.topic.Topics;
 
-/** What the job writes about passages and about positions that it could not count. */
+/**
+ * What the job writes about passages and about positions that it could not count: to the given topic, or to the replay's own of
+ * what was found in a replay.
+ */
 final class PresenceRecord {
     static final String TYPE = "Analytics:Presence";
     private static final String SOURCE = "/analytics/presence";
@@ -47,7 +51,8 @@ final class PresenceRecord {
         if (!stay.domain().isEmpty()) {
             entity.text("Domain", stay.domain());
         }
-        return ResultRecord.of(topic, fix.id(), entity.build(), fix.scope(), passage.told(), SOURCE);
+        String output = Topics.resultOf(fix.topic(), topic);
+        return ResultRecord.of(output, fix.id(), entity.build(), fix.scope(), passage.told(), SOURCE);
     }
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */
@@ -58,7 +63,7 @@ final class PresenceRecord {
                 .integer("Time", fix.time())
                 .text("Mission", fix.mission())
                 .build();
-        return ResultRecord.of(topic, fix.id(), entity, fix.scope(), fix.time(), SOURCE);
+        return ResultRecord.of(Topics.resultOf(fix.topic(), topic), fix.id(), entity, fix.scope(), fix.time(), SOURCE);
     }
 
     /** The first 128 bits of a SHA-256 over device and field, in lower-case hexadecimal. */

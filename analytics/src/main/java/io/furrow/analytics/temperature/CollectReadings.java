@@ -22,7 +22,7 @@ final class CollectReadings implements AggregateFunction<FieldReading, DeviceRea
                 from.field(),
                 newer ? from.domain() : so.domain(),
                 newer ? from.validFrom() : so.validFrom(),
-                reading.scope(),
+                reading.input(),
                 reading.device(),
                 so.values());
     }

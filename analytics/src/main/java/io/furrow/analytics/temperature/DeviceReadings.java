@@ -2,8 +2,6 @@ package io.furrow.analytics.temperature;
 
 import java.util.List;
 
-import io.furrow.model.event.FiwareScope;
-
 /**
  * What one device measured in one field and window so far; the state of a window that is still open.
  *
@@ -13,4 +11,4 @@ import io.furrow.model.event.FiwareScope;
  * @param values in the attribute's unit, in order of arrival
  */
 public record DeviceReadings(
-        String field, String domain, long validFrom, FiwareScope scope, String device, List<Double> values) {}
+        String field, String domain, long validFrom, InputScope scope, String device, List<Double> values) {}

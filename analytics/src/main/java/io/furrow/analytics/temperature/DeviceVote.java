@@ -1,7 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import io.furrow.model.event.FiwareScope;
-
 /**
  * The one value that a device has in a field's window.
  *
@@ -16,12 +14,12 @@ public record DeviceVote(
         String field,
         String domain,
         long validFrom,
-        FiwareScope scope,
+        InputScope scope,
         String device,
         double value,
         long windowStart,
         long windowEnd) {
-    /** The field among those of all tenants: devices of two tenants are never averaged together. */
+    /** The field among those of all topics and tenants: devices of two tenants are never averaged together. */
     public String fieldIdentity() {
         return scope.identity(field);
     }

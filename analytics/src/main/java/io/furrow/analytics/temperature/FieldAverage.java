@@ -1,7 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import io.furrow.model.event.FiwareScope;
-
 /**
  * The average of a field in one window.
  *
@@ -12,8 +10,8 @@ import io.furrow.model.event.FiwareScope;
  * @param average of no devices in a window without a reading
  */
 public record FieldAverage(
-        String field, String domain, FiwareScope scope, long windowStart, long windowEnd, RobustMean average) {
-    /** The field among those of all tenants. */
+        String field, String domain, InputScope scope, long windowStart, long windowEnd, RobustMean average) {
+    /** The field among those of all topics and tenants. */
     public String fieldIdentity() {
         return scope.identity(field);
     }

@@ -10,6 +10,7 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 
 import io.furrow.flink.TopicRecord;
+import io.furrow.model.topic.Topics;
 
 /**
  * Turns a reading that came after its window was closed back into the record it was, with two headers more: {@value #FIELD}
@@ -42,6 +43,6 @@ final class NameLateWindow extends RichMapFunction<FieldReading, TopicRecord> {
         TopicRecord record = reading.reading().record();
         long start = TimeWindow.getWindowStartWithOffset(record.timestamp(), 0, slideMillis);
         String window = Instant.ofEpochMilli(start) + "/" + Instant.ofEpochMilli(start + windowMillis);
-        return record.to(topic).with(Map.of(FIELD, reading.field(), WINDOW, window));
+        return record.to(Topics.resultOf(record.topic(), topic)).with(Map.of(FIELD, reading.field(), WINDOW, window));
     }
 }

@@ -14,8 +14,13 @@ import io.furrow.model.ngsi.Position;
  */
 public record Reading(
         String device, FiwareScope scope, Position position, double value, String eventId, TopicRecord record) {
-    /** The device among those of all tenants. */
+    /** The topic that told of it, and the tenant. */
+    InputScope input() {
+        return new InputScope(record.topic(), scope);
+    }
+
+    /** The device among those of all topics and tenants. */
     public String deviceIdentity() {
-        return scope.identity(device);
+        return input().identity(device);
     }
 }

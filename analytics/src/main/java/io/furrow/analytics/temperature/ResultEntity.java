@@ -9,6 +9,7 @@ import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.topic.Topics;
 
 /**
  * Describes results as entities, named after the attribute, its first letter in upper case: of {@code soilMoisture} the entity
@@ -17,7 +18,7 @@ import io.furrow.model.ngsi.EntityBuilder;
  * replaces. All values are in the unit in which the devices report.
  *
  * @param attribute that was averaged
- * @param topic of the results
+ * @param topic of the results; those of a replay go to its own
  */
 record ResultEntity(String attribute, String topic) implements Serializable {
     private static final String SOURCE = "/analytics/temperature";
@@ -39,7 +40,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         if (!result.domain().isEmpty()) {
             entity.text("Domain", result.domain());
         }
-        return ResultRecord.of(topic, result.field(), entity.build(), result.scope(), result.windowEnd() - 1, SOURCE);
+        return record(result.field(), entity, result.scope(), result.windowEnd() - 1);
     }
 
     /** Key = device id; timestamp = the last instant of the window that was one too many. */
@@ -59,7 +60,12 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         if (!last.domain().isEmpty()) {
             entity.text("Domain", last.domain());
         }
-        return ResultRecord.of(topic, last.device(), entity.build(), last.scope(), last.time(), SOURCE);
+        return record(last.device(), entity, last.scope(), last.time());
+    }
+
+    private TopicRecord record(String key, EntityBuilder entity, InputScope scope, long time) {
+        String output = Topics.resultOf(scope.topic(), topic);
+        return ResultRecord.of(output, key, entity.build(), scope.fiware(), time, SOURCE);
     }
 
     /** Null where there was nothing to average: the value of an earlier window must not stand beside this one's. */

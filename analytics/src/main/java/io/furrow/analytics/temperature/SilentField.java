@@ -1,14 +1,12 @@
 package io.furrow.analytics.temperature;
 
-import io.furrow.model.event.FiwareScope;
-
 /**
  * What is known of a field whose next window may be empty.
  *
  * @param heard start of the newest window with a reading, epoch ms
  * @param next start of the window that comes next, epoch ms
  */
-public record SilentField(String field, FiwareScope scope, long heard, long next) {
+public record SilentField(String field, InputScope scope, long heard, long next) {
     SilentField heard(long start, long slide) {
         return new SilentField(field, scope, Math.max(heard, start), Math.max(next, start + slide));
     }

@@ -3,7 +3,6 @@ package io.furrow.analytics.temperature;
 import java.util.Comparator;
 
 import io.furrow.analytics.eventtime.Timed;
-import io.furrow.model.event.FiwareScope;
 
 /**
  * Whether a device was set aside in a field's window, of devices enough to tell.
@@ -16,7 +15,7 @@ import io.furrow.model.event.FiwareScope;
  */
 public record Verdict(
         String device,
-        FiwareScope scope,
+        InputScope scope,
         String field,
         String domain,
         boolean suspect,
@@ -30,7 +29,7 @@ public record Verdict(
             .thenComparing(verdict -> !verdict.suspect())
             .thenComparing(Verdict::field);
 
-    /** The device among those of all tenants. */
+    /** The device among those of all topics and tenants. */
     public String deviceIdentity() {
         return scope.identity(device);
     }

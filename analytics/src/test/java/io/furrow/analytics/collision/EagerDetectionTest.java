@@ -23,7 +23,7 @@ class EagerDetectionTest {
             .setNumberSlotsPerTaskManager(4)
             .build());
 
-    private static final int JOBS = 6;
+    private static final int JOBS = 9;
     private static final int CASES_PER_JOB = 50;
     private static final long START = 1_700_000_000_000L;
     private static final long WORLD_MILLIS = 60_000;
@@ -47,16 +47,25 @@ class EagerDetectionTest {
                 expected.addAll(CollisionOracle.result(world, rules).encounters());
             }
             List<PositionFix> arrivals = new Worlds(seed + job).shuffled(fixes, DetectionRun.BOUND);
+            int parallelism = new int[] {1, 2, 4}[job % 3];
             DetectionRun run = DetectionRun.of(
-                    arrivals,
-                    positions -> CollisionDetection.define(positions, rules, true),
-                    new int[] {1, 2, 4}[job % 3],
-                    METRICS);
+                    arrivals, positions -> CollisionDetection.define(positions, rules, true), parallelism, METRICS);
             String which = "job %d, seed %d, %s".formatted(job, seed, rules);
             assertThat(CollisionOracle.difference(exact(run.encounters()), expected))
                     .as(which)
                     .isEmpty();
             Set<String> provisional = ids(run.encounters(), Phase.PROVISIONAL);
+            if (parallelism == 1) { // else the order in which they arrive at a stage is not that of the list
+                assertThat(provisional)
+                        .as(which)
+                        .containsExactlyInAnyOrderElementsOf(ArrivalOracle.provisional(arrivals, rules));
+            }
+            assertThat(run.encounters().stream()
+                            .filter(encounter -> !encounter.confirms().isEmpty()))
+                    .as("an encounter confirms what is told of its pair, and nothing before it")
+                    .allMatch(start -> start.phase() == Phase.STARTED
+                            && start.confirms().startsWith(start.pairId() + "~")
+                            && latest(start.confirms()) >= start.startTime());
             List<String> resolved = new ArrayList<>();
             run.encounters().stream()
                     .map(Encounter::confirms)
@@ -69,8 +78,14 @@ class EagerDetectionTest {
             assertThat(resolved).as(which).containsExactlyInAnyOrderElementsOf(provisional);
         }
         System.out.println(confirmed + " confirmed, " + withdrawn + " withdrawn");
-        assertThat(confirmed).isGreaterThan(JOBS * CASES_PER_JOB);
+        assertThat(confirmed).isGreaterThan(6 * CASES_PER_JOB);
         assertThat(withdrawn).isGreaterThan(JOBS);
+    }
+
+    /** The newer time in the id of a provisional record. */
+    private static long latest(String provisional) {
+        String[] parts = provisional.split("~");
+        return Math.max(Long.parseLong(parts[1]), Long.parseLong(parts[2]));
     }
 
     private static Set<String> ids(List<Encounter> encounters, Phase phase) {

@@ -12,6 +12,8 @@ import org.locationtech.jts.geom.Envelope;
 import org.locationtech.jts.geom.Geometry;
 import org.locationtech.jts.geom.GeometryFactory;
 
+import io.furrow.analytics.Seeds;
+
 /** Made-up farms: a handful of devices that wander about a place, with silences, repetitions and shared instants. */
 final class Worlds {
     static final double[] THRESHOLDS = {0.5, 5, 50, 1000};
@@ -23,7 +25,7 @@ final class Worlds {
     private final Random random;
 
     Worlds(long seed) {
-        random = new Random(seed);
+        random = Seeds.random(seed);
     }
 
     /** Time-to-live 3 s, an ongoing record every 500 ms, sometimes a greatest skew. */
@@ -35,7 +37,7 @@ final class Worlds {
 
     /** Rules of any kind; the same for the same seed. */
     static CollisionRules anyRules(double threshold, long seed) {
-        Random random = new Random(seed);
+        Random random = Seeds.random(seed);
         double factor = random.nextInt(3) == 0 ? 1 + random.nextDouble() : 1;
         long dwell = random.nextInt(3) == 0 ? random.nextLong(2000) : 0;
         Thresholds thresholds = random.nextBoolean()

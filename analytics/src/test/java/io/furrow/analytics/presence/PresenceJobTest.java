@@ -34,6 +34,7 @@ import io.furrow.model.ngsi.UnreadableException;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.assertj.core.api.Assertions.tuple;
 
 class PresenceJobTest {
     @RegisterExtension
@@ -95,6 +96,28 @@ class PresenceJobTest {
         assertThat(written.get(1).headers())
                 .containsEntry(HeaderNames.SERVICE, "farm")
                 .containsEntry(HeaderNames.SERVICE_PATH, "/");
+    }
+
+    @Test
+    void keepsAReplayToItselfAndItsResultsWithIt() throws Exception {
+        String replay = "data.hoeing.replay.0a1b2c3d";
+        List<TopicRecord> written = run(
+                options("--parallelism", "1"),
+                List.of(FIELD),
+                report(Story.fix("r1", 2, 3, 1000)),
+                report(Story.fix("r1", 9, 3, 1500)).to(replay),
+                report(Story.fix("r1", 3, 3, 2000)).to(replay),
+                report(Story.fix("r1", 9, 3, 4000)),
+                report(Story.fix("r1", 9, 3, 1000)).to(replay));
+
+        assertThat(written)
+                .extracting(TopicRecord::topic, TopicRecord::timestamp)
+                .containsExactly(
+                        tuple("data.presence", 1000L),
+                        tuple(replay + ".presence.late", 1000L),
+                        tuple(replay + ".presence", 2000L),
+                        tuple("data.presence", 4000L),
+                        tuple(replay + ".presence", 302_000L));
     }
 
     @Test

@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Random;
 
+import io.furrow.analytics.Seeds;
 import io.furrow.analytics.presence.Plot.Box;
 
 /**
@@ -26,7 +27,7 @@ final class Story {
     private final Random random;
 
     Story(long seed) {
-        random = new Random(seed);
+        random = Seeds.random(seed);
         rules = new PresenceRules(
                 Duration.ofMillis(15 + random.nextInt(60)),
                 Duration.ofMillis(random.nextInt(3) == 0 ? 0 : random.nextInt(30)));

@@ -21,6 +21,7 @@ import io.furrow.model.topic.Topics;
 final class Farm {
     static final Path FIELDS = Path.of("src/test/resources/field/fields.geojson");
     static final FiwareScope SCOPE = new FiwareScope("farm", "/");
+    static final InputScope INPUT = new InputScope(Topics.RAW, SCOPE);
 
     static final List<TopicRecord> FOUR_DEVICES_ONE_DEFECTIVE =
             List.of(north("t1", 18, 1_000), north("t2", 19, 2_000), north("t4", 60, 3_000), north("t3", 20, 4_000));

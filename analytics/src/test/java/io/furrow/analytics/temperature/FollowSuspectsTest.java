@@ -167,6 +167,6 @@ class FollowSuspectsTest {
 
     private static Verdict verdict(String field, boolean suspect, int window) {
         long start = window * 1_000L;
-        return new Verdict("t1", Farm.SCOPE, field, "canary", suspect, 60, 19, start, start + 1_000);
+        return new Verdict("t1", Farm.INPUT, field, "canary", suspect, 60, 19, start, start + 1_000);
     }
 }

@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 
+import io.furrow.analytics.Seeds;
 import io.furrow.analytics.field.FieldRecords;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
@@ -40,7 +41,7 @@ record RandomCase(
 
     /** @param parallelism with late readings one: among several it depends on chance who sees the watermark first */
     static RandomCase of(long seed, int parallelism) {
-        Random random = new Random(seed);
+        Random random = Seeds.random(seed);
         boolean inBounds = seed % 2 == 0;
         long slide = (1 + random.nextInt(6)) * 5_000L;
         long window = slide * (1 + random.nextInt(3));

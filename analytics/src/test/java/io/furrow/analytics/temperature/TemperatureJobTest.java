@@ -59,6 +59,43 @@ class TemperatureJobTest {
     }
 
     @Test
+    void keepsAReplayToItselfAndItsResultsWithIt() throws Exception {
+        String replay = "data.hoeing.replay.0a1b2c3d";
+        List<TopicRecord> arrivals = new ArrayList<>();
+        for (long start = 0; start < 120_000; start += 60_000) {
+            for (int device = 1; device <= 4; device++) {
+                long time = start + device;
+                arrivals.add(Farm.north("t" + device, device == 4 ? 18 : 17 + device, time));
+                arrivals.add(Farm.north("t" + device, device == 4 ? 60 : 17 + device, time)
+                        .to(replay));
+            }
+        }
+        TopicRecord same = arrivals.get(0); // also an event of one id is another one there
+        arrivals.add(same.to(replay));
+        arrivals.add(Farm.north("t1", 18, 181_000));
+        arrivals.add(Farm.north("t2", 18, 1_000).to(replay));
+
+        JobRun run = JobRun.over(arrivals, "--suspect-after", "2", "--empty-windows", "1d", "--out-of-orderness", "1s");
+
+        assertThat(run.results(Topics.TEMPERATURE))
+                .extracting(result -> result.value("suspects").orElseThrow().toString())
+                .startsWith("[]", "[]")
+                .hasSize(4);
+        assertThat(run.results(replay + ".temperature"))
+                .extracting(result -> result.value("suspects").orElseThrow().toString())
+                .startsWith("[\"t4\"]", "[\"t4\"]")
+                .hasSize(3);
+        assertThat(run.to(replay + ".temperature").stream().map(JobRun::entity))
+                .filteredOn(entity -> entity.type().equals("Analytics:SuspectDevice"))
+                .singleElement()
+                .satisfies(suspect -> assertThat(suspect.text("device")).contains("t4"));
+        assertThat(run.to(replay + ".temperature.late")).hasSize(1);
+        assertThat(run.records())
+                .extracting(TopicRecord::topic)
+                .containsOnly(Topics.TEMPERATURE, replay + ".temperature", replay + ".temperature.late");
+    }
+
+    @Test
     void givesTheSameResultWhenReadingsArriveOutOfOrder() throws Exception {
         List<TopicRecord> arrivals = new ArrayList<>();
         for (int second = 0; second < 120; second++) {

@@ -109,7 +109,7 @@ class WindowStateTest {
     }
 
     private static DeviceVote vote(String device, double value) {
-        return new DeviceVote("north", "canary", 0, Farm.SCOPE, device, value, 0, MINUTE);
+        return new DeviceVote("north", "canary", 0, Farm.INPUT, device, value, 0, MINUTE);
     }
 
     private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> operator(String uid) throws Exception {

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Random;
 import java.util.Set;
 
+import io.furrow.analytics.Seeds;
 import io.furrow.analytics.collision.CollisionRules;
 import io.furrow.analytics.collision.PositionFix;
 
@@ -23,7 +24,7 @@ final class Courses {
     private final Random random;
 
     Courses(long seed) {
-        random = new Random(seed);
+        random = Seeds.random(seed);
     }
 
     /** 5 m, time-to-live 4 s, horizon 6 s, both kinds, at most 30 m/s, a record a second. */

@@ -1,0 +1,62 @@
+package io.furrow.analytics.collision;
+
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeSet;
+
+/** What is told at once, as a definition: after each arrival every pair of the newest positions, nothing of grids or versions. */
+final class ArrivalOracle {
+    private final CollisionRules rules;
+    private final Map<String, PositionFix> newest = new HashMap<>();
+    private final Set<String> close = new HashSet<>();
+    private final Set<String> told = new TreeSet<>();
+
+    private ArrivalOracle(CollisionRules rules) {
+        this.rules = rules.whileBothCount();
+    }
+
+    /** Ids of the provisional records where positions arrive in this order. */
+    static Set<String> provisional(List<PositionFix> arrivals, CollisionRules rules) {
+        ArrivalOracle oracle = new ArrivalOracle(rules);
+        arrivals.forEach(oracle::arrives);
+        return oracle.told;
+    }
+
+    private void arrives(PositionFix fix) {
+        PositionFix before = newest.get(fix.identity());
+        if (before != null && PositionFix.SEQUENCE.compare(fix, before) <= 0) {
+            return;
+        }
+        newest.put(fix.identity(), fix);
+        for (PositionFix other : newest.values()) {
+            if (!other.identity().equals(fix.identity())) {
+                boolean inOrder = PositionFix.NAMING.compare(fix, other) < 0;
+                compare(inOrder ? fix : other, inOrder ? other : fix);
+            }
+        }
+    }
+
+    private void compare(PositionFix first, PositionFix second) {
+        String pair = Sighting.pair(first, second);
+        if (!isClose(first, second)) {
+            close.remove(pair);
+        } else if (close.add(pair)) {
+            told.add(Encounter.provisional(first, second).id());
+        }
+    }
+
+    private boolean isClose(PositionFix first, PositionFix second) {
+        return Math.abs(first.time() - second.time()) <= rules.maxSkew().toMillis()
+                && Geodesy.distance(first, second) <= rules.thresholds().between(first.type(), second.type())
+                && !first.sharesAggregateWith(second)
+                && counts(first)
+                && counts(second);
+    }
+
+    private boolean counts(PositionFix fix) {
+        return !rules.positions().zones().cover(fix.latitude(), fix.longitude());
+    }
+}
