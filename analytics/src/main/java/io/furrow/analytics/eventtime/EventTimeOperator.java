@@ -6,8 +6,10 @@ import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.NavigableMap;
 import java.util.PriorityQueue;
 import java.util.Set;
+import java.util.TreeMap;
 
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
@@ -42,6 +44,8 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     protected static final long NEVER = Long.MAX_VALUE;
 
     private static final long serialVersionUID = 1L;
+    /** Of a millisecond: a key is looked at when the watermark comes to within 64 ms of its next message. */
+    private static final int STEP_BITS = 6;
 
     private final PendingFormat<M, S> format;
 
@@ -51,19 +55,21 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     private transient Map<K, Slot<K, M, S>> slots;
     /** What was saved and is no more. */
     private transient Set<K> gone;
-    /** Those with messages or a passed deadline. */
-    private transient List<Slot<K, M, S>> busy;
+    /** Those with messages, by the time of the earliest in steps of {@link #STEP_BITS}. */
+    private transient TreeMap<Long, List<Slot<K, M, S>>> awaited;
 
     private transient PriorityQueue<Deadline<K, M, S>> deadlines;
+    private transient List<M> due;
     private transient Collector<O> out;
 
     /** A key and what it has. */
     private static final class Slot<K, M extends Timed, S> extends Pending<M, S> {
         private final K key;
+        /** Of the earliest message that it is awaited for. */
+        private long earliest = NEVER;
         /** Of the earliest deadline set. */
         private long expiry = NEVER;
 
-        private boolean busy;
         private boolean changed;
         private boolean saved;
 
@@ -111,7 +117,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         keyOf = (KeySelector<M, K>) getStateKeySelector1();
         slots = new HashMap<>();
         gone = new HashSet<>();
-        busy = new ArrayList<>();
+        awaited = new TreeMap<>();
         deadlines = new PriorityQueue<>(Comparator.comparingLong(Deadline::time));
         ValueStateDescriptor<Pending<M, S>> pending =
                 new ValueStateDescriptor<>("pending", new FormatType<>(format));
@@ -131,7 +137,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         slot.takeOver(format.copy(pending));
         slot.saved = true;
         slots.put(key, slot);
-        await(slot);
+        slot.waiting.forEach(message -> await(slot, message.time()));
         if (slot.remembered != null) {
             expireAt(slot, expiry(slot.remembered));
         }
@@ -141,6 +147,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     public void open() throws Exception {
         super.open();
         sequence = sequence();
+        due = new ArrayList<>();
         TimestampedCollector<O> collector = new TimestampedCollector<>(output);
         collector.eraseTimestamp();
         out = collector;
@@ -152,13 +159,14 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         Slot<K, M, S> slot = slots.computeIfAbsent(keyOf.getKey(message), Slot::new);
         slot.waiting.add(message);
         slot.changed = true;
-        await(slot);
+        await(slot, message.time());
     }
 
-    private void await(Slot<K, M, S> slot) {
-        if (!slot.busy) {
-            slot.busy = true;
-            busy.add(slot);
+    private void await(Slot<K, M, S> slot, long time) {
+        if (time < slot.earliest) {
+            slot.earliest = time;
+            awaited.computeIfAbsent(time >> STEP_BITS, step -> new ArrayList<>())
+                    .add(slot);
         }
     }
 
@@ -168,22 +176,26 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         while (!deadlines.isEmpty() && deadlines.peek().time <= until) {
             Slot<K, M, S> slot = deadlines.poll().slot;
             slot.expiry = NEVER;
-            await(slot);
-        }
-        List<Slot<K, M, S>> visited = busy;
-        busy = new ArrayList<>();
-        for (Slot<K, M, S> slot : visited) {
-            slot.busy = false;
             advance(slot, until);
+        }
+        NavigableMap<Long, List<Slot<K, M, S>>> passed = awaited.headMap(until >> STEP_BITS, true);
+        List<List<Slot<K, M, S>>> visited = new ArrayList<>(passed.values());
+        passed.clear();
+        for (List<Slot<K, M, S>> step : visited) {
+            for (Slot<K, M, S> slot : step) {
+                slot.earliest = NEVER;
+                advance(slot, until);
+            }
         }
         super.processWatermark(mark);
     }
 
     private void advance(Slot<K, M, S> slot, long until) throws Exception {
         if (slot.isEmpty()) {
-            return; // its deadline was left over
+            return; // it was awaited for something that is done
         }
-        List<M> due = slot.takeDue(until);
+        due.clear();
+        slot.takeDue(until, due);
         if (due.size() > 1) {
             due.sort(sequence);
         }
@@ -197,8 +209,8 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
             }
             return;
         }
-        if (!slot.waiting.isEmpty()) {
-            await(slot);
+        for (M message : slot.waiting) {
+            await(slot, message.time());
         }
         if (now != null) {
             expireAt(slot, expiry(now));

@@ -20,25 +20,18 @@ public class Pending<M extends Timed, S> {
         remembered = other.remembered;
     }
 
-    /** Removes what the watermark has passed, in no order. */
-    final List<M> takeDue(long watermark) {
-        int count = 0;
-        for (M message : waiting) {
-            count += message.time() <= watermark ? 1 : 0;
+    /** Moves what the watermark has passed to {@code due}, in no order. */
+    final void takeDue(long watermark, List<M> due) {
+        int left = 0;
+        for (int i = 0; i < waiting.size(); i++) {
+            M message = waiting.get(i);
+            if (message.time() <= watermark) {
+                due.add(message);
+            } else {
+                waiting.set(left++, message);
+            }
         }
-        if (count == 0) {
-            return List.of();
-        }
-        List<M> all = waiting;
-        waiting = new ArrayList<>(Math.max(1, all.size() - count));
-        if (count == all.size()) {
-            return all;
-        }
-        List<M> due = new ArrayList<>(count);
-        for (M message : all) {
-            (message.time() <= watermark ? due : waiting).add(message);
-        }
-        return due;
+        waiting.subList(left, waiting.size()).clear();
     }
 
     final boolean isEmpty() {

@@ -124,7 +124,7 @@ class TrackDevicesTest {
         Collections.shuffle(fixes, new Random(3));
         stage.receive(fixes);
         List<Long> times = new ArrayList<>();
-        for (long watermark = 950; watermark < 6000; watermark += 170) {
+        for (long watermark = 950; watermark < 6200; watermark += 170) {
             stage.advance(watermark).stream().map(CellUpdate::time).distinct().forEach(times::add);
             stage.restart();
         }
