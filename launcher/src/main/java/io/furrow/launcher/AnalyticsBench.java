@@ -13,8 +13,8 @@ import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import picocli.CommandLine.ArgGroup;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
@@ -105,8 +105,8 @@ final class AnalyticsBench implements Callable<Integer> {
             description = "Seconds of each run that count. Default: ${DEFAULT-VALUE}.")
     private int seconds;
 
-    @ArgGroup(exclusive = false, heading = "Load:%n")
-    private Load load = new Load();
+    @Mixin
+    private final AnalyticsLoad load = new AnalyticsLoad();
 
     @Option(names = "--output", paramLabel = "FILE", description = "Also write every figure here, as JSON.")
     private Path output;
@@ -121,60 +121,6 @@ final class AnalyticsBench implements Callable<Integer> {
     private boolean help;
 
     private final ObjectNode json = JsonNodeFactory.instance.objectNode();
-
-    /** How much there is to do. */
-    static final class Load {
-        @Option(
-                names = "--records",
-                paramLabel = "N",
-                defaultValue = "1500000",
-                description = "Records of each topic of KAFKA. Default: ${DEFAULT-VALUE}.")
-        private long records = 1_500_000;
-
-        @Option(
-                names = "--held-devices",
-                paramLabel = "N",
-                defaultValue = "100000",
-                description = "Devices of HELD. Default: ${DEFAULT-VALUE}.")
-        private int heldDevices = 100_000;
-
-        @Option(
-                names = "--held-seconds",
-                paramLabel = "S",
-                defaultValue = "60",
-                description = "Seconds for which HELD looks at the lag. Default: ${DEFAULT-VALUE}.")
-        private int heldSeconds = 60;
-
-        @Option(
-                names = "--eager-devices",
-                paramLabel = "N",
-                defaultValue = "20000",
-                description = "Devices of EAGER, each with an update a second. Default: ${DEFAULT-VALUE}.")
-        private int eagerDevices = 20_000;
-
-        @Option(
-                names = "--buffer-timeouts",
-                paramLabel = "MS,…",
-                split = ",",
-                hideParamSyntax = true,
-                defaultValue = "0,1,5",
-                description = "Milliseconds that records wait for company between stages of EAGER. Default: ${DEFAULT-VALUE}.")
-        private List<Integer> bufferTimeouts = List.of(0, 1, 5);
-
-        @Option(
-                names = "--fields",
-                paramLabel = "N",
-                defaultValue = "1000",
-                description = "Fields of FIELDS, of 50 vertices. Default: ${DEFAULT-VALUE}.")
-        private int fields = 1000;
-
-        @Option(
-                names = "--points",
-                paramLabel = "N",
-                defaultValue = "2000000",
-                description = "Points of each round of FIELDS. Default: ${DEFAULT-VALUE}.")
-        private long points = 2_000_000;
-    }
 
     @Override
     public Integer call() throws Exception {
@@ -204,9 +150,9 @@ final class AnalyticsBench implements Callable<Integer> {
     private boolean measure(Part part, RunDirectory directory) throws Exception {
         return switch (part) {
             case MEMORY -> memory(directory);
-            case KAFKA -> onKafka(directory, this::kafka);
-            case HELD -> onKafka(directory, this::held);
-            case EAGER -> eager() & onKafka(directory, this::alarms);
+            case KAFKA -> onKafka(directory.resolve("kafka"), this::kafka);
+            case HELD -> onKafka(directory.resolve("held"), this::held);
+            case EAGER -> eager() & onKafka(directory.resolve("eager"), this::alarms);
             case FIELDS -> fields();
         };
     }
@@ -261,13 +207,17 @@ final class AnalyticsBench implements Callable<Integer> {
         Figures figures = new Figures("Alarms from memory: from the position that makes a pair close to its provisional record");
         for (int parallelism : cores) {
             for (int timeout : load.bufferTimeouts) {
-                tell("alarms on " + parallelism + ", buffers wait " + timeout + " ms");
-                EagerMeasurement.run(
-                        load.eagerDevices,
-                        parallelism,
-                        Duration.ofMillis(timeout),
-                        Duration.ofSeconds(seconds),
-                        figures);
+                for (int interval : load.watermarkIntervals) {
+                    tell("alarms on %d, buffers wait %d ms, watermarks %d ms".formatted(parallelism, timeout, interval));
+                    EagerMeasurement.run(
+                            new EagerMeasurement.Plan(
+                                    load.eagerDevices,
+                                    parallelism,
+                                    Duration.ofMillis(timeout),
+                                    Duration.ofMillis(interval),
+                                    Duration.ofSeconds(seconds)),
+                            figures);
+                }
             }
         }
         add("eager", figures);
@@ -300,10 +250,9 @@ final class AnalyticsBench implements Callable<Integer> {
         boolean measure(TopicMeasurement measurement) throws Exception;
     }
 
-    private boolean onKafka(RunDirectory directory, OnKafka part) throws Exception {
+    private boolean onKafka(Path data, OnKafka part) throws Exception {
         Progress progress = new Progress(spec.commandLine().getOut());
-        Path data = Files.createTempDirectory(directory.resolve(""), "kafka");
-        try (EmbeddedKafka kafka = progress.step("Kafka", () -> EmbeddedKafka.start(data));
+        try (EmbeddedKafka kafka = progress.step("Kafka", () -> EmbeddedKafka.start(data.resolve("broker")));
                 EmbeddedFlink flink = progress.step("Flink", () -> EmbeddedFlink.start(most(cores), 0))) {
             Properties client = new Properties();
             client.setProperty("bootstrap.servers", kafka.bootstrapServers());
@@ -311,7 +260,7 @@ final class AnalyticsBench implements Callable<Integer> {
                     new Cluster(
                             client,
                             (name, job) -> IngestBench.start(flink, name, job),
-                            directory.resolve("checkpoints")),
+                            data.resolve("checkpoints")),
                     this::tell));
         }
     }

@@ -5,6 +5,7 @@ import java.lang.management.ManagementFactory;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
@@ -45,6 +46,10 @@ public final class CollisionMeasurement {
         Reading before = Reading.of(progress);
         TimeUnit.MILLISECONDS.sleep(plan.measured().toMillis());
         Reading after = Reading.of(progress);
+        CompletableFuture<?> ended = job.getJobExecutionResult();
+        if (ended.isDone()) {
+            ended.get(); // throws why
+        }
         double bytes = savepointBytes(job, name);
         job.cancel().get(1, TimeUnit.MINUTES);
         Bare bare = bare(plan, progress);

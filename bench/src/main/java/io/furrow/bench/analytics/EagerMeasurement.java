@@ -20,41 +20,51 @@ public final class EagerMeasurement {
     private EagerMeasurement() {}
 
     /**
-     * Adds a row, times in milliseconds.
+     * What is measured, and how long after as long that does not count.
      *
      * @param devices each reports once a second
      * @param bufferTimeout how long a record waits for company on its way to the next stage; 0: not at all
+     * @param watermarkInterval between two watermarks, each of which brings about what the exact stages do, all at once
      */
-    public static void run(
-            int devices, int parallelism, Duration bufferTimeout, Duration measured, Figures figures) throws Exception {
-        String name = "eager-" + parallelism + "-" + bufferTimeout.toMillis() + "-" + System.nanoTime();
-        AlarmDelays delays = AlarmDelays.start(name, devices);
-        Configuration settings = new Configuration();
-        settings.set(PipelineOptions.GENERIC_TYPES, false);
-        settings.set(PipelineOptions.OBJECT_REUSE, true);
-        settings.set(PipelineOptions.MAX_PARALLELISM, CollisionMeasurement.MAX_PARALLELISM);
-        settings.set(ExecutionOptions.BUFFER_TIMEOUT, bufferTimeout);
-        StreamExecutionEnvironment env = StreamExecutionEnvironment.createLocalEnvironment(parallelism, settings);
-        CollisionDetection.define(PacedFleet.in(env, name, devices), CollisionRules.DEFAULT, true)
-                .encounters()
-                .sinkTo(new AlarmDelays.To(name))
-                .uid("delays");
-        JobClient job = env.executeAsync(name);
-        TimeUnit.MILLISECONDS.sleep(measured.toMillis());
+    public record Plan(
+            int devices, int parallelism, Duration bufferTimeout, Duration watermarkInterval, Duration measured) {}
+
+    /** Adds a row, times in milliseconds. */
+    public static void run(Plan plan, Figures figures) throws Exception {
+        String name = "eager-" + System.nanoTime();
+        AlarmDelays delays = AlarmDelays.start(name, plan.devices);
+        JobClient job = start(plan, name);
+        TimeUnit.MILLISECONDS.sleep(plan.measured.toMillis());
         delays.delays().reset(); // the JVM was cold
-        TimeUnit.MILLISECONDS.sleep(measured.toMillis());
+        TimeUnit.MILLISECONDS.sleep(plan.measured.toMillis());
         Histogram found = delays.delays().copy();
         job.cancel().get(1, TimeUnit.MINUTES);
-        Histogram bare = new BareLoop(devices).delays((int) Math.max(2, measured.toSeconds() / 2));
+        Histogram bare = new BareLoop(plan.devices).delays((int) Math.max(2, plan.measured.toSeconds() / 2));
         figures.add(
-                "updates/s", devices,
-                "cores", parallelism,
-                "buffers ms", (int) bufferTimeout.toMillis(),
+                "updates/s", plan.devices,
+                "cores", plan.parallelism,
+                "buffers ms", (int) plan.bufferTimeout.toMillis(),
+                "watermarks ms", (int) plan.watermarkInterval.toMillis(),
                 "p50 ms", found.getValueAtPercentile(50) / MILLI,
                 "p99 ms", found.getValueAtPercentile(99) / MILLI,
                 "max ms", found.getMaxValue() / MILLI,
                 "alarms", found.getTotalCount(),
                 "bare p50 ms", bare.getValueAtPercentile(50) / MILLI,
                 "bare p99 ms", bare.getValueAtPercentile(99) / MILLI);
+    }
+
+    private static JobClient start(Plan plan, String name) throws Exception {
+        Configuration settings = new Configuration();
+        settings.set(PipelineOptions.GENERIC_TYPES, false);
+        settings.set(PipelineOptions.OBJECT_REUSE, true);
+        settings.set(PipelineOptions.MAX_PARALLELISM, CollisionMeasurement.MAX_PARALLELISM);
+        settings.set(ExecutionOptions.BUFFER_TIMEOUT, plan.bufferTimeout);
+        settings.set(PipelineOptions.AUTO_WATERMARK_INTERVAL, plan.watermarkInterval);
+        StreamExecutionEnvironment env = StreamExecutionEnvironment.createLocalEnvironment(plan.parallelism, settings);
+        CollisionDetection.define(PacedFleet.in(env, name, plan.devices), CollisionRules.DEFAULT, true)
+                .encounters()
+                .sinkTo(new AlarmDelays.To(name))
+                .uid("delays");
+        return env.executeAsync(name);
     }
 }
