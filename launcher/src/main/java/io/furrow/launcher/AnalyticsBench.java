@@ -111,7 +111,10 @@ final class AnalyticsBench implements Callable<Integer> {
     @Option(names = "--output", paramLabel = "FILE", description = "Also write every figure here, as JSON.")
     private Path output;
 
-    @Option(names = "--plots", paramLabel = "DIR", description = "Also draw how the figures grow, as SVG in this folder.")
+    @Option(
+            names = "--plots",
+            paramLabel = "DIR",
+            description = "Also draw how the figures grow, as SVG in this folder.")
     private Path plots;
 
     @Option(
@@ -176,7 +179,8 @@ final class AnalyticsBench implements Callable<Integer> {
     }
 
     private boolean kafka(TopicMeasurement measurement) throws Exception {
-        Figures figures = new Figures("Collisions from NGSI entities in a topic: reading, three stages, topic of results");
+        Figures figures =
+                new Figures("Collisions from NGSI entities in a topic: reading, three stages, topic of results");
         for (int parallelism : cores) {
             for (int each : devices) {
                 tell("from Kafka: " + each + " devices on " + parallelism);
@@ -191,11 +195,9 @@ final class AnalyticsBench implements Callable<Integer> {
 
     private boolean held(TopicMeasurement measurement) throws Exception {
         HeldRate held = measurement.held(
-                load.heldDevices,
-                most(cores),
-                Duration.ofSeconds(warmUp),
-                Duration.ofSeconds(load.heldSeconds));
-        Figures figures = new Figures("Devices that report once a second, and the lag of the job's consumer in records");
+                load.heldDevices, most(cores), Duration.ofSeconds(warmUp), Duration.ofSeconds(load.heldSeconds));
+        Figures figures =
+                new Figures("Devices that report once a second, and the lag of the job's consumer in records");
         held.addTo(figures);
         add("held", figures);
         json.putPOJO("heldLags", held.lags());
@@ -204,11 +206,13 @@ final class AnalyticsBench implements Callable<Integer> {
     }
 
     private boolean eager() throws Exception {
-        Figures figures = new Figures("Alarms from memory: from the position that makes a pair close to its provisional record");
+        Figures figures =
+                new Figures("Alarms from memory: from the position that makes a pair close to its provisional record");
         for (int parallelism : cores) {
             for (int timeout : load.bufferTimeouts) {
                 for (int interval : load.watermarkIntervals) {
-                    tell("alarms on %d, buffers wait %d ms, watermarks %d ms".formatted(parallelism, timeout, interval));
+                    tell("alarms on %d, buffers wait %d ms, watermarks %d ms"
+                            .formatted(parallelism, timeout, interval));
                     EagerMeasurement.run(
                             new EagerMeasurement.Plan(
                                     load.eagerDevices,
@@ -258,9 +262,7 @@ final class AnalyticsBench implements Callable<Integer> {
             client.setProperty("bootstrap.servers", kafka.bootstrapServers());
             return part.measure(new TopicMeasurement(
                     new Cluster(
-                            client,
-                            (name, job) -> IngestBench.start(flink, name, job),
-                            data.resolve("checkpoints")),
+                            client, (name, job) -> IngestBench.start(flink, name, job), data.resolve("checkpoints")),
                     this::tell));
         }
     }

@@ -40,7 +40,8 @@ final class AnalyticsLoad {
             split = ",",
             hideParamSyntax = true,
             defaultValue = "0,1,5",
-            description = "Milliseconds that records wait for company between stages of EAGER. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Milliseconds that records wait for company between stages of EAGER. Default: ${DEFAULT-VALUE}.")
     List<Integer> bufferTimeouts;
 
     @Option(

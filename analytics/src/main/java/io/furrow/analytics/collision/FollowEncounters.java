@@ -44,8 +44,7 @@ public final class FollowEncounters extends EventTimeOperator<Pair, Sighting, Me
     }
 
     @Override
-    protected Meeting apply(
-            Pair pair, Meeting before, List<Sighting> due, long until, Collector<Encounter> out) {
+    protected Meeting apply(Pair pair, Meeting before, List<Sighting> due, long until, Collector<Encounter> out) {
         Follower.Followed followed = follower.follow(before, due, out::collect);
         violations.inc(followed.violations());
         return followed.meeting();

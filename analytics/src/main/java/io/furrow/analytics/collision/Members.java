@@ -1,6 +1,5 @@
 package io.furrow.analytics.collision;
 
-import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 
@@ -75,7 +74,8 @@ final class Members {
     Member remove(PositionFix device) {
         int name = device.identity().hashCode();
         int number = firstOfName[slot(name, firstOfName)];
-        while (number != NONE && (names[number] != name || !members[number].fix().isOfSameDevice(device))) {
+        while (number != NONE
+                && (names[number] != name || !members[number].fix().isOfSameDevice(device))) {
             number = nextOfName[number];
         }
         if (number == NONE) {

@@ -96,8 +96,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
      * @param until the watermark
      * @return null where nothing is remembered from now on
      */
-    protected abstract S apply(K key, S before, List<M> due, long until, Collector<O> out)
-            throws Exception;
+    protected abstract S apply(K key, S before, List<M> due, long until, Collector<O> out) throws Exception;
 
     /** When what is remembered ends without a message, in epoch milliseconds, or {@link #NEVER}. */
     protected long expiry(S remembered) {
@@ -119,8 +118,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         gone = new HashSet<>();
         awaited = new TreeMap<>();
         deadlines = new PriorityQueue<>(Comparator.comparingLong(Deadline::time));
-        ValueStateDescriptor<Pending<M, S>> pending =
-                new ValueStateDescriptor<>("pending", new FormatType<>(format));
+        ValueStateDescriptor<Pending<M, S>> pending = new ValueStateDescriptor<>("pending", new FormatType<>(format));
         saved = context.getKeyedStateStore().getState(pending);
         if (context.isRestored()) {
             this.<K>getKeyedStateBackend()

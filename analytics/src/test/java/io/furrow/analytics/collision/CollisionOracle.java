@@ -90,8 +90,7 @@ final class CollisionOracle {
                 .toList();
         for (int i = 0; i < last.size(); i++) {
             for (PositionFix other : last.subList(i + 1, last.size())) {
-                closeAt(last.get(i), other, t)
-                        .ifPresent(seen -> close.put(Pair.of(seen.first, seen.second), seen));
+                closeAt(last.get(i), other, t).ifPresent(seen -> close.put(Pair.of(seen.first, seen.second), seen));
             }
         }
         Set<Pair> followed = followed();

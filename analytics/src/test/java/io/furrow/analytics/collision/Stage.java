@@ -39,7 +39,11 @@ final class Stage<K, I, O> {
     }
 
     static Stage<Device, PositionFix, CellUpdate> track(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new TrackDevices(rules), PositionFix::device, TypeInformation.of(Device.class), PositionFix::time);
+        return new Stage<>(
+                () -> new TrackDevices(rules),
+                PositionFix::device,
+                TypeInformation.of(Device.class),
+                PositionFix::time);
     }
 
     static Stage<Long, CellUpdate, Sighting> match(CollisionRules rules) throws Exception {
@@ -47,7 +51,8 @@ final class Stage<K, I, O> {
     }
 
     static Stage<Pair, Sighting, Encounter> follow(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new FollowEncounters(rules), Sighting::pair, TypeInformation.of(Pair.class), Sighting::time);
+        return new Stage<>(
+                () -> new FollowEncounters(rules), Sighting::pair, TypeInformation.of(Pair.class), Sighting::time);
     }
 
     static Stage<Pair, Encounter, Encounter> steady(CollisionRules rules) throws Exception {

@@ -128,7 +128,9 @@ class TrackDevicesTest {
             stage.advance(watermark).stream().map(CellUpdate::time).distinct().forEach(times::add);
             stage.restart();
         }
-        assertThat(times).containsExactlyElementsOf(fixes.stream().map(PositionFix::time).sorted().toList());
+        assertThat(times)
+                .containsExactlyElementsOf(
+                        fixes.stream().map(PositionFix::time).sorted().toList());
     }
 
     private long[] cells(PositionFix fix) {

@@ -41,16 +41,26 @@ public final class EagerMeasurement {
         job.cancel().get(1, TimeUnit.MINUTES);
         Histogram bare = new BareLoop(plan.devices).delays((int) Math.max(2, plan.measured.toSeconds() / 2));
         figures.add(
-                "updates/s", plan.devices,
-                "cores", plan.parallelism,
-                "buffers ms", (int) plan.bufferTimeout.toMillis(),
-                "watermarks ms", (int) plan.watermarkInterval.toMillis(),
-                "p50 ms", found.getValueAtPercentile(50) / MILLI,
-                "p99 ms", found.getValueAtPercentile(99) / MILLI,
-                "max ms", found.getMaxValue() / MILLI,
-                "alarms", found.getTotalCount(),
-                "bare p50 ms", bare.getValueAtPercentile(50) / MILLI,
-                "bare p99 ms", bare.getValueAtPercentile(99) / MILLI);
+                "updates/s",
+                plan.devices,
+                "cores",
+                plan.parallelism,
+                "buffers ms",
+                (int) plan.bufferTimeout.toMillis(),
+                "watermarks ms",
+                (int) plan.watermarkInterval.toMillis(),
+                "p50 ms",
+                found.getValueAtPercentile(50) / MILLI,
+                "p99 ms",
+                found.getValueAtPercentile(99) / MILLI,
+                "max ms",
+                found.getMaxValue() / MILLI,
+                "alarms",
+                found.getTotalCount(),
+                "bare p50 ms",
+                bare.getValueAtPercentile(50) / MILLI,
+                "bare p99 ms",
+                bare.getValueAtPercentile(99) / MILLI);
     }
 
     private static JobClient start(Plan plan, String name) throws Exception {

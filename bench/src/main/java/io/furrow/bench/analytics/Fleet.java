@@ -85,8 +85,7 @@ final class Fleet {
     }
 
     static PositionFix fix(String identity, String id, double latitude, double longitude, long time) {
-        return new PositionFix(
-                TOPIC, identity, id, "Robot", "", "", latitude, longitude, Double.NaN, Double.NaN, time);
+        return new PositionFix(TOPIC, identity, id, "Robot", "", "", latitude, longitude, Double.NaN, Double.NaN, time);
     }
 
     /** Which of the devices it is, from 0 on. */

@@ -26,7 +26,8 @@ final class RobotJson {
         return new StringBuilder(400)
                 .append("{\"id\":\"")
                 .append(fix.id())
-                .append("\",\"type\":\"Robot\",\"location\":{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",\"coordinates\":[")
+                .append(
+                        "\",\"type\":\"Robot\",\"location\":{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",\"coordinates\":[")
                 .append(fix.longitude())
                 .append(',')
                 .append(fix.latitude())

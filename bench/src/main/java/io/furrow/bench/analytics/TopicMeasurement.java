@@ -51,12 +51,18 @@ public final class TopicMeasurement {
                 Reading to = await(found, Fleet.START + span - BEHIND_MS);
                 double updates = (to.event - from.event) / 1000.0 * devices;
                 figures.add(
-                        "devices", devices,
-                        "cores", parallelism,
-                        "updates/s", updates / (to.nanos - from.nanos) * 1e9,
-                        "cpu us", (to.cpuNanos - from.cpuNanos) / 1e3 / updates,
-                        "bare loop", bare,
-                        "found", found.count());
+                        "devices",
+                        devices,
+                        "cores",
+                        parallelism,
+                        "updates/s",
+                        updates / (to.nanos - from.nanos) * 1e9,
+                        "cpu us",
+                        (to.cpuNanos - from.cpuNanos) / 1e3 / updates,
+                        "bare loop",
+                        bare,
+                        "found",
+                        found.count());
             } finally {
                 job.cancel();
             }
@@ -75,7 +81,8 @@ public final class TopicMeasurement {
                 long sent = topic.sent();
                 List<Long> lags = new ArrayList<>();
                 for (int second = 1; second <= measured.toSeconds(); second++) {
-                    TimeUnit.NANOSECONDS.sleep(begin + Duration.ofSeconds(second).toNanos() - System.nanoTime());
+                    TimeUnit.NANOSECONDS.sleep(
+                            begin + Duration.ofSeconds(second).toNanos() - System.nanoTime());
                     lags.add(lag.records());
                     progress.accept("%d s: lag %,d".formatted(second, lags.get(second - 1)));
                 }
