@@ -1,5 +1,6 @@
 package io.furrow.launcher;
 
+import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
@@ -7,9 +8,13 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Properties;
 import java.util.concurrent.Callable;
 
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
@@ -18,20 +23,55 @@ import io.furrow.bench.analytics.CollisionMeasurement;
 import io.furrow.bench.analytics.CollisionPlan;
 import io.furrow.bench.analytics.CollisionReport;
 import io.furrow.bench.analytics.CollisionRun;
+import io.furrow.bench.analytics.EagerMeasurement;
+import io.furrow.bench.analytics.FieldMeasurement;
+import io.furrow.bench.analytics.Figures;
+import io.furrow.bench.analytics.HeldRate;
+import io.furrow.bench.analytics.TopicMeasurement;
+import io.furrow.bench.ingest.IngestMeasurement.Cluster;
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow bench analytics}. */
 @Command(
         name = "analytics",
         abbreviateSynopsis = true,
+        sortOptions = false,
         description = {
-            "Collision updates per second through all three stages in a Flink cluster of this JVM, fed from memory,"
-                    + " for several numbers of devices and cores; beside each the bare loop without Flink.",
-            "Exit code 0 means that in every second that was compared as many encounters start as in the bare loop."
+            "What collision, temperature and presence take on a Kafka and a Flink of this JVM, for several numbers of"
+                    + " devices and cores; beside each figure a bare loop without Flink.",
+            "Exit code 0 means that in every second that was compared as many encounters start as in the bare loop, and that"
+                    + " the rate was held, as far as these parts were measured."
         })
 final class AnalyticsBench implements Callable<Integer> {
+    /** What can be measured. */
+    enum Part {
+        MEMORY,
+        KAFKA,
+        HELD,
+        EAGER,
+        FIELDS
+    }
+
     @Spec
     private CommandSpec spec;
+
+    @Option(
+            names = "--parts",
+            paramLabel = "PART,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "MEMORY,KAFKA,HELD,EAGER,FIELDS",
+            description = {
+                "MEMORY: collision updates per second, from memory.",
+                "KAFKA: the same from NGSI entities in a topic to a topic of results.",
+                "HELD: whether the consumer's lag grows while devices report once a second.",
+                "EAGER: from a position to the alarm.",
+                "FIELDS: points per second and core of the joins with fields.",
+                "Default: all."
+            })
+    private List<Part> parts;
 
     @Option(
             names = "--devices",
@@ -39,7 +79,7 @@ final class AnalyticsBench implements Callable<Integer> {
             split = ",",
             hideParamSyntax = true,
             defaultValue = "1000,10000,50000,100000",
-            description = "Devices of each run. Default: ${DEFAULT-VALUE}.")
+            description = "Devices of each run of MEMORY and KAFKA. Default: ${DEFAULT-VALUE}.")
     private List<Integer> devices;
 
     @Option(
@@ -48,7 +88,7 @@ final class AnalyticsBench implements Callable<Integer> {
             split = ",",
             hideParamSyntax = true,
             defaultValue = "1,2",
-            description = "Subtasks per stage of each run. Default: ${DEFAULT-VALUE}.")
+            description = "Subtasks per stage of each run; HELD takes the most. Default: ${DEFAULT-VALUE}.")
     private List<Integer> cores;
 
     @Option(
@@ -65,11 +105,17 @@ final class AnalyticsBench implements Callable<Integer> {
             description = "Seconds of each run that count. Default: ${DEFAULT-VALUE}.")
     private int seconds;
 
+    @Mixin
+    private final AnalyticsLoad load = new AnalyticsLoad();
+
     @Option(names = "--output", paramLabel = "FILE", description = "Also write every figure here, as JSON.")
     private Path output;
 
-    @Option(names = "--plot", paramLabel = "FILE", description = "Also draw how the figures grow here, as SVG.")
-    private Path plot;
+    @Option(
+            names = "--plots",
+            paramLabel = "DIR",
+            description = "Also draw how the figures grow, as SVG in this folder.")
+    private Path plots;
 
     @Option(
             names = {"-h", "--help"},
@@ -77,30 +123,168 @@ final class AnalyticsBench implements Callable<Integer> {
             description = "Show this text.")
     private boolean help;
 
+    private final ObjectNode json = JsonNodeFactory.instance.objectNode();
+
     @Override
     public Integer call() throws Exception {
         PrintWriter out = spec.commandLine().getOut();
+        out.printf(
+                "%d processors; a core is a subtask per stage. --cores 1 leaves the other processor to Flink, the broker and"
+                        + " the collector: for what one alone does, run under taskset -c 0.%n",
+                Runtime.getRuntime().availableProcessors());
+        boolean good = true;
+        if (plots != null) {
+            Files.createDirectories(plots);
+        }
         try (RunDirectory directory = RunDirectory.open(null)) {
             LogFile.writeTo(directory.resolve("furrow.log"));
-            CollisionMeasurement measurement = new CollisionMeasurement(directory.resolve("state"));
-            List<CollisionRun> runs = new ArrayList<>();
-            for (int parallelism : cores) {
-                for (int each : devices) {
-                    out.println("  " + each + " devices on " + parallelism);
-                    out.flush();
-                    runs.add(measurement.run(new CollisionPlan(
-                            each, parallelism, Duration.ofSeconds(warmUp), Duration.ofSeconds(seconds))));
+            for (Part part : Part.values()) {
+                if (parts.contains(part)) {
+                    good &= measure(part, directory);
                 }
             }
-            CollisionReport report = new CollisionReport(runs);
-            report.print(out);
-            if (output != null) {
-                Files.write(output, NgsiJson.write(report.json()));
+        }
+        if (output != null) {
+            Files.write(output, NgsiJson.write(json));
+        }
+        return good ? 0 : 1;
+    }
+
+    private boolean measure(Part part, RunDirectory directory) throws Exception {
+        return switch (part) {
+            case MEMORY -> memory(directory);
+            case KAFKA -> onKafka(directory.resolve("kafka"), this::kafka);
+            case HELD -> onKafka(directory.resolve("held"), this::held);
+            case EAGER -> eager() & onKafka(directory.resolve("eager"), this::alarms);
+            case FIELDS -> fields();
+        };
+    }
+
+    private boolean memory(RunDirectory directory) throws Exception {
+        CollisionMeasurement measurement = new CollisionMeasurement(directory.resolve("state"));
+        List<CollisionRun> runs = new ArrayList<>();
+        for (int parallelism : cores) {
+            for (int each : devices) {
+                tell("from memory: " + each + " devices on " + parallelism);
+                runs.add(measurement.run(
+                        new CollisionPlan(each, parallelism, Duration.ofSeconds(warmUp), Duration.ofSeconds(seconds))));
             }
-            if (plot != null) {
-                Files.writeString(plot, report.svg(), StandardCharsets.UTF_8);
+        }
+        CollisionReport report = new CollisionReport(runs);
+        Figures figures = report.figures();
+        add("memory", figures);
+        draw("memory-devices", figures.svg("devices", List.of("updates/s", "bare loop"), "cores"));
+        draw("memory-cores", figures.svg("cores", List.of("updates/s"), "devices"));
+        return report.agrees();
+    }
+
+    private boolean kafka(TopicMeasurement measurement) throws Exception {
+        Figures figures =
+                new Figures("Collisions from NGSI entities in a topic: reading, three stages, topic of results");
+        for (int parallelism : cores) {
+            for (int each : devices) {
+                tell("from Kafka: " + each + " devices on " + parallelism);
+                measurement.updates(each, parallelism, load.records, figures);
             }
-            return report.agrees() ? 0 : 1;
+        }
+        add("kafka", figures);
+        draw("kafka-devices", figures.svg("devices", List.of("updates/s", "bare loop"), "cores"));
+        draw("kafka-cores", figures.svg("cores", List.of("updates/s"), "devices"));
+        return true;
+    }
+
+    private boolean held(TopicMeasurement measurement) throws Exception {
+        HeldRate held = measurement.held(
+                load.heldDevices, most(cores), Duration.ofSeconds(warmUp), Duration.ofSeconds(load.heldSeconds));
+        Figures figures =
+                new Figures("Devices that report once a second, and the lag of the job's consumer in records");
+        held.addTo(figures);
+        add("held", figures);
+        json.putPOJO("heldLags", held.lags());
+        draw("held", held.svg());
+        return held.isHeld();
+    }
+
+    private boolean eager() throws Exception {
+        Figures figures =
+                new Figures("Alarms from memory: from the position that makes a pair close to its provisional record");
+        for (int parallelism : cores) {
+            for (int timeout : load.bufferTimeouts) {
+                for (int interval : load.watermarkIntervals) {
+                    tell("alarms on %d, buffers wait %d ms, watermarks %d ms"
+                            .formatted(parallelism, timeout, interval));
+                    EagerMeasurement.run(
+                            new EagerMeasurement.Plan(
+                                    load.eagerDevices,
+                                    parallelism,
+                                    Duration.ofMillis(timeout),
+                                    Duration.ofMillis(interval),
+                                    Duration.ofSeconds(seconds)),
+                            figures);
+                }
+            }
+        }
+        add("eager", figures);
+        return true;
+    }
+
+    private boolean alarms(TopicMeasurement measurement) throws Exception {
+        var delays = measurement.alarms(load.eagerDevices, most(cores), Duration.ofSeconds(seconds));
+        Figures figures = new Figures("Alarms from Kafka: from the time of the position to a reader of the results");
+        figures.add(
+                "updates/s", load.eagerDevices,
+                "cores", most(cores),
+                "p50 ms", delays.getValueAtPercentile(50),
+                "p99 ms", delays.getValueAtPercentile(99),
+                "max ms", delays.getMaxValue(),
+                "alarms", delays.getTotalCount());
+        add("eagerFromKafka", figures);
+        return true;
+    }
+
+    private boolean fields() throws Exception {
+        Figures figures = new Figures("Joins with fields, from memory: " + load.fields + " fields of 50 vertices");
+        new FieldMeasurement(load.fields, 50, load.points, this::tell).run(cores, figures);
+        add("fields", figures);
+        draw("fields-cores", figures.svg("cores", List.of("points/s", "bare loop"), "join of"));
+        return true;
+    }
+
+    private interface OnKafka {
+        boolean measure(TopicMeasurement measurement) throws Exception;
+    }
+
+    private boolean onKafka(Path data, OnKafka part) throws Exception {
+        Progress progress = new Progress(spec.commandLine().getOut());
+        try (EmbeddedKafka kafka = progress.step("Kafka", () -> EmbeddedKafka.start(data.resolve("broker")));
+                EmbeddedFlink flink = progress.step("Flink", () -> EmbeddedFlink.start(most(cores), 0))) {
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            return part.measure(new TopicMeasurement(
+                    new Cluster(
+                            client, (name, job) -> IngestBench.start(flink, name, job), data.resolve("checkpoints")),
+                    this::tell));
+        }
+    }
+
+    private static int most(List<Integer> numbers) {
+        return numbers.stream().mapToInt(Integer::intValue).max().orElse(1);
+    }
+
+    private void tell(String line) {
+        PrintWriter out = spec.commandLine().getOut();
+        out.println("  " + line);
+        out.flush();
+    }
+
+    private void add(String name, Figures figures) {
+        figures.print(spec.commandLine().getOut());
+        json.set(name, figures.json());
+    }
+
+    private void draw(String name, String svg) throws IOException {
+        if (plots != null) {
+            Files.writeString(plots.resolve(name + ".svg"), svg, StandardCharsets.UTF_8);
         }
     }
 }

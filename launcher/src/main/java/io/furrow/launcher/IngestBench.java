@@ -145,7 +145,7 @@ final class IngestBench implements Callable<Integer> {
         }
     }
 
-    private static IngestMeasurement.Running start(EmbeddedFlink flink, String name, StreamExecutionEnvironment job) {
+    static IngestMeasurement.Running start(EmbeddedFlink flink, String name, StreamExecutionEnvironment job) {
         StreamGraph graph = job.getStreamGraph();
         graph.setJobName(name);
         JobID id = flink.submit(graph);

@@ -15,7 +15,7 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
  */
 @TypeInfo(ArrivalsFormat.class)
 public final class Arrivals {
-    private final Map<PositionFix.Device, Arrival> newest = new HashMap<>();
+    private final Map<Device, Arrival> newest = new HashMap<>();
     private final Cell cell = Cell.empty();
 
     Collection<Arrival> all() {

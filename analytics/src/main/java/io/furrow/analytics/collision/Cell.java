@@ -2,9 +2,7 @@ package io.furrow.analytics.collision;
 
 import java.util.ArrayList;
 import java.util.Collection;
-import java.util.HashMap;
 import java.util.List;
-import java.util.Map;
 import java.util.function.Consumer;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
@@ -15,9 +13,10 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
  */
 @TypeInfo(CellFormat.class)
 public final class Cell {
-    private final Map<PositionFix.Device, Member> members = new HashMap<>();
-    /** Made again from the members where there is none, or one for another threshold. */
-    private FineGrid near;
+    /** Made again where there are none, or for another threshold. */
+    private Members members = new Members(0);
+    /** Only where the number of pairs is limited; null while none is close. */
+    private Crowd crowd;
 
     private Cell() {}
 
@@ -29,7 +28,15 @@ public final class Cell {
     }
 
     boolean isEmpty() {
-        return members.isEmpty();
+        return members.size() == 0 && crowd == null;
+    }
+
+    Crowd crowd() {
+        return crowd;
+    }
+
+    void crowd(Crowd now) {
+        crowd = now;
     }
 
     /** How many devices are in the cell, halo copies included. */
@@ -38,12 +45,12 @@ public final class Cell {
     }
 
     Collection<Member> members() {
-        return members.values();
+        return members.all();
     }
 
     /** Only before the first updates are applied. */
     void put(Member member) {
-        members.put(member.fix().device(), member);
+        members.add(member);
     }
 
     /**
@@ -53,8 +60,10 @@ public final class Cell {
      * @param out takes the sightings; their order within an instant has no meaning
      */
     public void apply(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
-        if (near == null || near.reach() != proximity.reach()) {
-            near = new FineGrid(proximity.reach(), members.values());
+        if (members.reach() != proximity.reach()) {
+            List<Member> known = members.all();
+            members = new Members(proximity.reach());
+            known.forEach(members::add);
         }
         int from = 0;
         while (from < updates.size()) {
@@ -75,11 +84,10 @@ public final class Cell {
     private void applyAtOnce(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
         List<Change> changes = new ArrayList<>(updates.size());
         for (CellUpdate update : updates) {
-            Member before = members.remove(update.fix().device());
+            Member before = members.remove(update.fix());
             List<Member> partners = new ArrayList<>(0);
             if (before != null) {
-                near.remove(before);
-                near.closeTo(before, proximity, partners);
+                members.closeTo(before, proximity, partners);
             }
             changes.add(new Change(before, memberOf(update), partners));
         }
@@ -88,13 +96,12 @@ public final class Cell {
             Change change = changes.get(i);
             long time = updates.get(i).time();
             if (change.after != null) {
-                near.closeTo(change.after, proximity, met);
+                members.closeTo(change.after, proximity, met);
                 for (Member other : met) {
                     out.accept(Sighting.of(change.after.fix(), other.fix(), time, wasMet(change, other) ? 0 : 1));
                 }
                 met.clear();
-                near.add(change.after);
-                members.put(change.after.fix().device(), change.after);
+                members.add(change.after);
             }
             for (Member other : change.partners) {
                 out.accept(Sighting.of(change.before.fix(), other.fix(), time, -1));

@@ -1,6 +1,6 @@
 package io.furrow.analytics.collision;
 
-import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
@@ -21,21 +21,24 @@ public record CollisionDetection(
 
     /** @param eager whether pairs that are close by what has arrived are told before the watermark decides */
     public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules, boolean eager) {
-        SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::key)
-                .process(new TrackDevices(rules, eager))
-                .uid("track-devices")
-                .name("Track devices through the grid");
+        SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::device)
+                .transform(
+                        "Track devices through the grid",
+                        TypeInformation.of(CellUpdate.class),
+                        new TrackDevices(rules, eager))
+                .uid("track-devices");
 
         SingleOutputStreamOperator<Sighting> sightings = updates.keyBy(CellUpdate::cell)
-                .process(new MatchPairs(rules))
-                .uid("match-pairs")
-                .name("Match pairs in each cell");
+                .transform("Match pairs in each cell", TypeInformation.of(Sighting.class), new MatchPairs(rules))
+                .uid("match-pairs");
 
         DataStream<Encounter> encounters = sightings
                 .keyBy(Sighting::pair)
-                .process(new FollowEncounters(rules))
-                .uid("follow-encounters")
-                .name("Follow encounters of each pair");
+                .transform(
+                        "Follow encounters of each pair",
+                        TypeInformation.of(Encounter.class),
+                        new FollowEncounters(rules))
+                .uid("follow-encounters");
 
         DataStream<Encounter> lasting = rules.steadiness().isNone() ? encounters : steady(encounters, rules);
 
@@ -47,7 +50,7 @@ public record CollisionDetection(
 
     /** A pair's records stay where they are: the key is that of the stage before. */
     private static DataStream<Encounter> steady(DataStream<Encounter> encounters, CollisionRules rules) {
-        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, Types.STRING)
+        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, TypeInformation.of(Pair.class))
                 .process(new SteadyEncounters(rules))
                 .uid("steady-encounters")
                 .name("Steady encounters of each pair");
@@ -57,7 +60,7 @@ public record CollisionDetection(
     private static DataStream<Encounter> alarmed(
             DataStream<Encounter> encounters, DataStream<PositionFix> accepted, CollisionRules rules) {
         DataStream<Arrival> arrivals = DataStreamUtils.reinterpretAsKeyedStream(
-                        accepted, PositionFix::key, Types.STRING)
+                        accepted, PositionFix::device, TypeInformation.of(Device.class))
                 .process(new TrackArrivals(rules))
                 .uid("track-arrivals")
                 .name("Track arrivals through the grid");
@@ -67,7 +70,7 @@ public record CollisionDetection(
                 .uid("spot-pairs")
                 .name("Spot pairs in each cell");
 
-        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, Types.STRING)
+        return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, TypeInformation.of(Pair.class))
                 .connect(glimpses.keyBy(Glimpse::pair))
                 .process(new RaiseAlarms(rules))
                 .uid("raise-alarms")

@@ -32,6 +32,9 @@ public final class CollisionJob {
     /** The job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(CollisionOptions options) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
+        if (options.eager()) {
+            JobEnvironment.hasten(env);
+        }
 
         DataStream<TopicRecord> records = env.fromSource(
                         KafkaEnds.source(options), KafkaEnds.watermarks(options), "Reported changes")

@@ -1,18 +1,23 @@
 package io.furrow.analytics.collision;
 
-import java.util.Map;
+import java.util.HashSet;
+import java.util.Set;
 
 /**
  * What is remembered of a cell whose pairs are limited.
  *
- * @param kept the pairs that are followed; changed in place. A map because Flink has a serializer for it: each to itself
+ * @param kept the pairs that are followed; changed in place
  * @param close how many pairs are close, followed or not
  * @param over whether pairs were left out when it was last looked at
  * @param reported event time of the newest report
  */
-public record Crowd(Map<String, String> kept, int close, boolean over, long reported) {
+public record Crowd(Set<Pair> kept, int close, boolean over, long reported) {
     boolean isEmpty() {
         return close == 0 && kept.isEmpty() && !over;
+    }
+
+    Crowd copy() {
+        return new Crowd(new HashSet<>(kept), close, over, reported);
     }
 
     int leftOut() {

@@ -65,9 +65,8 @@ public record Encounter(
         return new Encounter(other, first, second, distance, closest, start, time);
     }
 
-    /** One text per pair, the same as of its sightings. */
-    String pair() {
-        return Sighting.pair(first, second);
+    Pair pair() {
+        return Pair.of(first, second);
     }
 
     /** 32 hexadecimal digits that stand for the pair. */

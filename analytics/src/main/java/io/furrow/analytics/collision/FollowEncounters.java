@@ -1,11 +1,12 @@
 package io.furrow.analytics.collision;
 
-import org.apache.flink.api.common.functions.OpenContext;
+import java.util.Comparator;
+import java.util.List;
+
 import org.apache.flink.metrics.Counter;
-import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.eventtime.PendingState;
+import io.furrow.analytics.eventtime.EventTimeOperator;
 
 /**
  * Tells the life of each encounter: started, ongoing, ended. Key: the pair.
@@ -19,39 +20,33 @@ import io.furrow.analytics.eventtime.PendingState;
  * <p><b>Emits</b>: records of encounters, a pair's in the order of their time. Instants at which the cells contradict each
  * other are counted as {@code violations}: always 0 unless the code is wrong.
  */
-public final class FollowEncounters extends KeyedProcessFunction<String, Sighting, Encounter> {
+public final class FollowEncounters extends EventTimeOperator<Pair, Sighting, Meeting, Encounter> {
     private static final long serialVersionUID = 1L;
 
     private final Follower follower;
 
-    private transient PendingState<Sighting, Meeting> pair;
     private transient Counter violations;
 
     FollowEncounters(CollisionRules rules) {
+        super(new PendingSightingsFormat());
         follower = new Follower(rules.exact());
     }
 
     @Override
-    public void open(OpenContext context) {
-        pair = new PendingState<>(getRuntimeContext(), new PendingSightingsFormat(), Sighting.SEQUENCE);
-        violations = getRuntimeContext().getMetricGroup().counter("violations");
+    protected Comparator<Sighting> sequence() {
+        return Sighting.SEQUENCE;
     }
 
     @Override
-    public void processElement(Sighting sighting, Context context, Collector<Encounter> out) throws Exception {
-        pair.add(sighting, context.timerService());
+    public void open() throws Exception {
+        super.open();
+        violations = getMetricGroup().counter("violations");
     }
 
     @Override
-    public void onTimer(long time, OnTimerContext context, Collector<Encounter> out) throws Exception {
-        pair.advance(
-                time,
-                context.timerService(),
-                (before, due) -> {
-                    Follower.Followed followed = follower.follow(before, due, out::collect);
-                    violations.inc(followed.violations());
-                    return followed.meeting();
-                },
-                remembered -> PendingState.NEVER);
+    protected Meeting apply(Pair pair, Meeting before, List<Sighting> due, long until, Collector<Encounter> out) {
+        Follower.Followed followed = follower.follow(before, due, out::collect);
+        violations.inc(followed.violations());
+        return followed.meeting();
     }
 }

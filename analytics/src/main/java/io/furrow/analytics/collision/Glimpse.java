@@ -13,8 +13,7 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
  */
 @TypeInfo(GlimpseFormat.class)
 public record Glimpse(PositionFix first, PositionFix second, long firstVersion, long secondVersion, boolean close) {
-    /** The same text as of the pair's sightings. */
-    String pair() {
-        return Sighting.pair(first, second);
+    Pair pair() {
+        return Pair.of(first, second);
     }
 }

@@ -95,7 +95,6 @@ final class Grid implements Serializable {
 
     /** One to one, with bits spread so that neighbouring cells fall into different key groups and hash buckets. */
     private static long id(int band, int column) {
-        long spread = ((long) band << 32 | column) * 0x9E3779B97F4A7C15L;
-        return spread ^ spread >>> 32;
+        return ((long) band << 32 | column) * 0x9E3779B97F4A7C15L;
     }
 }

@@ -1,17 +1,15 @@
 package io.furrow.analytics.collision;
 
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 
-import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ValueState;
-import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.metrics.Counter;
-import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.eventtime.PendingState;
+import io.furrow.analytics.eventtime.EventTimeOperator;
 
 /**
  * Finds the close pairs of each grid cell. Key: the cell's id.
@@ -26,7 +24,7 @@ import io.furrow.analytics.eventtime.PendingState;
  * <p><b>Emits</b>: a sighting for each instant at which a pair is or was close and either device reported or left.
  * What the limit leaves out goes to {@link #OVERFLOWS} and is counted as {@code pairs.left-out}.
  */
-public final class MatchPairs extends KeyedProcessFunction<Long, CellUpdate, Sighting> {
+public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, Sighting> {
     static final OutputTag<CellOverflow> OVERFLOWS = new OutputTag<>("overflows") {
         private static final long serialVersionUID = 1L;
     };
@@ -37,49 +35,39 @@ public final class MatchPairs extends KeyedProcessFunction<Long, CellUpdate, Sig
     private final PairLimit limit;
     private final Grid grid;
 
-    private transient PendingState<CellUpdate, Cell> cell;
-    private transient ValueState<Crowd> crowd;
     private transient Counter leftOut;
 
     MatchPairs(CollisionRules rules) {
+        super(new PendingUpdatesFormat());
         proximity = new Proximity(rules.exact());
         limit = new PairLimit(rules);
         grid = new Grid(rules.exact());
     }
 
     @Override
-    public void open(OpenContext context) {
-        cell = new PendingState<>(getRuntimeContext(), new PendingUpdatesFormat(), CellUpdate.SEQUENCE);
-        crowd = getRuntimeContext().getState(new ValueStateDescriptor<>("crowd", Crowd.class));
-        leftOut = getRuntimeContext().getMetricGroup().counter("pairs.left-out");
+    protected Comparator<CellUpdate> sequence() {
+        return CellUpdate.SEQUENCE;
     }
 
     @Override
-    public void processElement(CellUpdate update, Context context, Collector<Sighting> out) throws Exception {
-        cell.add(update, context.timerService());
+    public void open() throws Exception {
+        super.open();
+        leftOut = getMetricGroup().counter("pairs.left-out");
     }
 
     @Override
-    public void onTimer(long time, OnTimerContext context, Collector<Sighting> out) throws Exception {
-        cell.advance(
-                time,
-                context.timerService(),
-                (before, due) -> {
-                    Cell now = before == null ? Cell.empty() : before;
-                    if (limit.isNone()) {
-                        now.apply(due, proximity, out::collect);
-                    } else {
-                        applyLimited(now, due, context, out);
-                    }
-                    return now.isEmpty() ? null : now;
-                },
-                remembered -> PendingState.NEVER);
+    protected Cell apply(Long id, Cell before, List<CellUpdate> due, long until, Collector<Sighting> out) {
+        Cell now = before == null ? Cell.empty() : before;
+        if (limit.isNone()) {
+            now.apply(due, proximity, out::collect);
+        } else {
+            applyLimited(id, now, due, out);
+        }
+        return now.isEmpty() ? null : now;
     }
 
     /** Instant by instant, so that what is told of an instant does not depend on how far the watermark went. */
-    private void applyLimited(Cell now, List<CellUpdate> due, OnTimerContext context, Collector<Sighting> out)
-            throws Exception {
-        Crowd pairs = crowd.value();
+    private void applyLimited(long id, Cell cell, List<CellUpdate> due, Collector<Sighting> out) {
         int from = 0;
         while (from < due.size()) {
             int to = from + 1;
@@ -87,22 +75,21 @@ public final class MatchPairs extends KeyedProcessFunction<Long, CellUpdate, Sig
                 to++;
             }
             List<Sighting> seen = new ArrayList<>();
-            now.apply(due.subList(from, to), proximity, seen::add);
-            pairs = limit.apply(pairs, seen, new Limited(now, context, out));
+            cell.apply(due.subList(from, to), proximity, seen::add);
+            cell.crowd(limit.apply(cell.crowd(), seen, new Limited(id, cell, out)));
             from = to;
         }
-        crowd.update(pairs); // null clears
     }
 
-    /** Where the pairs of the current cell go. */
+    /** Where the pairs of a cell go. */
     private final class Limited implements PairLimit.Output {
+        private final long id;
         private final Cell cell;
-        private final OnTimerContext context;
         private final Collector<Sighting> out;
 
-        Limited(Cell cell, OnTimerContext context, Collector<Sighting> out) {
+        Limited(long id, Cell cell, Collector<Sighting> out) {
+            this.id = id;
             this.cell = cell;
-            this.context = context;
             this.out = out;
         }
 
@@ -113,7 +100,7 @@ public final class MatchPairs extends KeyedProcessFunction<Long, CellUpdate, Sig
 
         @Override
         public void overflow(Crowd now, Sighting cause) {
-            context.output(OVERFLOWS, now.overflow(cause, cell.devices(), context.getCurrentKey(), grid));
+            output.collect(OVERFLOWS, new StreamRecord<>(now.overflow(cause, cell.devices(), id, grid)));
         }
 
         @Override

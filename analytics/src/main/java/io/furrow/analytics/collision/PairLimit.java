@@ -3,7 +3,7 @@ package io.furrow.analytics.collision;
 import java.io.Serializable;
 import java.util.ArrayList;
 import java.util.Comparator;
-import java.util.HashMap;
+import java.util.HashSet;
 import java.util.List;
 
 /**
@@ -52,7 +52,7 @@ final class PairLimit implements Serializable {
         }
         List<Sighting> sightings = new ArrayList<>(seen);
         sightings.sort(BY_NAME);
-        Crowd crowd = before == null ? new Crowd(new HashMap<>(), 0, false, 0) : before;
+        Crowd crowd = before == null ? new Crowd(new HashSet<>(), 0, false, 0) : before;
         int close = crowd.close() + followed(crowd, sightings, out);
         Crowd now = told(new Crowd(crowd.kept(), close, crowd.over(), crowd.reported()), sightings.get(0), out);
         return now.isEmpty() ? null : now;
@@ -64,10 +64,10 @@ final class PairLimit implements Serializable {
         List<Sighting> candidates = new ArrayList<>();
         for (Sighting sighting : sightings) {
             change += sighting.change();
-            String pair = sighting.pair();
+            Pair pair = sighting.pair();
             boolean kept = sighting.change() < 0
-                    ? crowd.kept().remove(pair) != null
-                    : crowd.kept().containsKey(pair);
+                    ? crowd.kept().remove(pair)
+                    : crowd.kept().contains(pair);
             if (kept) {
                 out.sighting(sighting);
             } else if (sighting.change() >= 0) {
@@ -76,7 +76,7 @@ final class PairLimit implements Serializable {
         }
         for (Sighting candidate : candidates) {
             if (crowd.kept().size() < limit) {
-                crowd.kept().put(candidate.pair(), candidate.pair());
+                crowd.kept().add(candidate.pair());
                 out.sighting(new Sighting(candidate.first(), candidate.second(), candidate.time(), 1));
             } else if (candidate.change() > 0) {
                 out.leftOut();

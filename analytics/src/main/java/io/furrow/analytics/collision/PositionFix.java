@@ -55,30 +55,9 @@ public record PositionFix(
         return topic + '|' + identity;
     }
 
-    /** The same as a key of maps. */
-    Device device() {
+    /** The same without a text to be made. */
+    public Device device() {
         return new Device(topic, identity);
-    }
-
-    /** A device of a topic. What a record would have of its own is slower by the cost of a whole lookup. */
-    static final class Device {
-        private final String topic;
-        private final String identity;
-
-        private Device(String topic, String identity) {
-            this.topic = topic;
-            this.identity = identity;
-        }
-
-        @Override
-        public boolean equals(Object other) {
-            return other instanceof Device device && identity.equals(device.identity) && topic.equals(device.topic);
-        }
-
-        @Override
-        public int hashCode() {
-            return identity.hashCode();
-        }
     }
 
     boolean isOfSameDevice(PositionFix other) {
@@ -98,8 +77,7 @@ public record PositionFix(
 
     /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
     public boolean sharesAggregateWith(PositionFix other) {
-        return carrier.equals(other.identity)
-                || other.carrier.equals(identity)
-                || !carrier.isEmpty() && carrier.equals(other.carrier);
+        return !carrier.isEmpty() && (carrier.equals(other.identity) || carrier.equals(other.carrier))
+                || !other.carrier.isEmpty() && other.carrier.equals(identity);
     }
 }

@@ -74,6 +74,6 @@ public final class PositionFixFormat extends Format<PositionFix> {
 
     private static String readId(String identity, DataInputView in) throws IOException {
         int length = in.readInt();
-        return length < 0 ? Text.read(in) : identity.substring(identity.length() - length);
+        return length < 0 ? Text.read(in) : Text.shared(identity.substring(identity.length() - length));
     }
 }

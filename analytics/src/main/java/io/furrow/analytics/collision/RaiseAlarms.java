@@ -25,7 +25,7 @@ import io.furrow.analytics.eventtime.OneTimer;
  * passed it (and the dwell that a start waits for); the exact records as they are, but for what a start confirms, when the
  * watermark of both inputs has passed them: an exact record may overtake the glimpses of the very positions that it goes by.
  */
-final class RaiseAlarms extends KeyedCoProcessFunction<String, Encounter, Glimpse, Encounter> {
+final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse, Encounter> {
     private static final long serialVersionUID = 1L;
 
     private final long dwell;

@@ -24,12 +24,7 @@ public record Sighting(PositionFix first, PositionFix second, long time, int cha
                 : new Sighting(other, one, time, change);
     }
 
-    /** One text per pair of a topic; the length before the first keeps two pairs from ever sharing one. */
-    public String pair() {
-        return pair(first, second);
-    }
-
-    static String pair(PositionFix first, PositionFix second) {
-        return first.topic() + '|' + first.identity().length() + ':' + first.identity() + second.identity();
+    public Pair pair() {
+        return Pair.of(first, second);
     }
 }

@@ -19,7 +19,7 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p><b>Emits</b>: records of the encounters that started within the threshold and lasted for the dwell.
  */
-public final class SteadyEncounters extends KeyedProcessFunction<String, Encounter, Encounter> {
+public final class SteadyEncounters extends KeyedProcessFunction<Pair, Encounter, Encounter> {
     private static final long serialVersionUID = 1L;
 
     private final Steadier steadier;

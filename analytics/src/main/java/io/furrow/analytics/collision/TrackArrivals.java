@@ -17,7 +17,7 @@ import org.apache.flink.util.Collector;
  *
  * <p><b>Emits</b>: at once what becomes of the device in which cell.
  */
-final class TrackArrivals extends KeyedProcessFunction<String, PositionFix, Arrival> {
+final class TrackArrivals extends KeyedProcessFunction<Device, PositionFix, Arrival> {
     private static final long serialVersionUID = 1L;
 
     private final Tracker tracker;

@@ -1,23 +1,23 @@
 package io.furrow.analytics.collision;
 
+import java.util.Comparator;
 import java.util.List;
 
-import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.ListState;
 import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.metrics.Counter;
-import org.apache.flink.runtime.state.FunctionInitializationContext;
-import org.apache.flink.runtime.state.FunctionSnapshotContext;
-import org.apache.flink.streaming.api.checkpoint.CheckpointedFunction;
-import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.runtime.state.StateInitializationContext;
+import org.apache.flink.runtime.state.StateSnapshotContext;
+import org.apache.flink.streaming.api.watermark.Watermark;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.eventtime.PendingState;
+import io.furrow.analytics.eventtime.EventTimeOperator;
 
 /**
- * Puts each device into the grid cells that have to know of it. Key: the device's identity.
+ * Puts each device into the grid cells that have to know of it. Key: the device.
  *
  * <p><b>State</b>: positions that wait for the watermark, the newest that counts with its cells; per subtask how far
  * event time has come, because a restored job starts without a watermark and must not go back behind what it has told.
@@ -28,8 +28,7 @@ import io.furrow.analytics.eventtime.PendingState;
  *
  * <p><b>Emits</b>: updates of cells, a device's in the order of their time, before the watermark that brings them about.
  */
-public final class TrackDevices extends KeyedProcessFunction<String, PositionFix, CellUpdate>
-        implements CheckpointedFunction {
+public final class TrackDevices extends EventTimeOperator<Device, PositionFix, Track, CellUpdate> {
     static final OutputTag<PositionFix> LATE = new OutputTag<>("late") {
         private static final long serialVersionUID = 1L;
     };
@@ -44,7 +43,6 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
     private final boolean eager;
     private final Tracker tracker;
 
-    private transient PendingState<PositionFix, Track> device;
     private transient ListState<Long> progress;
     private transient long reached;
     private transient Counter accepted;
@@ -56,12 +54,19 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
 
     /** @param eager whether {@link #ACCEPTED} is wanted */
     TrackDevices(CollisionRules rules, boolean eager) {
+        super(new PendingFixesFormat());
         this.eager = eager;
         tracker = new Tracker(rules.exact());
     }
 
     @Override
-    public void initializeState(FunctionInitializationContext context) throws Exception {
+    protected Comparator<PositionFix> sequence() {
+        return PositionFix.SEQUENCE;
+    }
+
+    @Override
+    public void initializeState(StateInitializationContext context) throws Exception {
+        super.initializeState(context);
         progress = context.getOperatorStateStore()
                 .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
         reached = Long.MIN_VALUE;
@@ -71,40 +76,45 @@ public final class TrackDevices extends KeyedProcessFunction<String, PositionFix
     }
 
     @Override
-    public void open(OpenContext context) {
-        device = new PendingState<>(getRuntimeContext(), new PendingFixesFormat(), PositionFix.SEQUENCE);
-        accepted = getRuntimeContext().getMetricGroup().counter("accepted");
-        late = getRuntimeContext().getMetricGroup().counter("late");
+    public void open() throws Exception {
+        super.open();
+        accepted = getMetricGroup().counter("accepted");
+        late = getMetricGroup().counter("late");
     }
 
     @Override
-    public void processElement(PositionFix fix, Context context, Collector<CellUpdate> out) throws Exception {
-        reached = Math.max(reached, context.timerService().currentWatermark());
-        if (fix.time() <= reached) {
+    public void processElement(StreamRecord<PositionFix> record) throws Exception {
+        if (record.getValue().time() <= reached) {
             late.inc();
-            context.output(LATE, fix);
+            output.collect(LATE, record);
             return;
         }
         accepted.inc();
-        device.add(fix, context.timerService());
+        super.processElement(record);
         if (eager) {
-            context.output(ACCEPTED, fix);
+            output.collect(ACCEPTED, record);
         }
     }
 
     @Override
-    public void onTimer(long time, OnTimerContext context, Collector<CellUpdate> out) throws Exception {
-        long until = context.timerService().currentWatermark();
-        reached = Math.max(reached, until);
-        device.advance(
-                time,
-                context.timerService(),
-                (before, due) -> tracker.advance(before, due, until, out::collect),
-                tracker::expiry);
+    public void processWatermark(Watermark mark) throws Exception {
+        reached = Math.max(reached, mark.getTimestamp());
+        super.processWatermark(mark);
     }
 
     @Override
-    public void snapshotState(FunctionSnapshotContext context) throws Exception {
+    protected Track apply(Device device, Track before, List<PositionFix> due, long until, Collector<CellUpdate> out) {
+        return tracker.advance(before, due, until, out::collect);
+    }
+
+    @Override
+    protected long expiry(Track track) {
+        return tracker.expiry(track);
+    }
+
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
         progress.update(List.of(reached));
     }
 }

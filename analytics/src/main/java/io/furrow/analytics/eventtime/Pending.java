@@ -4,49 +4,37 @@ import java.util.ArrayList;
 import java.util.List;
 
 /**
- * All that a key has, in one value: messages that wait for the watermark, what is remembered, and when its timers ring.
- * Changed in place.
+ * All that a key has: messages that wait for the watermark, and what is remembered. Changed in place.
  *
  * @param <M> the messages
  * @param <S> what is remembered between them
  */
-public final class Pending<M extends Timed, S> {
-    static final long NO_TIMER = Long.MAX_VALUE;
-
+public class Pending<M extends Timed, S> {
     List<M> waiting = new ArrayList<>(1);
     S remembered;
-    /** For the earliest message. */
-    long wakeAt = NO_TIMER;
-    /** At or before the instant at which what is remembered ends. */
-    long expiryAt = NO_TIMER;
 
     Pending() {}
 
-    /** Removes what the watermark has passed, in no order. */
-    List<M> takeDue(long watermark) {
-        List<M> due = new ArrayList<>(waiting.size());
-        List<M> later = new ArrayList<>(1);
-        for (M message : waiting) {
-            (message.time() <= watermark ? due : later).add(message);
+    final void takeOver(Pending<M, S> other) {
+        waiting = other.waiting;
+        remembered = other.remembered;
+    }
+
+    /** Moves what the watermark has passed to {@code due}, in no order. */
+    final void takeDue(long watermark, List<M> due) {
+        int left = 0;
+        for (int i = 0; i < waiting.size(); i++) {
+            M message = waiting.get(i);
+            if (message.time() <= watermark) {
+                due.add(message);
+            } else {
+                waiting.set(left++, message);
+            }
         }
-        waiting = later;
-        return due;
+        waiting.subList(left, waiting.size()).clear();
     }
 
-    long earliest() {
-        long earliest = NO_TIMER;
-        for (M message : waiting) {
-            earliest = Math.min(earliest, message.time());
-        }
-        return earliest;
-    }
-
-    void rang(long time) {
-        wakeAt = wakeAt == time ? NO_TIMER : wakeAt;
-        expiryAt = expiryAt == time ? NO_TIMER : expiryAt;
-    }
-
-    boolean isEmpty() {
+    final boolean isEmpty() {
         return remembered == null && waiting.isEmpty();
     }
 }

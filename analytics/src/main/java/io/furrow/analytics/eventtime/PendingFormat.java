@@ -10,7 +10,7 @@ import io.furrow.analytics.format.Format;
 /** How a {@link Pending} is written; a subclass says what its messages and its remembered value are. */
 public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M, S>> {
     private static final long serialVersionUID = 1L;
-    /** Both timers, number of messages, messages, whether something is remembered, what it is. */
+    /** Number of messages, messages, whether something is remembered, what it is. */
     private static final int VERSION = 1;
 
     private final Format<M> messages;
@@ -35,8 +35,6 @@ public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M
 
     @Override
     public final void write(Pending<M, S> pending, DataOutputView out) throws IOException {
-        out.writeLong(pending.wakeAt);
-        out.writeLong(pending.expiryAt);
         out.writeInt(pending.waiting.size());
         for (M message : pending.waiting) {
             messages.write(message, out);
@@ -53,8 +51,6 @@ public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M
             throw unknown(version);
         }
         Pending<M, S> pending = new Pending<>();
-        pending.wakeAt = in.readLong();
-        pending.expiryAt = in.readLong();
         for (int left = in.readInt(); left > 0; left--) {
             pending.waiting.add(messages.read(1, in));
         }
@@ -65,8 +61,6 @@ public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M
     @Override
     public final Pending<M, S> copy(Pending<M, S> pending) {
         Pending<M, S> copy = new Pending<>();
-        copy.wakeAt = pending.wakeAt;
-        copy.expiryAt = pending.expiryAt;
         copy.waiting.addAll(pending.waiting);
         copy.remembered = pending.remembered == null ? null : remembered.copy(pending.remembered);
         return copy;

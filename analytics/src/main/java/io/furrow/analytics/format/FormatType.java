@@ -4,7 +4,7 @@ import org.apache.flink.api.common.serialization.SerializerConfig;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeutils.TypeSerializer;
 
-/** The type information of what a {@link Format} writes; its values are no keys. */
+/** The type information of what a {@link Format} writes; they are keys where they say what makes them equal. */
 public final class FormatType<T> extends TypeInformation<T> {
     private static final long serialVersionUID = 1L;
 
@@ -41,7 +41,7 @@ public final class FormatType<T> extends TypeInformation<T> {
 
     @Override
     public boolean isKeyType() {
-        return false;
+        return true;
     }
 
     @Override

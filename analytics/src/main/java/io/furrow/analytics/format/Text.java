@@ -9,6 +9,9 @@ import org.apache.flink.core.memory.DataOutputView;
 /** Texts in UTF-8 behind their length in one byte below 255, else in four more. */
 public final class Text {
     private static final int LONG = 255;
+    private static final int SPREAD = 0x9E3779B9;
+    private static final int SHIFT = 14;
+    private static final String[] KNOWN = new String[1 << Integer.SIZE - SHIFT];
 
     private Text() {}
 
@@ -34,6 +37,17 @@ public final class Text {
         }
         byte[] bytes = new byte[length == LONG ? in.readInt() : length];
         in.readFully(bytes);
-        return new String(bytes, StandardCharsets.UTF_8);
+        return shared(new String(bytes, StandardCharsets.UTF_8));
+    }
+
+    /** An equal text, the same object as most times before: names come again and again and are held many times over. */
+    public static String shared(String text) {
+        int slot = text.hashCode() * SPREAD >>> SHIFT;
+        String known = KNOWN[slot]; // whichever of two threads wrote last
+        if (text.equals(known)) {
+            return known;
+        }
+        KNOWN[slot] = text;
+        return text;
     }
 }

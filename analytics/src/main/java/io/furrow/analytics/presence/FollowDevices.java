@@ -37,7 +37,7 @@ import io.furrow.flink.TopicRecord;
  *
  * <p><b>Emits</b>: passages, a device's in the order of the times at which they are certain, before the watermark of that time.
  */
-final class FollowDevices extends KeyedBroadcastProcessFunction<String, PresenceFix, TopicRecord, Passage>
+public final class FollowDevices extends KeyedBroadcastProcessFunction<String, PresenceFix, TopicRecord, Passage>
         implements CheckpointedFunction {
     static final OutputTag<PresenceFix> LATE = new OutputTag<>("late") {
         private static final long serialVersionUID = 1L;
@@ -60,7 +60,7 @@ final class FollowDevices extends KeyedBroadcastProcessFunction<String, Presence
     private transient Counter late;
     private transient Counter changes;
 
-    FollowDevices(PresenceRules rules, TopicAtStart atStart) {
+    public FollowDevices(PresenceRules rules, TopicAtStart atStart) {
         this.judge = new Judge(rules);
         this.atStart = atStart;
     }

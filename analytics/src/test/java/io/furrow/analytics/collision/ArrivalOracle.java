@@ -11,7 +11,7 @@ import java.util.TreeSet;
 final class ArrivalOracle {
     private final CollisionRules rules;
     private final Map<String, PositionFix> newest = new HashMap<>();
-    private final Set<String> close = new HashSet<>();
+    private final Set<Pair> close = new HashSet<>();
     private final Set<String> told = new TreeSet<>();
 
     private ArrivalOracle(CollisionRules rules) {
@@ -40,7 +40,7 @@ final class ArrivalOracle {
     }
 
     private void compare(PositionFix first, PositionFix second) {
-        String pair = Sighting.pair(first, second);
+        Pair pair = Pair.of(first, second);
         if (!isClose(first, second)) {
             close.remove(pair);
         } else if (close.add(pair)) {

@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.Comparator;
 import java.util.HashMap;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -22,8 +23,8 @@ final class CollisionOracle {
     private final CollisionRules rules;
     private final Grid grid;
     private final TreeMap<String, List<PositionFix>> devices;
-    private final Map<String, Seen> close = new HashMap<>();
-    private final Map<String, List<Seen>> open = new HashMap<>();
+    private final Map<Pair, Seen> close = new HashMap<>();
+    private final Map<Pair, List<Seen>> open = new HashMap<>();
     private final Map<Long, Overflow> told = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
     private final List<Overflow> overflows = new ArrayList<>();
@@ -81,7 +82,7 @@ final class CollisionOracle {
     }
 
     private void evaluate(long t) {
-        Map<String, Seen> before = Map.copyOf(close);
+        Map<Pair, Seen> before = Map.copyOf(close);
         close.clear();
         List<PositionFix> last = devices.values().stream()
                 .flatMap(fixes -> last(fixes, t).stream())
@@ -89,17 +90,16 @@ final class CollisionOracle {
                 .toList();
         for (int i = 0; i < last.size(); i++) {
             for (PositionFix other : last.subList(i + 1, last.size())) {
-                closeAt(last.get(i), other, t)
-                        .ifPresent(seen -> close.put(Sighting.pair(seen.first, seen.second), seen));
+                closeAt(last.get(i), other, t).ifPresent(seen -> close.put(Pair.of(seen.first, seen.second), seen));
             }
         }
-        Set<String> followed = followed();
-        for (String pair : Set.copyOf(open.keySet())) {
+        Set<Pair> followed = followed();
+        for (Pair pair : Set.copyOf(open.keySet())) {
             if (!followed.contains(pair)) {
                 tell(open.remove(pair), t);
             }
         }
-        for (String pair : followed) {
+        for (Pair pair : followed) {
             Seen seen = close.get(pair);
             if (seen.isNew() || !open.containsKey(pair)) {
                 open.computeIfAbsent(pair, key -> new ArrayList<>()).add(seen);
@@ -135,11 +135,11 @@ final class CollisionOracle {
     }
 
     /** Pairs that are followed stay so in their cell; then those seen now come in by name while there is room. */
-    private Set<String> followed() {
+    private Set<Pair> followed() {
         if (!rules.cells().isLimited()) {
             return close.keySet();
         }
-        Set<String> followed = new TreeSet<>();
+        Set<Pair> followed = new HashSet<>();
         open.forEach((pair, sightings) -> {
             Seen newest = sightings.get(sightings.size() - 1);
             if (close.containsKey(pair) && close.get(pair).cell == newest.cell) {
@@ -153,13 +153,13 @@ final class CollisionOracle {
                     .filter(pair -> close.get(pair).cell == seen.cell)
                     .count();
             if (inCell < rules.cells().pairLimit()) {
-                followed.add(Sighting.pair(seen.first, seen.second));
+                followed.add(Pair.of(seen.first, seen.second));
             }
         });
         return followed;
     }
 
-    private void tellOverflows(Map<String, Seen> before, Set<String> followed, long t) {
+    private void tellOverflows(Map<Pair, Seen> before, Set<Pair> followed, long t) {
         Set<Long> seenIn = new TreeSet<>();
         close.values().stream().filter(Seen::isNew).forEach(seen -> seenIn.add(seen.cell));
         before.forEach((pair, seen) -> {

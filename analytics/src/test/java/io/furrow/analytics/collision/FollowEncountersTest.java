@@ -11,7 +11,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 class FollowEncountersTest {
-    private Stage<String, Sighting, Encounter> stage;
+    private Stage<Pair, Sighting, Encounter> stage;
 
     @BeforeEach
     void start() throws Exception {

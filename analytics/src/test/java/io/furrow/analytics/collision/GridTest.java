@@ -56,6 +56,23 @@ class GridTest {
         assertThat((double) copies / devices).isBetween(1.05, 1.15);
     }
 
+    /** Key groups and buckets of maps go by the hash code: cells of one column must not share one. */
+    @Test
+    void spreadsTheHashCodesOfNeighbouringCells() {
+        Grid grid = new Grid(CollisionRules.DEFAULT);
+        Set<Long> cells = new HashSet<>();
+        Set<Integer> hashCodes = new HashSet<>();
+        for (double latitude = 40; latitude < 40.05; latitude += 0.0008) {
+            for (double longitude = -3; longitude < -2.95; longitude += 0.001) {
+                long home = grid.cells(latitude, longitude)[0];
+                cells.add(home);
+                hashCodes.add(Long.hashCode(home));
+            }
+        }
+        assertThat(cells).hasSizeGreaterThan(1000);
+        assertThat(hashCodes).hasSizeGreaterThan(cells.size() * 99 / 100);
+    }
+
     @Test
     void givesEveryCellAnIdOfItsOwn() {
         Grid grid = new Grid(Worlds.rules(1000, 1000, false));

@@ -66,16 +66,6 @@ class MatchPairsTest {
     }
 
     @Test
-    void keepsOneTimerPerCell() throws Exception {
-        for (int i = 50; i > 0; i--) {
-            stage.receive(resident(east("a", 0, 1000 + i)));
-        }
-        assertThat(stage.timers()).isEqualTo(1);
-        stage.advance(1020);
-        assertThat(stage.timers()).isEqualTo(1);
-    }
-
-    @Test
     void goesOnAfterARestartWithWhatWaitsAndWhoIsThere() throws Exception {
         stage.receive(resident(east("a", 0, 1000)));
         stage.advance(1000);

@@ -1,6 +1,7 @@
 package io.furrow.analytics.collision;
 
-import java.util.Map;
+import java.util.HashSet;
+import java.util.Set;
 
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -19,8 +20,12 @@ import static org.assertj.core.api.Assertions.assertThat;
 class RecordTypesTest {
     private static final PositionFix FIX = Fixes.carriedBy("b", Fixes.at("a", 40.5, -3.25, 1000));
 
+    private static final Pair PAIR = new Pair("t", "farm|/|a", "farm|/|b");
+
     static Object[] records() {
         return new Object[] {
+            PAIR,
+            new Device("t", "farm|/|a"),
             FIX,
             new PositionFix("t", "somebody", "else", "", "é", "", -90, 180, 1.5, 270, Long.MIN_VALUE),
             new PositionFix("t", "farm|/|" + "x".repeat(300), "x".repeat(300), "", "", "", 0, 1, 0, 0, 0),
@@ -41,7 +46,6 @@ class RecordTypesTest {
         return new Object[] {
             new Encounter(Phase.ENDED, FIX, FIX, 4.5, 1.5, 500, 1000),
             new Course(new Encounter(Phase.STARTED, FIX, FIX, 4.5, 1.5, 500, 1000), true, 900),
-            new Crowd(Map.of("a", "a"), 3, true, 1000),
             new CellOverflow(FIX, -7, 40, -3, 9, 4, 1, 1000)
         };
     }
@@ -65,9 +69,13 @@ class RecordTypesTest {
         Cell cell = Cell.empty();
         cell.put(Member.of(FIX, true));
         cell.put(Member.of(Fixes.east("c", 3, 500), false));
+        cell.crowd(new Crowd(new HashSet<>(Set.of(PAIR)), 3, true, 1000));
+        assertThat(copied(cell).crowd()).isEqualTo(cell.crowd());
         assertThat(copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
         Cell copy = serializer(cell).copy(cell);
         copy.put(Member.of(Fixes.east("d", 3, 500), false));
+        copy.crowd().kept().add(new Pair("t", "b", "c"));
+        assertThat(cell.crowd().kept()).containsExactly(PAIR);
         assertThat(copy.members()).hasSize(3);
         assertThat(cell.members()).hasSize(2);
     }

@@ -68,7 +68,7 @@ class RestartedStagesTest {
     }
 
     private static List<Encounter> steadied(
-            List<Encounter> exact, long watermark, CollisionRules rules, Stage<String, Encounter, Encounter> steady)
+            List<Encounter> exact, long watermark, CollisionRules rules, Stage<Pair, Encounter, Encounter> steady)
             throws Exception {
         if (rules.steadiness().isNone()) {
             return exact;
@@ -80,9 +80,9 @@ class RestartedStagesTest {
     private static List<Encounter> advance(
             long watermark,
             Random random,
-            Stage<String, PositionFix, CellUpdate> track,
+            Stage<Device, PositionFix, CellUpdate> track,
             Stage<Long, CellUpdate, Sighting> match,
-            Stage<String, Sighting, Encounter> follow)
+            Stage<Pair, Sighting, Encounter> follow)
             throws Exception {
         List<CellUpdate> updates = track.advance(watermark);
         Collections.shuffle(updates, random);

@@ -19,8 +19,8 @@ final class Simulation {
     private final Map<String, Track> tracks = new HashMap<>();
     private final Map<Long, Cell> cells = new HashMap<>();
     private final Map<Long, Crowd> crowds = new HashMap<>();
-    private final Map<String, Meeting> meetings = new HashMap<>();
-    private final Map<String, Course> courses = new HashMap<>();
+    private final Map<Pair, Meeting> meetings = new HashMap<>();
+    private final Map<Pair, Course> courses = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
     private final List<CollisionOracle.Overflow> overflows = new ArrayList<>();
     private int violations;
@@ -72,7 +72,7 @@ final class Simulation {
         List<Sighting> sightings = new ArrayList<>();
         grouped(updates, CellUpdate::cell).forEach((cell, of) -> match(cell, of, sightings));
         grouped(sightings, Sighting::pair).forEach((pair, of) -> follow(pair, of, until));
-        for (String pair : List.copyOf(courses.keySet())) {
+        for (Pair pair : List.copyOf(courses.keySet())) {
             courses.put(pair, steadier.advance(courses.get(pair), until, encounters::add));
         }
     }
@@ -94,7 +94,7 @@ final class Simulation {
         }
     }
 
-    private void follow(String pair, List<Sighting> sightings, long until) {
+    private void follow(Pair pair, List<Sighting> sightings, long until) {
         sightings.sort(Sighting.SEQUENCE);
         List<Encounter> exact = steadier == null ? encounters : new ArrayList<>();
         Meeting before = meetings.get(pair);

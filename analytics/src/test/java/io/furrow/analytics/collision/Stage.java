@@ -9,8 +9,8 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.api.java.functions.KeySelector;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
-import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.apache.flink.streaming.api.operators.OneInputStreamOperator;
 import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
@@ -19,39 +19,48 @@ import org.apache.flink.util.OutputTag;
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
 final class Stage<K, I, O> {
     private final ToLongFunction<I> time;
-    private final Supplier<KeyedProcessFunction<K, I, O>> function;
+    private final Supplier<OneInputStreamOperator<I, O>> operator;
     private final KeySelector<I, K> key;
     private final TypeInformation<K> keyType;
     private KeyedOneInputStreamOperatorTestHarness<K, I, O> harness;
 
     private Stage(
-            Supplier<KeyedProcessFunction<K, I, O>> function,
+            Supplier<OneInputStreamOperator<I, O>> operator,
             KeySelector<I, K> key,
             TypeInformation<K> keyType,
             ToLongFunction<I> time)
             throws Exception {
         this.time = time;
-        this.function = function;
+        this.operator = operator;
         this.key = key;
         this.keyType = keyType;
         start();
         harness.open();
     }
 
-    static Stage<String, PositionFix, CellUpdate> track(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new TrackDevices(rules), PositionFix::identity, Types.STRING, PositionFix::time);
+    static Stage<Device, PositionFix, CellUpdate> track(CollisionRules rules) throws Exception {
+        return new Stage<>(
+                () -> new TrackDevices(rules),
+                PositionFix::device,
+                TypeInformation.of(Device.class),
+                PositionFix::time);
     }
 
     static Stage<Long, CellUpdate, Sighting> match(CollisionRules rules) throws Exception {
         return new Stage<>(() -> new MatchPairs(rules), CellUpdate::cell, Types.LONG, CellUpdate::time);
     }
 
-    static Stage<String, Sighting, Encounter> follow(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new FollowEncounters(rules), Sighting::pair, Types.STRING, Sighting::time);
+    static Stage<Pair, Sighting, Encounter> follow(CollisionRules rules) throws Exception {
+        return new Stage<>(
+                () -> new FollowEncounters(rules), Sighting::pair, TypeInformation.of(Pair.class), Sighting::time);
     }
 
-    static Stage<String, Encounter, Encounter> steady(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new SteadyEncounters(rules), Encounter::pair, Types.STRING, Encounter::time);
+    static Stage<Pair, Encounter, Encounter> steady(CollisionRules rules) throws Exception {
+        return new Stage<>(
+                () -> new KeyedProcessOperator<>(new SteadyEncounters(rules)),
+                Encounter::pair,
+                TypeInformation.of(Pair.class),
+                Encounter::time);
     }
 
     static Stage<String, PositionFix, Arrival> arrivals(CollisionRules rules) throws Exception {
@@ -96,7 +105,9 @@ final class Stage<K, I, O> {
                 : output.stream().map(StreamRecord::getValue).toList();
     }
 
-    int stateEntries() {
+    /** As of a checkpoint now. */
+    int stateEntries() throws Exception {
+        harness.snapshot(2, 2);
         return harness.numKeyedStateEntries();
     }
 
@@ -113,8 +124,7 @@ final class Stage<K, I, O> {
     }
 
     private void start() throws Exception {
-        harness =
-                new KeyedOneInputStreamOperatorTestHarness<>(new KeyedProcessOperator<>(function.get()), key, keyType);
+        harness = new KeyedOneInputStreamOperatorTestHarness<>(operator.get(), key, keyType);
     }
 
     void stop() throws Exception {

@@ -16,7 +16,7 @@ class SteadyEncountersTest {
     private static final Duration NO_DWELL = Duration.ZERO;
     private static final Duration SECOND = Duration.ofSeconds(1);
 
-    private Stage<String, Encounter, Encounter> stage;
+    private Stage<Pair, Encounter, Encounter> stage;
 
     @AfterEach
     void leaveNothing() throws Exception {

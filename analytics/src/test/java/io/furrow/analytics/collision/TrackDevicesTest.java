@@ -18,7 +18,7 @@ class TrackDevicesTest {
             new CollisionRules(5, Duration.ofSeconds(3), Duration.ZERO, Duration.ZERO, 100);
 
     private final Grid grid = new Grid(RULES);
-    private Stage<String, PositionFix, CellUpdate> stage;
+    private Stage<Device, PositionFix, CellUpdate> stage;
 
     @BeforeEach
     void start() throws Exception {
@@ -101,19 +101,36 @@ class TrackDevicesTest {
     }
 
     @Test
-    void keepsATimerForTheNextPositionAndOneForTheEndHoweverManyWait() throws Exception {
+    void forgetsInTheNextCheckpointWhomItHadSavedAndRemembersWhoCameBack() throws Exception {
+        stage.receive(List.of(east("a", 50, 1000), east("b", 50, 1000)));
+        stage.advance(1000);
+        assertThat(stage.stateEntries()).isEqualTo(2);
+        stage.advance(4000);
+        stage.receive(east("b", 50, 5000));
+        stage.advance(5000);
+        assertThat(stage.stateEntries()).isEqualTo(1);
+        stage.restart();
+        assertThat(stage.advance(8000))
+                .isNotEmpty()
+                .allMatch(update -> update.presence() == Presence.GONE && update.time() == 8000);
+    }
+
+    @Test
+    void keepsWhatWaitsHoweverTheWatermarkCutsIt() throws Exception {
         List<PositionFix> fixes = new ArrayList<>();
         for (int i = 0; i < 50; i++) {
             fixes.add(east("a", i, 1000 + 100 * i));
-            fixes.add(east("b", i, 1000 + 100 * i));
         }
         Collections.shuffle(fixes, new Random(3));
         stage.receive(fixes);
-        assertThat(stage.timers()).isEqualTo(2);
-        assertThat(stage.advance(3000)).isNotEmpty();
-        assertThat(stage.timers()).isEqualTo(4);
-        assertThat(stage.advance(5000)).isNotEmpty();
-        assertThat(stage.timers()).isEqualTo(4);
+        List<Long> times = new ArrayList<>();
+        for (long watermark = 950; watermark < 6200; watermark += 170) {
+            stage.advance(watermark).stream().map(CellUpdate::time).distinct().forEach(times::add);
+            stage.restart();
+        }
+        assertThat(times)
+                .containsExactlyElementsOf(
+                        fixes.stream().map(PositionFix::time).sorted().toList());
     }
 
     private long[] cells(PositionFix fix) {

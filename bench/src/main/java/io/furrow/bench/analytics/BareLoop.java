@@ -5,9 +5,12 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
+import org.HdrHistogram.Histogram;
+
 import io.furrow.analytics.collision.Cell;
 import io.furrow.analytics.collision.CellUpdate;
 import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.Pair;
 import io.furrow.analytics.collision.PositionFix;
 import io.furrow.analytics.collision.Proximity;
 import io.furrow.analytics.collision.Sighting;
@@ -25,8 +28,8 @@ final class BareLoop {
     private final Track[] tracks;
     private final Map<Long, Cell> cells = new HashMap<>();
     private final Map<Long, List<CellUpdate>> instant = new HashMap<>();
-    private final Map<String, Integer> changes = new HashMap<>();
-    private final Map<String, Boolean> close = new HashMap<>();
+    private final Map<Pair, Integer> changes = new HashMap<>();
+    private final Map<Pair, Boolean> close = new HashMap<>();
     private long now = Long.MIN_VALUE;
     private long starts;
 
@@ -45,13 +48,29 @@ final class BareLoop {
         return starts;
     }
 
-    private void take(PositionFix fix) {
+    /** Nanoseconds that an update takes, alone at its instant, in some seconds of event time after as many that do not count. */
+    Histogram delays(int seconds) {
+        Histogram delays = new Histogram(3);
+        for (long tick = 0; tick < 2L * seconds * Fleet.TICKS_PER_SECOND; tick++) {
+            if (tick == (long) seconds * Fleet.TICKS_PER_SECOND) {
+                delays.reset();
+            }
+            fleet.tick(tick, fix -> {
+                long begin = System.nanoTime();
+                take(fix);
+                apply();
+                delays.recordValue(System.nanoTime() - begin);
+            });
+        }
+        return delays;
+    }
+
+    void take(PositionFix fix) {
         if (fix.time() != now) {
             apply();
             now = fix.time();
         }
-        int device = Integer.parseInt(
-                fix.id(), fix.id().lastIndexOf(':') + 1, fix.id().length(), 10);
+        int device = Fleet.number(fix);
         tracks[device] = tracker.move(
                 tracks[device],
                 fix,

@@ -5,6 +5,7 @@ import java.lang.management.ManagementFactory;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.stream.Stream;
@@ -26,7 +27,7 @@ import io.furrow.analytics.collision.CollisionRules;
 /** Runs the three stages of collision detection in a Flink cluster of this JVM, fed from memory inside the job. */
 public final class CollisionMeasurement {
     private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
-    private static final int MAX_PARALLELISM = 720;
+    static final int MAX_PARALLELISM = 720;
     /** The first second has everything start at once; few more are enough to tell whether the stages agree. */
     private static final int MOST_COMPARED = 20;
 
@@ -45,6 +46,10 @@ public final class CollisionMeasurement {
         Reading before = Reading.of(progress);
         TimeUnit.MILLISECONDS.sleep(plan.measured().toMillis());
         Reading after = Reading.of(progress);
+        CompletableFuture<?> ended = job.getJobExecutionResult();
+        if (ended.isDone()) {
+            ended.get(); // throws why
+        }
         double bytes = savepointBytes(job, name);
         job.cancel().get(1, TimeUnit.MINUTES);
         Bare bare = bare(plan, progress);

@@ -76,18 +76,22 @@ final class Fleet {
         int i = device / shares;
         east[i] = inside(east[i] + step(mixed(device, 2 * second)));
         north[i] = inside(north[i] + step(mixed(device, 2 * second + 1)));
-        return new PositionFix(
-                TOPIC,
+        return fix(
                 identities[i],
                 ids[i],
-                "Robot",
-                "",
-                "",
                 LATITUDE + north[i] / METERS_PER_DEGREE,
                 LONGITUDE + east[i] / METERS_PER_DEGREE_EAST,
-                Double.NaN,
-                Double.NaN,
                 time);
+    }
+
+    static PositionFix fix(String identity, String id, double latitude, double longitude, long time) {
+        return new PositionFix(TOPIC, identity, id, "Robot", "", "", latitude, longitude, Double.NaN, Double.NaN, time);
+    }
+
+    /** Which of the devices it is, from 0 on. */
+    static int number(PositionFix fix) {
+        return Integer.parseInt(
+                fix.id(), fix.id().lastIndexOf(':') + 1, fix.id().length(), 10);
     }
 
     private static double inside(double meters) {

@@ -1,0 +1,242 @@
+package io.furrow.analytics.eventtime;
+
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.NavigableMap;
+import java.util.PriorityQueue;
+import java.util.Set;
+import java.util.TreeMap;
+
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.api.java.functions.KeySelector;
+import org.apache.flink.runtime.state.StateInitializationContext;
+import org.apache.flink.runtime.state.StateSnapshotContext;
+import org.apache.flink.runtime.state.VoidNamespace;
+import org.apache.flink.runtime.state.VoidNamespaceSerializer;
+import org.apache.flink.streaming.api.operators.AbstractStreamOperator;
+import org.apache.flink.streaming.api.operators.OneInputStreamOperator;
+import org.apache.flink.streaming.api.operators.TimestampedCollector;
+import org.apache.flink.streaming.api.watermark.Watermark;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.format.FormatType;
+
+/**
+ * A keyed stage that acts in event time: messages wait until the watermark has passed them and are then applied in sequence
+ * to what is remembered of their key, before the watermark goes on. It holds its keys in plain maps and goes through those
+ * that have something to do once per watermark, because a timer per key and an access to keyed state per message cost several
+ * times what is done with the message. Keyed state, the value {@code pending}, has all of it as of the last checkpoint.
+ *
+ * @param <K> the keys
+ * @param <M> the messages
+ * @param <S> what is remembered between them
+ * @param <O> what comes out, without a timestamp
+ */
+public abstract class EventTimeOperator<K, M extends Timed, S, O> extends AbstractStreamOperator<O>
+        implements OneInputStreamOperator<M, O> {
+    /** For what is remembered until a message ends it. */
+    protected static final long NEVER = Long.MAX_VALUE;
+
+    private static final long serialVersionUID = 1L;
+    /** Of a millisecond: a key is looked at when the watermark comes to within 64 ms of its next message. */
+    private static final int STEP_BITS = 6;
+
+    private final PendingFormat<M, S> format;
+
+    private transient Comparator<M> sequence;
+    private transient KeySelector<M, K> keyOf;
+    private transient ValueState<Pending<M, S>> saved;
+    private transient Map<K, Slot<K, M, S>> slots;
+    /** What was saved and is no more. */
+    private transient Set<K> gone;
+    /** Those with messages, by the time of the earliest in steps of {@link #STEP_BITS}. */
+    private transient TreeMap<Long, List<Slot<K, M, S>>> awaited;
+
+    private transient PriorityQueue<Deadline<K, M, S>> deadlines;
+    private transient List<M> due;
+    private transient Collector<O> out;
+
+    /** A key and what it has. */
+    private static final class Slot<K, M extends Timed, S> extends Pending<M, S> {
+        private final K key;
+        /** Of the earliest message that it is awaited for. */
+        private long earliest = NEVER;
+        /** Of the earliest deadline set. */
+        private long expiry = NEVER;
+
+        private boolean changed;
+        private boolean saved;
+
+        private Slot(K key) {
+            this.key = key;
+        }
+    }
+
+    /** Is left where it is when the end moves away, and set anew when it has passed. */
+    private record Deadline<K, M extends Timed, S>(long time, Slot<K, M, S> slot) {}
+
+    protected EventTimeOperator(PendingFormat<M, S> format) {
+        this.format = format;
+    }
+
+    /** In which the messages of a key are applied. */
+    protected abstract Comparator<M> sequence();
+
+    /**
+     * What messages do to what is remembered.
+     *
+     * @param before null where nothing is remembered
+     * @param due in sequence; may be empty; must not be kept
+     * @param until the watermark
+     * @return null where nothing is remembered from now on
+     */
+    protected abstract S apply(K key, S before, List<M> due, long until, Collector<O> out) throws Exception;
+
+    /** When what is remembered ends without a message, in epoch milliseconds, or {@link #NEVER}. */
+    protected long expiry(S remembered) {
+        return NEVER;
+    }
+
+    /** None per message: keyed state is only written for a checkpoint. */
+    @Override
+    public final boolean hasKeyContext1() {
+        return false;
+    }
+
+    @Override
+    @SuppressWarnings("unchecked") // the stream was keyed by it
+    public void initializeState(StateInitializationContext context) throws Exception {
+        super.initializeState(context);
+        keyOf = (KeySelector<M, K>) getStateKeySelector1();
+        slots = new HashMap<>();
+        gone = new HashSet<>();
+        awaited = new TreeMap<>();
+        deadlines = new PriorityQueue<>(Comparator.comparingLong(Deadline::time));
+        ValueStateDescriptor<Pending<M, S>> pending = new ValueStateDescriptor<>("pending", new FormatType<>(format));
+        saved = context.getKeyedStateStore().getState(pending);
+        if (context.isRestored()) {
+            this.<K>getKeyedStateBackend()
+                    .applyToAllKeys(
+                            VoidNamespace.INSTANCE,
+                            VoidNamespaceSerializer.INSTANCE,
+                            pending,
+                            (key, state) -> restore(key, state.value()));
+        }
+    }
+
+    private void restore(K key, Pending<M, S> pending) {
+        Slot<K, M, S> slot = new Slot<>(key);
+        slot.takeOver(format.copy(pending));
+        slot.saved = true;
+        slots.put(key, slot);
+        slot.waiting.forEach(message -> await(slot, message.time()));
+        if (slot.remembered != null) {
+            expireAt(slot, expiry(slot.remembered));
+        }
+    }
+
+    @Override
+    public void open() throws Exception {
+        super.open();
+        sequence = sequence();
+        due = new ArrayList<>();
+        TimestampedCollector<O> collector = new TimestampedCollector<>(output);
+        collector.eraseTimestamp();
+        out = collector;
+    }
+
+    @Override
+    public void processElement(StreamRecord<M> record) throws Exception {
+        M message = record.getValue();
+        Slot<K, M, S> slot = slots.computeIfAbsent(keyOf.getKey(message), Slot::new);
+        slot.waiting.add(message);
+        slot.changed = true;
+        await(slot, message.time());
+    }
+
+    private void await(Slot<K, M, S> slot, long time) {
+        if (time < slot.earliest) {
+            slot.earliest = time;
+            awaited.computeIfAbsent(time >> STEP_BITS, step -> new ArrayList<>())
+                    .add(slot);
+        }
+    }
+
+    @Override
+    public void processWatermark(Watermark mark) throws Exception {
+        long until = mark.getTimestamp();
+        while (!deadlines.isEmpty() && deadlines.peek().time <= until) {
+            Slot<K, M, S> slot = deadlines.poll().slot;
+            slot.expiry = NEVER;
+            advance(slot, until);
+        }
+        NavigableMap<Long, List<Slot<K, M, S>>> passed = awaited.headMap(until >> STEP_BITS, true);
+        List<List<Slot<K, M, S>>> visited = new ArrayList<>(passed.values());
+        passed.clear();
+        for (List<Slot<K, M, S>> step : visited) {
+            for (Slot<K, M, S> slot : step) {
+                slot.earliest = NEVER;
+                advance(slot, until);
+            }
+        }
+        super.processWatermark(mark);
+    }
+
+    private void advance(Slot<K, M, S> slot, long until) throws Exception {
+        if (slot.isEmpty()) {
+            return; // it was awaited for something that is done
+        }
+        due.clear();
+        slot.takeDue(until, due);
+        if (due.size() > 1) {
+            due.sort(sequence);
+        }
+        S now = apply(slot.key, slot.remembered, due, until, out);
+        slot.changed |= !due.isEmpty() || now != slot.remembered;
+        slot.remembered = now;
+        if (slot.isEmpty()) {
+            slots.remove(slot.key, slot);
+            if (slot.saved) {
+                gone.add(slot.key);
+            }
+            return;
+        }
+        for (M message : slot.waiting) {
+            await(slot, message.time());
+        }
+        if (now != null) {
+            expireAt(slot, expiry(now));
+        }
+    }
+
+    private void expireAt(Slot<K, M, S> slot, long time) {
+        if (time < slot.expiry) {
+            slot.expiry = time;
+            deadlines.add(new Deadline<>(time, slot));
+        }
+    }
+
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
+        for (K key : gone) {
+            setCurrentKey(key);
+            saved.clear();
+        }
+        gone.clear();
+        for (Slot<K, M, S> slot : slots.values()) {
+            if (slot.changed) {
+                setCurrentKey(slot.key);
+                saved.update(format.copy(slot));
+                slot.saved = true;
+                slot.changed = false;
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+package io.furrow.bench.analytics;
+
+import java.io.IOException;
+import java.lang.management.ManagementFactory;
+import java.time.Duration;
+import java.util.Map;
+import java.util.function.Consumer;
+
+import com.sun.management.OperatingSystemMXBean;
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.PipelineOptions;
+import org.apache.flink.connector.datagen.source.DataGeneratorSource;
+import org.apache.flink.connector.datagen.source.GeneratorFunction;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
+
+import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.presence.FollowDevices;
+import io.furrow.analytics.presence.PresenceFix;
+import io.furrow.analytics.presence.PresenceRules;
+import io.furrow.analytics.temperature.AssignFields;
+import io.furrow.analytics.temperature.Reading;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Position;
+
+/** Points per second and core through the operators that join readings and devices with fields, beside a bare loop. */
+public final class FieldMeasurement {
+    private static final int VALUE_BYTES = 400;
+    private static final int ROUNDS = 3;
+    private static final int DEVICES = 10_000;
+    private static final String TOPIC = "data.raw";
+    private static final PresenceRules PRESENCE = new PresenceRules(Duration.ofMinutes(5), Duration.ZERO);
+
+    private final MadeUpFields fields;
+    private final long points;
+    private final Consumer<String> progress;
+
+    private interface Work {
+        void run() throws Exception;
+    }
+
+    /** What a join took. */
+    private record Taken(double seconds, double cpuSeconds) {}
+
+    /**
+     * @param fields how many
+     * @param corners of each
+     * @param points of each round
+     */
+    public FieldMeasurement(int fields, int corners, long points, Consumer<String> progress) {
+        this.fields = new MadeUpFields(fields, corners);
+        this.points = points;
+        this.progress = progress;
+    }
+
+    /** Rounds by turns, of which only the last counts: before it the JVM is cold. */
+    public void run(Iterable<Integer> parallelisms, Figures figures) throws Exception {
+        for (int parallelism : parallelisms) {
+            Taken bare = null;
+            Taken temperature = null;
+            Taken presence = null;
+            for (int round = 1; round <= ROUNDS; round++) {
+                bare = measure(this::loop);
+                temperature = measure(() -> temperature(parallelism));
+                presence = measure(() -> presence(parallelism));
+                progress.accept("fields on %d, round %d of %d".formatted(parallelism, round, ROUNDS));
+            }
+            add("temperature", parallelism, temperature, bare, figures);
+            add("presence", parallelism, presence, bare, figures);
+        }
+    }
+
+    private void add(String job, int parallelism, Taken taken, Taken bare, Figures figures) {
+        figures.add(
+                "join of", job,
+                "cores", parallelism,
+                "points/s", points / taken.seconds,
+                "per core", points / taken.cpuSeconds,
+                "bare loop", points / bare.seconds);
+    }
+
+    private void loop() throws IOException {
+        KnownFields known = KnownFields.read(fields);
+        long found = 0;
+        for (long n = 0; n < points; n++) {
+            found += known.covering(fields.position(n), 1).size();
+        }
+        if (found == 0) {
+            throw new IOException("no point is in any field: there was nothing to measure");
+        }
+    }
+
+    private void temperature(int parallelism) throws Exception {
+        StreamExecutionEnvironment env = environment(parallelism);
+        MadeUpFields where = fields; // this object does not travel with the job
+        GeneratorFunction<Long, Reading> nth = n ->
+                new Reading("urn:ngsi-ld:Thermometer:1", FiwareScope.DEFAULT, where.position(n), 18, "id", record(n));
+        stream(env, nth, Reading.class, WatermarkStrategy.noWatermarks())
+                .connect(changes(env).broadcast(KnownFields.BROADCAST))
+                .process(new AssignFields(fields))
+                .sinkTo(new DiscardingSink<>());
+        env.execute();
+    }
+
+    private void presence(int parallelism) throws Exception {
+        StreamExecutionEnvironment env = environment(parallelism);
+        MadeUpFields where = fields;
+        GeneratorFunction<Long, PresenceFix> nth = n -> {
+            Position position = where.position(n);
+            String id = "urn:ngsi-ld:Robot:" + n % DEVICES;
+            long time = Fleet.START + n * 1000 / DEVICES;
+            return new PresenceFix(TOPIC, "farm|/|" + id, id, "", position.latitude(), position.longitude(), time);
+        };
+        stream(
+                        env,
+                        nth,
+                        PresenceFix.class,
+                        WatermarkStrategy.<PresenceFix>forBoundedOutOfOrderness(Duration.ofSeconds(1))
+                                .withTimestampAssigner((fix, previous) -> fix.time()))
+                .keyBy(PresenceFix::key)
+                .connect(changes(env).broadcast(KnownFields.BROADCAST))
+                .process(new FollowDevices(PRESENCE, fields))
+                .sinkTo(new DiscardingSink<>());
+        env.execute();
+    }
+
+    private static StreamExecutionEnvironment environment(int parallelism) {
+        Configuration settings = new Configuration();
+        settings.set(PipelineOptions.GENERIC_TYPES, false);
+        settings.set(PipelineOptions.OBJECT_REUSE, true);
+        return StreamExecutionEnvironment.createLocalEnvironment(parallelism, settings);
+    }
+
+    private <T> DataStream<T> stream(
+            StreamExecutionEnvironment env, GeneratorFunction<Long, T> nth, Class<T> type, WatermarkStrategy<T> marks) {
+        return env.fromSource(
+                new DataGeneratorSource<>(nth, points, TypeInformation.of(type)), marks, type.getSimpleName());
+    }
+
+    private DataStream<TopicRecord> changes(StreamExecutionEnvironment env) {
+        return env.fromData(fields.read(), TypeInformation.of(TopicRecord.class)); // its end holds nobody up
+    }
+
+    private static TopicRecord record(long n) {
+        return TopicRecord.of(TOPIC, n, "urn:ngsi-ld:Thermometer:1", new byte[VALUE_BYTES], Map.of());
+    }
+
+    private static Taken measure(Work work) throws Exception {
+        OperatingSystemMXBean process = (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
+        long cpu = process.getProcessCpuTime();
+        long begin = System.nanoTime();
+        work.run();
+        double seconds = (System.nanoTime() - begin) / 1e9;
+        return new Taken(seconds, (process.getProcessCpuTime() - cpu) / 1e9);
+    }
+}

@@ -1,0 +1,147 @@
+package io.furrow.bench.analytics;
+
+import java.lang.management.ManagementFactory;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+
+import com.sun.management.OperatingSystemMXBean;
+import org.HdrHistogram.Histogram;
+
+import io.furrow.analytics.collision.CollisionJob;
+import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.bench.ingest.IngestMeasurement.Cluster;
+import io.furrow.bench.ingest.IngestMeasurement.Running;
+import io.furrow.flink.JobCommandLine;
+
+/** Lets the job {@code collision} read NGSI entities from a topic and write what it finds to another. */
+public final class TopicMeasurement {
+    private static final Duration PATIENCE = Duration.ofMinutes(10);
+    private static final long LOOK_MS = 20;
+    /** Event time at the end of the input that the watermark never passes, and a little more. */
+    private static final long BEHIND_MS = 3000;
+
+    private static final OperatingSystemMXBean SYSTEM =
+            (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
+
+    private final Cluster cluster;
+    private final Consumer<String> progress;
+    private int runs;
+
+    public TopicMeasurement(Cluster cluster, Consumer<String> progress) {
+        this.cluster = cluster;
+        this.progress = progress;
+    }
+
+    /** How far a job is. */
+    private record Reading(long nanos, long cpuNanos, long event) {}
+
+    /** Updates per second of a topic that was filled before. */
+    public void updates(int devices, int parallelism, long records, Figures figures) throws Exception {
+        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
+            topic.fill(devices, records);
+            progress.accept("%,d records of %,d devices written".formatted(records, devices));
+            double bare = BareReader.perSecond(topic, devices);
+            long span = 1000 * records / devices;
+            Running job = start(topic, parallelism, List.of());
+            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), false)) {
+                Reading from = await(found, Fleet.START + span / 4);
+                Reading to = await(found, Fleet.START + span - BEHIND_MS);
+                double updates = (to.event - from.event) / 1000.0 * devices;
+                figures.add(
+                        "devices",
+                        devices,
+                        "cores",
+                        parallelism,
+                        "updates/s",
+                        updates / (to.nanos - from.nanos) * 1e9,
+                        "cpu us",
+                        (to.cpuNanos - from.cpuNanos) / 1e3 / updates,
+                        "bare loop",
+                        bare,
+                        "found",
+                        found.count());
+            } finally {
+                job.cancel();
+            }
+        }
+    }
+
+    /** A fleet that reports once a second as time goes by, and how far the job's consumer is behind it, second by second. */
+    public HeldRate held(int devices, int parallelism, Duration warmUp, Duration measured) throws Exception {
+        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
+            Thread fleet = new Thread(() -> topic.report(devices), "bench-fleet");
+            Running job = start(topic, parallelism, List.of());
+            fleet.start();
+            try (GroupLag lag = new GroupLag(cluster.kafka(), topic.name(), jobName())) {
+                TimeUnit.MILLISECONDS.sleep(warmUp.toMillis());
+                long begin = System.nanoTime();
+                long sent = topic.sent();
+                List<Long> lags = new ArrayList<>();
+                for (int second = 1; second <= measured.toSeconds(); second++) {
+                    TimeUnit.NANOSECONDS.sleep(
+                            begin + Duration.ofSeconds(second).toNanos() - System.nanoTime());
+                    lags.add(lag.records());
+                    progress.accept("%d s: lag %,d".formatted(second, lags.get(second - 1)));
+                }
+                double rate = (topic.sent() - sent) / ((System.nanoTime() - begin) / 1e9);
+                return new HeldRate(devices, rate, lags);
+            } finally {
+                topic.stop();
+                fleet.join();
+                job.cancel();
+            }
+        }
+    }
+
+    /** How long after a position its alarm is in the topic of results, in whole milliseconds. */
+    public Histogram alarms(int devices, int parallelism, Duration measured) throws Exception {
+        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
+            Thread fleet = new Thread(() -> topic.report(devices), "bench-fleet");
+            Running job = start(topic, parallelism, List.of("--eager"));
+            fleet.start();
+            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), true)) {
+                TimeUnit.MILLISECONDS.sleep(measured.toMillis());
+                found.alarms().reset(); // the start of the job
+                TimeUnit.MILLISECONDS.sleep(measured.toMillis());
+                return found.alarms().copy();
+            } finally {
+                topic.stop();
+                fleet.join();
+                job.cancel();
+            }
+        }
+    }
+
+    private static Reading await(FoundReader found, long event) throws InterruptedException {
+        long end = System.nanoTime() + PATIENCE.toNanos();
+        while (found.newest() < event) {
+            if (System.nanoTime() > end) {
+                throw new IllegalStateException("%d results after %d s, event time at %d, awaited %d"
+                        .formatted(found.count(), PATIENCE.toSeconds(), found.newest(), event));
+            }
+            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+        }
+        return new Reading(System.nanoTime(), SYSTEM.getProcessCpuTime(), found.newest());
+    }
+
+    private String jobName() {
+        return "collision-" + runs;
+    }
+
+    /** Under a name of its own each reads from the beginning. */
+    private Running start(FleetTopic topic, int parallelism, List<String> more) throws Exception {
+        List<String> args = new ArrayList<>(more);
+        args.addAll(List.of("--bootstrap-servers", cluster.kafka().getProperty("bootstrap.servers")));
+        args.addAll(List.of("--input", topic.name(), "--output", topic.results()));
+        args.addAll(List.of("--parallelism", Integer.toString(parallelism), "--checkpoint-interval", "1s"));
+        args.addAll(List.of(
+                "--checkpoint-dir",
+                cluster.checkpoints().resolve(jobName()).toUri().toString()));
+        CollisionOptions options = new CollisionOptions();
+        JobCommandLine.of(options).setCommandName(jobName()).parseArgs(args.toArray(String[]::new));
+        return cluster.flink().start(jobName(), CollisionJob.assemble(options));
+    }
+}

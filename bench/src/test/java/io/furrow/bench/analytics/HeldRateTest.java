@@ -1,0 +1,36 @@
+package io.furrow.bench.analytics;
+
+import java.util.List;
+import java.util.stream.LongStream;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.within;
+
+class HeldRateTest {
+    @Test
+    void holdsWhereTheLagSwingsWithTheCheckpoints() {
+        HeldRate held = new HeldRate(1000, 1000, lags(0, 700));
+        assertThat(held.slope()).isCloseTo(0, within(10.0));
+        assertThat(held.isHeld()).isTrue();
+    }
+
+    @Test
+    void doesNotHoldWhereTheLagGrows() {
+        HeldRate grown = new HeldRate(1000, 1000, lags(20, 700));
+        assertThat(grown.slope()).isCloseTo(20, within(10.0));
+        assertThat(grown.isHeld()).isFalse();
+    }
+
+    @Test
+    void doesNotHoldWhereTheFleetSentLess() {
+        assertThat(new HeldRate(1000, 950, lags(0, 0)).isHeld()).isFalse();
+    }
+
+    private static List<Long> lags(long growth, long swing) {
+        return LongStream.range(0, 60)
+                .mapToObj(second -> 500 + growth * second + second % 3 * swing / 2)
+                .toList();
+    }
+}
