@@ -4,7 +4,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.operators.co.KeyedCoProcessOperator;
 import org.apache.flink.streaming.api.watermark.Watermark;
@@ -156,7 +156,7 @@ class EagerStagesTest {
     /** The last stage, of one pair. */
     private static final class Alarms {
         private final CollisionRules rules;
-        private KeyedTwoInputStreamOperatorTestHarness<String, Encounter, Glimpse, Encounter> harness;
+        private KeyedTwoInputStreamOperatorTestHarness<Pair, Encounter, Glimpse, Encounter> harness;
 
         Alarms(CollisionRules rules) throws Exception {
             this.rules = rules;
@@ -207,7 +207,10 @@ class EagerStagesTest {
 
         private void start() throws Exception {
             harness = new KeyedTwoInputStreamOperatorTestHarness<>(
-                    new KeyedCoProcessOperator<>(new RaiseAlarms(rules)), Encounter::pair, Glimpse::pair, Types.STRING);
+                    new KeyedCoProcessOperator<>(new RaiseAlarms(rules)),
+                    Encounter::pair,
+                    Glimpse::pair,
+                    TypeInformation.of(Pair.class));
         }
 
         private List<Encounter> told() {

@@ -12,6 +12,7 @@ import java.util.concurrent.CompletionStage;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.concurrent.TimeUnit;
 
+import org.apache.flink.api.common.JobStatus;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.connector.source.SourceSplit;
@@ -83,11 +84,8 @@ class RescaledDetectionTest {
             savepoint = job.triggerSavepoint(savepoints.toString(), SavepointFormatType.CANONICAL)
                     .get(60, TimeUnit.SECONDS);
             GATE.letPass(AFTER_SAVEPOINT);
-            GATE.awaitAllPassed();
-            job.cancel().get(60, TimeUnit.SECONDS);
-            Awaitility.await()
-                    .atMost(Duration.ofSeconds(60))
-                    .until(() -> job.getJobStatus().get().isGloballyTerminalState());
+            awaitWritten(expected, cut + AFTER_SAVEPOINT);
+            kill(cluster, run, job);
         }
         GATE.letPass(arrivals.size());
         start(rules, PARALLELISMS[PARALLELISMS.length - 1], savepoint)
@@ -112,14 +110,40 @@ class RescaledDetectionTest {
         return fixes;
     }
 
-    /** Encounters that have been told and have not ended when so many positions have come. */
-    private static long underWay(List<Encounter> expected, int positions) {
-        long watermark = arrivals.subList(0, positions).stream()
+    /** The task manager goes with all that its tasks hold, and another comes in its place. */
+    private static void kill(MiniCluster cluster, int taskManager, JobClient job) throws Exception {
+        cluster.terminateTaskManager(taskManager).get(60, TimeUnit.SECONDS);
+        Awaitility.await().atMost(Duration.ofSeconds(60)).until(() -> job.getJobStatus()
+                .get()
+                .isGloballyTerminalState());
+        assertThat(job.getJobStatus().get()).isEqualTo(JobStatus.FAILED);
+        cluster.startTaskManager();
+    }
+
+    /** Else the kill may come before anything was made of the last positions. */
+    private static void awaitWritten(List<Encounter> expected, int positions) {
+        long watermark = watermark(positions);
+        long due = expected.stream()
+                .filter(encounter -> encounter.time() <= watermark)
+                .count();
+        Awaitility.await()
+                .atMost(Duration.ofSeconds(60))
+                .until(() -> distinct(WRITTEN).size() >= due);
+    }
+
+    /** After so many positions. */
+    private static long watermark(int positions) {
+        return arrivals.subList(0, positions).stream()
                         .mapToLong(Timed::time)
                         .max()
                         .orElseThrow()
                 - DetectionRun.BOUND
                 - 1;
+    }
+
+    /** Encounters that have been told and have not ended when so many positions have come. */
+    private static long underWay(List<Encounter> expected, int positions) {
+        long watermark = watermark(positions);
         return expected.stream()
                 .filter(encounter -> encounter.phase() == Phase.ENDED)
                 .filter(encounter -> encounter.startTime() + 300 <= watermark && encounter.time() > watermark)

@@ -63,13 +63,17 @@ final class Stage<K, I, O> {
                 Encounter::time);
     }
 
-    static Stage<String, PositionFix, Arrival> arrivals(CollisionRules rules) throws Exception {
-        return new Stage<>(() -> new TrackArrivals(rules), PositionFix::key, Types.STRING, PositionFix::time);
+    static Stage<Device, PositionFix, Arrival> arrivals(CollisionRules rules) throws Exception {
+        return new Stage<>(
+                () -> new KeyedProcessOperator<>(new TrackArrivals(rules)),
+                PositionFix::device,
+                TypeInformation.of(Device.class),
+                PositionFix::time);
     }
 
     static Stage<Long, Arrival, Glimpse> spot(CollisionRules rules) throws Exception {
         return new Stage<>(
-                () -> new SpotPairs(rules),
+                () -> new KeyedProcessOperator<>(new SpotPairs(rules)),
                 Arrival::cell,
                 Types.LONG,
                 arrival -> arrival.fix().time());
