@@ -65,8 +65,8 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     /** A key and what it has. */
     private static final class Slot<K, M extends Timed, S> extends Pending<M, S> {
         private final K key;
-        /** Of the earliest message that it is awaited for. */
-        private long earliest = NEVER;
+        /** In which it is awaited; where an earlier message came, it also stands in later ones, which are passed over. */
+        private long step = NEVER;
         /** Of the earliest deadline set. */
         private long expiry = NEVER;
 
@@ -135,7 +135,9 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         slot.takeOver(format.copy(pending));
         slot.saved = true;
         slots.put(key, slot);
-        slot.waiting.forEach(message -> await(slot, message.time()));
+        if (!slot.waiting.isEmpty()) {
+            await(slot, slot.earliest());
+        }
         if (slot.remembered != null) {
             expireAt(slot, expiry(slot.remembered));
         }
@@ -161,10 +163,10 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     }
 
     private void await(Slot<K, M, S> slot, long time) {
-        if (time < slot.earliest) {
-            slot.earliest = time;
-            awaited.computeIfAbsent(time >> STEP_BITS, step -> new ArrayList<>())
-                    .add(slot);
+        long step = time >> STEP_BITS;
+        if (step < slot.step) {
+            slot.step = step;
+            awaited.computeIfAbsent(step, none -> new ArrayList<>()).add(slot);
         }
     }
 
@@ -177,12 +179,14 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
             advance(slot, until);
         }
         NavigableMap<Long, List<Slot<K, M, S>>> passed = awaited.headMap(until >> STEP_BITS, true);
-        List<List<Slot<K, M, S>>> visited = new ArrayList<>(passed.values());
+        Map<Long, List<Slot<K, M, S>>> visited = new TreeMap<>(passed);
         passed.clear();
-        for (List<Slot<K, M, S>> step : visited) {
-            for (Slot<K, M, S> slot : step) {
-                slot.earliest = NEVER;
-                advance(slot, until);
+        for (Map.Entry<Long, List<Slot<K, M, S>>> step : visited.entrySet()) {
+            for (Slot<K, M, S> slot : step.getValue()) {
+                if (slot.step == step.getKey()) {
+                    slot.step = NEVER;
+                    advance(slot, until);
+                }
             }
         }
         super.processWatermark(mark);
@@ -207,8 +211,8 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
             }
             return;
         }
-        for (M message : slot.waiting) {
-            await(slot, message.time());
+        if (!slot.waiting.isEmpty()) {
+            await(slot, slot.earliest());
         }
         if (now != null) {
             expireAt(slot, expiry(now));

@@ -34,6 +34,15 @@ public class Pending<M extends Timed, S> {
         waiting.subList(left, waiting.size()).clear();
     }
 
+    /** Of the messages, of which there is one at least. */
+    final long earliest() {
+        long earliest = Long.MAX_VALUE;
+        for (M message : waiting) {
+            earliest = Math.min(earliest, message.time());
+        }
+        return earliest;
+    }
+
     final boolean isEmpty() {
         return remembered == null && waiting.isEmpty();
     }
