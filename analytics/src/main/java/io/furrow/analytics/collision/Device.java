@@ -8,7 +8,7 @@ public final class Device {
     private final String topic;
     private final String identity;
 
-    Device(String topic, String identity) {
+    public Device(String topic, String identity) {
         this.topic = topic;
         this.identity = identity;
     }
@@ -23,7 +23,8 @@ public final class Device {
 
     @Override
     public boolean equals(Object other) {
-        return other instanceof Device device && identity.equals(device.identity) && topic.equals(device.topic);
+        return this == other
+                || other instanceof Device device && identity.equals(device.identity) && topic.equals(device.topic);
     }
 
     @Override

@@ -8,14 +8,9 @@ import io.furrow.analytics.eventtime.Timed;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * Where a device was at an instant. Texts are empty, never null, where nothing is known.
+ * Where a device was at an instant.
  *
- * @param topic the topic that tells of it; devices of two topics never meet
- * @param identity tenant, service path and id: what makes the device unique within the topic
- * @param id the entity id
- * @param type the entity type
- * @param mission the mission it works for
- * @param carrier identity of the device that carries it
+ * @param reporter whose position it is
  * @param latitude degrees, −90 to 90
  * @param longitude degrees, −180 to 180
  * @param speed metres per second as reported; NaN where nothing is known
@@ -23,18 +18,7 @@ import io.furrow.model.event.FiwareScope;
  * @param time epoch milliseconds
  */
 @TypeInfo(PositionFixFormat.class)
-public record PositionFix(
-        String topic,
-        String identity,
-        String id,
-        String type,
-        String mission,
-        String carrier,
-        double latitude,
-        double longitude,
-        double speed,
-        double heading,
-        long time)
+public record PositionFix(Reporter reporter, double latitude, double longitude, double speed, double heading, long time)
         implements Timed {
     /** The order in which a pair is named: by id, then by identity. */
     public static final Comparator<PositionFix> NAMING =
@@ -50,34 +34,84 @@ public record PositionFix(
             .thenComparingDouble(PositionFix::speed)
             .thenComparingDouble(PositionFix::heading);
 
+    /** Texts are empty, never null, where nothing is known. */
+    public PositionFix(
+            String topic,
+            String identity,
+            String id,
+            String type,
+            String mission,
+            String carrier,
+            double latitude,
+            double longitude,
+            double speed,
+            double heading,
+            long time) {
+        this(
+                Reporter.of(new Device(topic, identity), id, type, mission, carrier),
+                latitude,
+                longitude,
+                speed,
+                heading,
+                time);
+    }
+
+    /** The topic that tells of the device; devices of two topics never meet. */
+    public String topic() {
+        return reporter.device().topic();
+    }
+
+    /** Tenant, service path and id: what makes the device unique within the topic. */
+    public String identity() {
+        return reporter.device().identity();
+    }
+
+    public String id() {
+        return reporter.id();
+    }
+
+    public String type() {
+        return reporter.type();
+    }
+
+    public String mission() {
+        return reporter.mission();
+    }
+
+    public String carrier() {
+        return reporter.carrier();
+    }
+
     /** One text per device of a topic. A topic's name has no {@code |}. */
     public String key() {
-        return topic + '|' + identity;
+        return topic() + '|' + identity();
     }
 
     /** The same without a text to be made. */
     public Device device() {
-        return new Device(topic, identity);
+        return reporter.device();
     }
 
     boolean isOfSameDevice(PositionFix other) {
-        return identity.equals(other.identity) && topic.equals(other.topic);
+        return device().equals(other.device());
     }
 
     /** The tenant and service path that the identity begins with. */
     public FiwareScope scope() {
-        String[] parts = identity.split("\\|", 3);
+        String[] parts = identity().split("\\|", 3);
         return new FiwareScope(parts[0], parts[1]);
     }
 
     /** The same device at the same place, carried by another. */
     public PositionFix carriedBy(String other) {
-        return new PositionFix(topic, identity, id, type, mission, other, latitude, longitude, speed, heading, time);
+        return new PositionFix(
+                Reporter.of(device(), id(), type(), mission(), other), latitude, longitude, speed, heading, time);
     }
 
     /** Whether both are parts of one aggregate: one carries the other, or a third carries both. */
     public boolean sharesAggregateWith(PositionFix other) {
-        return !carrier.isEmpty() && (carrier.equals(other.identity) || carrier.equals(other.carrier))
-                || !other.carrier.isEmpty() && other.carrier.equals(identity);
+        return !carrier().isEmpty()
+                        && (carrier().equals(other.identity()) || carrier().equals(other.carrier()))
+                || !other.carrier().isEmpty() && other.carrier().equals(identity());
     }
 }

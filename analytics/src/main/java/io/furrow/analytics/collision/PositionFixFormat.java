@@ -6,14 +6,13 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
 import io.furrow.analytics.format.Format;
-import io.furrow.analytics.format.Text;
 
 /** How a {@link PositionFix} is written. */
 public final class PositionFixFormat extends Format<PositionFix> {
     static final PositionFixFormat INSTANCE = new PositionFixFormat();
 
     private static final long serialVersionUID = 1L;
-    /** The components in their order; of an id that the identity ends with only its length, else -1 before it. */
+    /** The components in their order. */
     private static final int VERSION = 1;
 
     @Override
@@ -28,12 +27,7 @@ public final class PositionFixFormat extends Format<PositionFix> {
 
     @Override
     public void write(PositionFix fix, DataOutputView out) throws IOException {
-        Text.write(fix.topic(), out);
-        Text.write(fix.identity(), out);
-        writeId(fix, out);
-        Text.write(fix.type(), out);
-        Text.write(fix.mission(), out);
-        Text.write(fix.carrier(), out);
+        fix.reporter().write(out);
         out.writeDouble(fix.latitude());
         out.writeDouble(fix.longitude());
         out.writeDouble(fix.speed());
@@ -46,34 +40,7 @@ public final class PositionFixFormat extends Format<PositionFix> {
         if (version != VERSION) {
             throw unknown(version);
         }
-        String topic = Text.read(in);
-        String identity = Text.read(in);
-        String id = readId(identity, in);
         return new PositionFix(
-                topic,
-                identity,
-                id,
-                Text.read(in),
-                Text.read(in),
-                Text.read(in),
-                in.readDouble(),
-                in.readDouble(),
-                in.readDouble(),
-                in.readDouble(),
-                in.readLong());
-    }
-
-    private static void writeId(PositionFix fix, DataOutputView out) throws IOException {
-        if (fix.identity().endsWith(fix.id())) {
-            out.writeInt(fix.id().length());
-        } else {
-            out.writeInt(-1);
-            Text.write(fix.id(), out);
-        }
-    }
-
-    private static String readId(String identity, DataInputView in) throws IOException {
-        int length = in.readInt();
-        return length < 0 ? Text.read(in) : Text.shared(identity.substring(identity.length() - length));
+                Reporter.read(in), in.readDouble(), in.readDouble(), in.readDouble(), in.readDouble(), in.readLong());
     }
 }

@@ -2,7 +2,9 @@ package io.furrow.bench.analytics;
 
 import java.util.function.Consumer;
 
+import io.furrow.analytics.collision.Device;
 import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.Reporter;
 
 /**
  * Devices that walk at random in a square of 2 km, one metre of standard deviation a second, each reporting once per second
@@ -29,8 +31,7 @@ final class Fleet {
     private final int shares;
     private final double[] east;
     private final double[] north;
-    private final String[] ids;
-    private final String[] identities;
+    private final Reporter[] reporters;
 
     /** Every {@code shares}-th device from number {@code share} on. */
     Fleet(int devices, int share, int shares) {
@@ -40,14 +41,13 @@ final class Fleet {
         int mine = (devices - share + shares - 1) / shares;
         east = new double[mine];
         north = new double[mine];
-        ids = new String[mine];
-        identities = new String[mine];
+        reporters = new Reporter[mine];
         for (int i = 0; i < mine; i++) {
             int device = share + i * shares;
             east[i] = SIDE * uniform(mixed(device, -1));
             north[i] = SIDE * uniform(mixed(device, -2));
-            ids[i] = "urn:ngsi-ld:Robot:" + device;
-            identities[i] = SCOPE + ids[i];
+            String id = "urn:ngsi-ld:Robot:" + device;
+            reporters[i] = reporter(SCOPE + id, id);
         }
     }
 
@@ -77,15 +77,22 @@ final class Fleet {
         east[i] = inside(east[i] + step(mixed(device, 2 * second)));
         north[i] = inside(north[i] + step(mixed(device, 2 * second + 1)));
         return fix(
-                identities[i],
-                ids[i],
+                reporters[i],
                 LATITUDE + north[i] / METERS_PER_DEGREE,
                 LONGITUDE + east[i] / METERS_PER_DEGREE_EAST,
                 time);
     }
 
+    private static Reporter reporter(String identity, String id) {
+        return Reporter.of(new Device(TOPIC, identity), id, "Robot", "", "");
+    }
+
     static PositionFix fix(String identity, String id, double latitude, double longitude, long time) {
-        return new PositionFix(TOPIC, identity, id, "Robot", "", "", latitude, longitude, Double.NaN, Double.NaN, time);
+        return fix(reporter(identity, id), latitude, longitude, time);
+    }
+
+    private static PositionFix fix(Reporter reporter, double latitude, double longitude, long time) {
+        return new PositionFix(reporter, latitude, longitude, Double.NaN, Double.NaN, time);
     }
 
     /** Which of the devices it is, from 0 on. */

@@ -39,12 +39,7 @@ public record Leg(
     PositionFix fixAt(double time) {
         Place there = at(time);
         return new PositionFix(
-                fix.topic(),
-                fix.identity(),
-                fix.id(),
-                fix.type(),
-                fix.mission(),
-                fix.carrier(),
+                fix.reporter(),
                 there.latitude(),
                 there.longitude(),
                 1000 * velocity().length(),

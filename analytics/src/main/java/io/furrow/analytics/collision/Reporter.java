@@ -1,0 +1,133 @@
+package io.furrow.analytics.collision;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.util.Arrays;
+
+import org.apache.flink.core.memory.DataInputDeserializer;
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputSerializer;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.analytics.format.Text;
+
+/**
+ * What the positions of a device have in common. Texts are empty, never null, where nothing is known.
+ *
+ * <p>It is written as one block of bytes and read by comparing that with what was read before: the same devices come again
+ * and again, and to make their texts anew each time costs more than all that is done with a position.
+ */
+public final class Reporter {
+    private static final int SLOT_BITS = 18;
+    private static final int SPREAD = 0x9E3779B9;
+    private static final Reporter[] KNOWN = new Reporter[1 << SLOT_BITS];
+
+    private final Device device;
+    private final String id;
+    private final String type;
+    private final String mission;
+    private final String carrier;
+    private final byte[] block;
+
+    private Reporter(Device device, String id, String type, String mission, String carrier, byte[] block) {
+        this.device = device;
+        this.id = id;
+        this.type = type;
+        this.mission = mission;
+        this.carrier = carrier;
+        this.block = block;
+    }
+
+    /**
+     * @param device topic and identity
+     * @param id the entity id
+     * @param type the entity type
+     * @param mission the mission it works for
+     * @param carrier identity of the device that carries it
+     */
+    public static Reporter of(Device device, String id, String type, String mission, String carrier) {
+        return new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier));
+    }
+
+    /** The texts in their order; of an id that the identity ends with only its length, else -1 before it. */
+    private static byte[] block(Device device, String id, String type, String mission, String carrier) {
+        DataOutputSerializer out = new DataOutputSerializer(Byte.MAX_VALUE);
+        try {
+            Text.write(device.topic(), out);
+            Text.write(device.identity(), out);
+            boolean isEnd = device.identity().endsWith(id);
+            out.writeInt(isEnd ? id.length() : -1);
+            if (!isEnd) {
+                Text.write(id, out);
+            }
+            Text.write(type, out);
+            Text.write(mission, out);
+            Text.write(carrier, out);
+        } catch (IOException e) {
+            throw new UncheckedIOException(e); // it is memory
+        }
+        return out.getCopyOfBuffer();
+    }
+
+    void write(DataOutputView out) throws IOException {
+        out.writeInt(device.hashCode());
+        out.writeInt(block.length);
+        out.write(block);
+    }
+
+    static Reporter read(DataInputView in) throws IOException {
+        int slot = in.readInt() * SPREAD >>> Integer.SIZE - SLOT_BITS;
+        byte[] block = new byte[in.readInt()];
+        in.readFully(block);
+        Reporter known = KNOWN[slot]; // whichever of two threads wrote last
+        if (known == null || !Arrays.equals(known.block, block)) {
+            known = decoded(block);
+            KNOWN[slot] = known;
+        }
+        return known;
+    }
+
+    private static Reporter decoded(byte[] block) throws IOException {
+        DataInputDeserializer in = new DataInputDeserializer(block);
+        Device device = new Device(Text.read(in), Text.read(in));
+        int length = in.readInt();
+        String identity = device.identity();
+        String id = length < 0 ? Text.read(in) : Text.shared(identity.substring(identity.length() - length));
+        return new Reporter(device, id, Text.read(in), Text.read(in), Text.read(in), block);
+    }
+
+    Device device() {
+        return device;
+    }
+
+    public String id() {
+        return id;
+    }
+
+    public String type() {
+        return type;
+    }
+
+    public String mission() {
+        return mission;
+    }
+
+    public String carrier() {
+        return carrier;
+    }
+
+    @Override
+    public boolean equals(Object other) {
+        return other instanceof Reporter reporter && Arrays.equals(block, reporter.block);
+    }
+
+    @Override
+    public int hashCode() {
+        return device.hashCode();
+    }
+
+    @Override
+    public String toString() {
+        return "%s, id %s, type %s, mission %s, carrier %s".formatted(device, id, type, mission, carrier);
+    }
+}
