@@ -113,9 +113,9 @@ class RescaledDetectionTest {
     /** The task manager goes with all that its tasks hold, and another comes in its place. */
     private static void kill(MiniCluster cluster, int taskManager, JobClient job) throws Exception {
         cluster.terminateTaskManager(taskManager).get(60, TimeUnit.SECONDS);
-        Awaitility.await().atMost(Duration.ofSeconds(60)).until(() -> job.getJobStatus()
-                .get()
-                .isGloballyTerminalState());
+        Awaitility.await()
+                .atMost(Duration.ofSeconds(60))
+                .until(() -> job.getJobStatus().get().isGloballyTerminalState());
         assertThat(job.getJobStatus().get()).isEqualTo(JobStatus.FAILED);
         cluster.startTaskManager();
     }
