@@ -53,7 +53,7 @@ public final class EntityReader {
         id = null;
         values.values().forEach(AttributeValue::clear);
         try (JsonParser parser = tokens.open(normalized, normalized.length)) {
-            return takeEntity(parser);
+            return Utf8.firstWrong(normalized) < 0 && takeEntity(parser);
         } catch (IOException | NumberFormatException e) { // the reader of trees meets it again and says what it is
             return false;
         }
@@ -73,7 +73,7 @@ public final class EntityReader {
                 typed |= name.equals("type");
                 takeName(name, parser);
             } else {
-                taken = value == JsonToken.START_OBJECT && takeAttribute(values.get(name), parser);
+                taken = value == JsonToken.START_OBJECT && isPlain(name) && takeAttribute(values.get(name), parser);
             }
             if (!taken) {
                 return false;
@@ -92,17 +92,21 @@ public final class EntityReader {
         }
     }
 
-    /** Takes the attribute whose object has just begun; {@code attribute} is null where it is not wanted. */
+    private static boolean isPlain(String name) {
+        return name.chars().noneMatch(sign -> Character.isSurrogate((char) sign));
+    }
+
+    /**
+     * Takes the attribute whose object has just begun; {@code attribute} is null where it is not wanted: then it is only
+     * looked at, because what is refused anywhere is refused here.
+     */
     private boolean takeAttribute(AttributeValue attribute, JsonParser parser) throws IOException {
-        if (attribute == null) {
-            return tokens.skip();
-        }
         boolean valued = false;
         while (tokens.next() == JsonToken.FIELD_NAME) {
             boolean value = parser.currentName().equals("value");
             valued |= value;
             tokens.next();
-            boolean taken = value ? attribute.take(tokens, parser) : tokens.skipWithinLimits();
+            boolean taken = value && attribute != null ? attribute.take(tokens, parser) : tokens.skipWithinLimits();
             if (!taken) {
                 return false;
             }

@@ -44,19 +44,7 @@ final class StrictTokens {
         return token;
     }
 
-    /** Passes over the value that the parser stands at, looking at nothing but its form. */
-    boolean skip() throws IOException {
-        int depth = 0;
-        for (JsonToken token = parser.currentToken(); token != null; token = next()) {
-            depth += token.isStructStart() ? 1 : token.isStructEnd() ? -1 : 0;
-            if (depth == 0) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-    /** Passes over it too, and answers whether it certainly keeps to {@link EntityLimits}. */
+    /** Passes over the value that the parser stands at, and answers whether it certainly keeps to {@link EntityLimits}. */
     boolean skipWithinLimits() throws IOException {
         int depth = 0;
         for (JsonToken token = parser.currentToken(); token != null; token = next()) {
@@ -64,6 +52,7 @@ final class StrictTokens {
             boolean within = switch (token) {
                 case FIELD_NAME, VALUE_STRING -> isPlainText();
                 case VALUE_NUMBER_FLOAT -> isPlainNumber(parser.getDoubleValue());
+                case VALUE_NUMBER_INT -> parser.getTextLength() > 0; // thrown where it is too long
                 default -> true;
             };
             if (!within) {
