@@ -7,12 +7,16 @@ import java.util.Map;
 import java.util.Set;
 import java.util.TreeSet;
 
-/** What is told at once, as a definition: after each arrival every pair of the newest positions, nothing of grids or versions. */
+/**
+ * What is told at once, as a definition: after each arrival every pair of the newest positions, nothing of grids or versions.
+ * A position counts until the watermark, which follows each arrival, has passed its time-to-live.
+ */
 final class ArrivalOracle {
     private final CollisionRules rules;
     private final Map<String, PositionFix> newest = new HashMap<>();
     private final Set<Pair> close = new HashSet<>();
     private final Set<String> told = new TreeSet<>();
+    private long watermark = Long.MIN_VALUE;
 
     private ArrivalOracle(CollisionRules rules) {
         this.rules = rules.whileBothCount();
@@ -26,6 +30,8 @@ final class ArrivalOracle {
     }
 
     private void arrives(PositionFix fix) {
+        forgetTheSilent();
+        watermark = Math.max(watermark, fix.time() - DetectionRun.BOUND - 1);
         PositionFix before = newest.get(fix.identity());
         if (before != null && PositionFix.SEQUENCE.compare(fix, before) <= 0) {
             return;
@@ -36,6 +42,17 @@ final class ArrivalOracle {
                 boolean inOrder = PositionFix.NAMING.compare(fix, other) < 0;
                 compare(inOrder ? fix : other, inOrder ? other : fix);
             }
+        }
+    }
+
+    private void forgetTheSilent() {
+        long timeToLive = rules.timeToLive().toMillis();
+        List<PositionFix> silent = newest.values().stream()
+                .filter(fix -> fix.time() + timeToLive <= watermark)
+                .toList();
+        for (PositionFix fix : silent) {
+            newest.remove(fix.identity());
+            close.removeIf(pair -> pair.first().equals(fix.identity()) || pair.second().equals(fix.identity()));
         }
     }
 
