@@ -52,7 +52,8 @@ final class ArrivalOracle {
                 .toList();
         for (PositionFix fix : silent) {
             newest.remove(fix.identity());
-            close.removeIf(pair -> pair.first().equals(fix.identity()) || pair.second().equals(fix.identity()));
+            close.removeIf(
+                    pair -> pair.first().equals(fix.identity()) || pair.second().equals(fix.identity()));
         }
     }
 

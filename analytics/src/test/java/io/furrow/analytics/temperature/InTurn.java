@@ -3,6 +3,7 @@ package io.furrow.analytics.temperature;
 import java.time.Duration;
 import java.util.Collection;
 import java.util.EnumMap;
+import java.util.List;
 import java.util.Map;
 import java.util.function.Predicate;
 import java.util.function.ToLongFunction;
@@ -18,6 +19,7 @@ import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.awaitility.Awaitility;
+import org.awaitility.core.ConditionTimeoutException;
 
 import io.furrow.flink.TopicRecord;
 
@@ -140,7 +142,21 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
             known.put(what, found);
         }
         Collection<Metric> metrics = found;
-        until(() -> condition.test(metrics));
+        try {
+            until(() -> condition.test(metrics));
+        } catch (ConditionTimeoutException e) {
+            JobID job = getRuntimeContext().getJobInfo().getJobId();
+            throw new IllegalStateException(
+                    "%s before record %d, needed %d, seen %s, of all %s"
+                            .formatted(what, next, before[next - 1], told(metrics), told(values(job, what.pattern))),
+                    e);
+        }
+    }
+
+    private static List<Object> told(Collection<Metric> metrics) {
+        return metrics.stream()
+                .map(metric -> metric instanceof Counter counter ? counter.getCount() : ((Gauge<?>) metric).getValue())
+                .toList();
     }
 
     private static Collection<Metric> values(JobID job, String pattern) {

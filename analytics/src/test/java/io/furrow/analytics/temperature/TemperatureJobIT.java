@@ -6,10 +6,14 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.concurrent.atomic.AtomicLong;
+import java.util.stream.Stream;
 
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -46,6 +50,7 @@ class TemperatureJobIT {
     void readsReportedChangesAndWritesAveragesAndDeadLetters(@TempDir Path dir) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(dir.resolve("kafka"));
                 EmbeddedFlink flink = EmbeddedFlink.start(1, 0)) {
+            makeTopics(kafka);
             List<TopicRecord> reported = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
             reported.add(Farm.garbage(GARBAGE, 5_000));
             reported.add(Farm.north("t1", 18, 200_000));
@@ -79,6 +84,7 @@ class TemperatureJobIT {
     void goesByTheFieldsAsTheyComeChangeAndGo(@TempDir Path dir) throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(dir.resolve("kafka"));
                 EmbeddedFlink flink = EmbeddedFlink.start(1, 0)) {
+            makeTopics(kafka);
             FieldRecords fields = new FieldRecords();
             write(kafka, List.of(fields.square("north", 0, "a")));
             flink.submit(TemperatureJob.assemble(onTopics(kafka)).getStreamGraph());
@@ -115,6 +121,18 @@ class TemperatureJobIT {
             return windows.tailMap((double) (round * ROUND)).containsValue(new TreeSet<>(List.of(expected)));
         });
         assertThat(second.get()).as("event time of a round").isLessThan((round + 1) * ROUND);
+    }
+
+    /** They keep records of 1970: retention goes by the record timestamp. */
+    private static void makeTopics(EmbeddedKafka kafka) throws Exception {
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
+            admin.createTopics(Stream.of(Topics.RAW, Topics.FIELDS, Topics.TEMPERATURE, Topics.dead(Topics.RAW))
+                            .map(name -> new NewTopic(name, Optional.of(1), Optional.empty())
+                                    .configs(Map.of("retention.ms", "-1")))
+                            .toList())
+                    .all()
+                    .get();
+        }
     }
 
     private static TemperatureOptions onTopics(EmbeddedKafka kafka) {
