@@ -57,6 +57,7 @@ class RescaledDetectionTest {
     /** What every run wrote, and which positions may come; static because the tasks run in this process. */
     private static final Queue<Encounter> WRITTEN = new ConcurrentLinkedQueue<>();
 
+    private static final Duration DWELL = Duration.ofMillis(300);
     private static final Gate GATE = new Gate();
     private static List<PositionFix> arrivals;
 
@@ -67,7 +68,7 @@ class RescaledDetectionTest {
     void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster) throws Exception {
         long seed = System.nanoTime();
         System.out.println("rescaled run from seed " + seed);
-        CollisionRules rules = Worlds.rules(5, 10, false).with(new Steadiness(1.5, Duration.ofMillis(300)));
+        CollisionRules rules = Worlds.rules(5, 10, false).with(new Steadiness(1.5, DWELL));
         List<PositionFix> fixes = worlds(rules.thresholdMeters(), seed);
         arrivals = new Worlds(seed).shuffled(fixes, DetectionRun.BOUND);
         List<Encounter> expected = CollisionOracle.encounters(fixes, rules);
@@ -124,7 +125,7 @@ class RescaledDetectionTest {
     private static void awaitWritten(List<Encounter> expected, int positions) {
         long watermark = watermark(positions);
         long due = expected.stream()
-                .filter(encounter -> encounter.time() <= watermark)
+                .filter(encounter -> encounter.time() + DWELL.toMillis() <= watermark) // a start is told so much later
                 .count();
         Awaitility.await()
                 .atMost(Duration.ofSeconds(60))
@@ -146,7 +147,8 @@ class RescaledDetectionTest {
         long watermark = watermark(positions);
         return expected.stream()
                 .filter(encounter -> encounter.phase() == Phase.ENDED)
-                .filter(encounter -> encounter.startTime() + 300 <= watermark && encounter.time() > watermark)
+                .filter(encounter ->
+                        encounter.startTime() + DWELL.toMillis() <= watermark && encounter.time() > watermark)
                 .count();
     }
 
