@@ -24,7 +24,7 @@ final class AnalyticsLoad {
             names = "--held-seconds",
             paramLabel = "S",
             defaultValue = "60",
-            description = "Seconds for which HELD looks at the lag. Default: ${DEFAULT-VALUE}.")
+            description = "Seconds for which HELD looks at the lag, at least 20. Default: ${DEFAULT-VALUE}.")
     int heldSeconds;
 
     @Option(

@@ -8,7 +8,7 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.MapStateDescriptor;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
-import org.apache.flink.streaming.api.functions.co.BroadcastProcessFunction;
+import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.flink.TopicAtStart;
@@ -19,7 +19,7 @@ import io.furrow.model.device.DeviceVersion;
 
 /**
  * Says of each position what carries its device: what the entity named, else what {@code service.devices} says as of the
- * position's time.
+ * position's time. Key: the device, which has no state here; its positions are on their way to the stage that has.
  *
  * <p><b>State</b>: every device's versions, the same at each subtask.
  *
@@ -29,7 +29,8 @@ import io.furrow.model.device.DeviceVersion;
  *
  * <p><b>Emits</b>: every position once.
  */
-public final class AssignCarriers extends BroadcastProcessFunction<PositionFix, DeviceChange, PositionFix> {
+public final class AssignCarriers
+        extends KeyedBroadcastProcessFunction<Device, PositionFix, DeviceChange, PositionFix> {
     /** The devices, by identity. */
     static final MapStateDescriptor<String, DeviceVersions> DEVICES =
             new MapStateDescriptor<>("devices", Types.STRING, TypeInformation.of(DeviceVersions.class));

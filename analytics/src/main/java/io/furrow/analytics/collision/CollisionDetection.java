@@ -3,6 +3,7 @@ package io.furrow.analytics.collision;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
+import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
 /**
@@ -15,14 +16,14 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 public record CollisionDetection(
         DataStream<Encounter> encounters, DataStream<PositionFix> late, DataStream<CellOverflow> overflows) {
     /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
-    public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules) {
+    public static CollisionDetection define(KeyedStream<PositionFix, Device> fixes, CollisionRules rules) {
         return define(fixes, rules, false);
     }
 
     /** @param eager whether pairs that are close by what has arrived are told before the watermark decides */
-    public static CollisionDetection define(DataStream<PositionFix> fixes, CollisionRules rules, boolean eager) {
-        SingleOutputStreamOperator<CellUpdate> updates = fixes.keyBy(PositionFix::device)
-                .transform(
+    public static CollisionDetection define(
+            KeyedStream<PositionFix, Device> fixes, CollisionRules rules, boolean eager) {
+        SingleOutputStreamOperator<CellUpdate> updates = fixes.transform(
                         "Track devices through the grid",
                         TypeInformation.of(CellUpdate.class),
                         new TrackDevices(rules, eager))

@@ -14,12 +14,13 @@ public final class CollisionEntity {
     private CollisionEntity() {}
 
     public static Entity of(Encounter encounter) {
-        EntityBuilder entity = Entity.builder(TYPE + ":" + encounter.pairId(), TYPE)
+        String pair = encounter.pairId();
+        EntityBuilder entity = Entity.builder(TYPE + ":" + pair, TYPE)
                 .number("distance", encounter.distance())
                 .integer("time", encounter.time());
         device(entity, "Device1", encounter.first());
         device(entity, "Device2", encounter.second());
-        entity.text("encounter", encounter.id())
+        entity.text("encounter", encounter.id(pair))
                 .text("phase", encounter.phase().code())
                 .number("minDistance", encounter.minDistance())
                 .integer("startTime", encounter.startTime());

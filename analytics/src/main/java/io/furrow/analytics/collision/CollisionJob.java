@@ -1,6 +1,9 @@
 package io.furrow.analytics.collision;
 
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.datastream.DataStreamUtils;
+import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
@@ -61,10 +64,14 @@ public final class CollisionJob {
                 .uid("recognize-devices")
                 .name("Recognize devices");
 
-        SingleOutputStreamOperator<PositionFix> fixes = read.connect(devices.broadcast(AssignCarriers.DEVICES))
+        SingleOutputStreamOperator<PositionFix> carried = read.keyBy(PositionFix::device)
+                .connect(devices.broadcast(AssignCarriers.DEVICES))
                 .process(new AssignCarriers(in.devices().atStart()))
                 .uid("assign-carriers")
                 .name("Assign carriers");
+        // A device's positions stay where they are.
+        KeyedStream<PositionFix, Device> fixes = DataStreamUtils.reinterpretAsKeyedStream(
+                carried, PositionFix::device, TypeInformation.of(Device.class));
 
         DataStream<TopicRecord> results = results(
                         CollisionDetection.define(fixes, options.rules(), options.eager()), options)

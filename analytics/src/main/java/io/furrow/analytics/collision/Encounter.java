@@ -40,9 +40,14 @@ public record Encounter(
      * withdrawn the pair and the times of both positions, because late data may still move the start.
      */
     public String id() {
+        return id(pairId());
+    }
+
+    /** @param pairId {@link #pairId()}, which costs a digest */
+    String id(String pairId) {
         return phase == Phase.PROVISIONAL || phase == Phase.WITHDRAWN
-                ? pairId() + "~" + first.time() + "~" + second.time()
-                : pairId() + "@" + startTime;
+                ? pairId + "~" + first.time() + "~" + second.time()
+                : pairId + "@" + startTime;
     }
 
     /** What has arrived of a pair, until the watermark decides. */

@@ -46,7 +46,25 @@ public final class Reporter {
      * @param carrier identity of the device that carries it
      */
     public static Reporter of(Device device, String id, String type, String mission, String carrier) {
-        return new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier));
+        int slot = slot(device.hashCode());
+        Reporter known = KNOWN[slot];
+        if (known == null || !known.has(device, id, type, mission, carrier)) {
+            known = new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier));
+            KNOWN[slot] = known;
+        }
+        return known;
+    }
+
+    private boolean has(Device device, String id, String type, String mission, String carrier) {
+        return this.device.equals(device)
+                && this.id.equals(id)
+                && this.type.equals(type)
+                && this.mission.equals(mission)
+                && this.carrier.equals(carrier);
+    }
+
+    private static int slot(int hash) {
+        return hash * SPREAD >>> Integer.SIZE - SLOT_BITS;
     }
 
     /** The texts in their order; of an id that the identity ends with only its length, else -1 before it. */
@@ -76,7 +94,7 @@ public final class Reporter {
     }
 
     static Reporter read(DataInputView in) throws IOException {
-        int slot = in.readInt() * SPREAD >>> Integer.SIZE - SLOT_BITS;
+        int slot = slot(in.readInt());
         byte[] block = new byte[in.readInt()];
         in.readFully(block);
         Reporter known = KNOWN[slot]; // whichever of two threads wrote last

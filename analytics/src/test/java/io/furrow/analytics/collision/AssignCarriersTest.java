@@ -3,9 +3,10 @@ package io.furrow.analytics.collision;
 import java.util.List;
 import java.util.Map;
 
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
-import org.apache.flink.streaming.api.operators.co.CoBroadcastWithNonKeyedOperator;
-import org.apache.flink.streaming.util.TwoInputStreamOperatorTestHarness;
+import org.apache.flink.streaming.api.operators.co.CoBroadcastWithKeyedOperator;
+import org.apache.flink.streaming.util.KeyedTwoInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
@@ -22,7 +23,7 @@ class AssignCarriersTest {
     private static final String CAMERA = "farm|/|camera";
     private static final long DAY = 86_400_000;
 
-    private TwoInputStreamOperatorTestHarness<PositionFix, DeviceChange, PositionFix> operator;
+    private KeyedTwoInputStreamOperatorTestHarness<Device, PositionFix, DeviceChange, PositionFix> operator;
 
     @BeforeEach
     void start() throws Exception {
@@ -78,8 +79,11 @@ class AssignCarriersTest {
         DeviceVersion first = version(1000, 1, "robot");
         List<TopicRecord> atStart =
                 List.of(new TopicRecord(Topics.DEVICES, 0, 0, 0, new byte[0], first.toBytes(), Map.of()));
-        operator = new TwoInputStreamOperatorTestHarness<>(new CoBroadcastWithNonKeyedOperator<>(
-                new AssignCarriers(() -> atStart), List.of(AssignCarriers.DEVICES)));
+        operator = new KeyedTwoInputStreamOperatorTestHarness<>(
+                new CoBroadcastWithKeyedOperator<>(new AssignCarriers(() -> atStart), List.of(AssignCarriers.DEVICES)),
+                PositionFix::device,
+                null, // what is broadcast has no key
+                TypeInformation.of(Device.class));
     }
 
     private String carrierOfCamera(long time) throws Exception {

@@ -34,7 +34,11 @@ record DetectionRun(
 
     static DetectionRun of(List<PositionFix> arrivals, CollisionRules rules, int parallelism, InMemoryReporter metrics)
             throws Exception {
-        return of(arrivals, fixes -> CollisionDetection.define(fixes, rules), parallelism, metrics);
+        return of(
+                arrivals,
+                fixes -> CollisionDetection.define(fixes.keyBy(PositionFix::device), rules),
+                parallelism,
+                metrics);
     }
 
     static DetectionRun of(

@@ -49,7 +49,10 @@ class EagerDetectionTest {
             List<PositionFix> arrivals = new Worlds(seed + job).shuffled(fixes, DetectionRun.BOUND);
             int parallelism = new int[] {1, 2, 4}[job % 3];
             DetectionRun run = DetectionRun.of(
-                    arrivals, positions -> CollisionDetection.define(positions, rules, true), parallelism, METRICS);
+                    arrivals,
+                    positions -> CollisionDetection.define(positions.keyBy(PositionFix::device), rules, true),
+                    parallelism,
+                    METRICS);
             String which = "job %d, seed %d, %s".formatted(job, seed, rules);
             assertThat(CollisionOracle.difference(exact(run.encounters()), expected))
                     .as(which)

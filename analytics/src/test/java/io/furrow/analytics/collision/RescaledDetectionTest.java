@@ -178,7 +178,7 @@ class RescaledDetectionTest {
                         "positions")
                 .uid("positions")
                 .setParallelism(1);
-        CollisionDetection.define(fixes, rules)
+        CollisionDetection.define(fixes.keyBy(PositionFix::device), rules)
                 .encounters()
                 .map(RescaledDetectionTest::written)
                 .uid("write")

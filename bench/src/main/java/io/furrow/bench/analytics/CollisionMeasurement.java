@@ -23,6 +23,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.collision.CollisionDetection;
 import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.PositionFix;
 
 /** Runs the three stages of collision detection in a Flink cluster of this JVM, fed from memory inside the job. */
 public final class CollisionMeasurement {
@@ -76,7 +77,7 @@ public final class CollisionMeasurement {
     private JobClient start(CollisionPlan plan, String name) throws Exception {
         StreamExecutionEnvironment env =
                 StreamExecutionEnvironment.createLocalEnvironment(plan.parallelism(), settings());
-        CollisionDetection.define(MoveFleet.in(env, plan.devices()), CollisionRules.DEFAULT)
+        CollisionDetection.define(MoveFleet.in(env, plan.devices()).keyBy(PositionFix::device), CollisionRules.DEFAULT)
                 .encounters()
                 .sinkTo(new CountEncounters(name))
                 .uid("count");

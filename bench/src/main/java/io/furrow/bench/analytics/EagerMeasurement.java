@@ -12,6 +12,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.collision.CollisionDetection;
 import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.PositionFix;
 
 /** How soon eager detection tells of a pair that has come close, fed from memory inside the job. */
 public final class EagerMeasurement {
@@ -71,7 +72,8 @@ public final class EagerMeasurement {
         settings.set(ExecutionOptions.BUFFER_TIMEOUT, plan.bufferTimeout);
         settings.set(PipelineOptions.AUTO_WATERMARK_INTERVAL, plan.watermarkInterval);
         StreamExecutionEnvironment env = StreamExecutionEnvironment.createLocalEnvironment(plan.parallelism, settings);
-        CollisionDetection.define(PacedFleet.in(env, name, plan.devices), CollisionRules.DEFAULT, true)
+        CollisionDetection.define(
+                        PacedFleet.in(env, name, plan.devices).keyBy(PositionFix::device), CollisionRules.DEFAULT, true)
                 .encounters()
                 .sinkTo(new AlarmDelays.To(name))
                 .uid("delays");

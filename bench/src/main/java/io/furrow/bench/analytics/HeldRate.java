@@ -1,29 +1,41 @@
 package io.furrow.bench.analytics;
 
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.List;
 
 /**
  * A fleet that reported once a second, and the job behind it.
  *
  * @param sentPerSecond what the fleet really sent
- * @param lags of the job's consumer at the end of each second, in records, as of its newest checkpoint
+ * @param lags the least of the job's consumer in each second, in records, as of its newest checkpoint
  */
 public record HeldRate(int devices, double sentPerSecond, List<Long> lags) {
-    /** Of the rate: what the slope of a lag that only swings with the checkpoints stays below. */
+    /** Of the rate: what the slope of a lag that does not grow stays below. */
     private static final double GROWTH = 0.01;
 
-    /** Records per second by which the lag grows, by least squares. */
+    /** The least of each time between two checkpoints: right after one is done, so that they do not swing with them. */
+    public List<Long> troughs() {
+        List<Long> troughs = new ArrayList<>();
+        int step = TopicMeasurement.CHECKPOINTS_SECONDS;
+        for (int from = 0; from + step <= lags.size(); from += step) {
+            troughs.add(Collections.min(lags.subList(from, from + step)));
+        }
+        return troughs;
+    }
+
+    /** Records per second by which the lag grows: a straight line through the troughs, by least squares. */
     public double slope() {
-        double meanSecond = (lags.size() - 1) / 2.0;
-        double meanLag = lags.stream().mapToLong(Long::longValue).average().orElse(0);
+        List<Long> troughs = troughs();
+        double meanIndex = (troughs.size() - 1) / 2.0;
+        double meanLag = troughs.stream().mapToLong(Long::longValue).average().orElse(0);
         double above = 0;
         double below = 0;
-        for (int second = 0; second < lags.size(); second++) {
-            above += (second - meanSecond) * (lags.get(second) - meanLag);
-            below += (second - meanSecond) * (second - meanSecond);
+        for (int i = 0; i < troughs.size(); i++) {
+            above += (i - meanIndex) * (troughs.get(i) - meanLag);
+            below += (i - meanIndex) * (i - meanIndex);
         }
-        return below == 0 ? 0 : above / below;
+        return below == 0 ? Double.NaN : above / below / TopicMeasurement.CHECKPOINTS_SECONDS;
     }
 
     /** Whether all devices reported and the lag did not grow. */
@@ -36,8 +48,8 @@ public record HeldRate(int devices, double sentPerSecond, List<Long> lags) {
                 "devices", devices,
                 "sent/s", sentPerSecond,
                 "seconds", lags.size(),
-                "first lag", lags.get(0),
-                "last lag", lags.get(lags.size() - 1),
+                "first trough", troughs().get(0),
+                "last trough", troughs().get(troughs().size() - 1),
                 "slope/s", slope(),
                 "held", isHeld());
     }

@@ -20,6 +20,10 @@ import io.furrow.flink.JobCommandLine;
 public final class TopicMeasurement {
     private static final Duration PATIENCE = Duration.ofMinutes(10);
     private static final long LOOK_MS = 20;
+    /** The default of jobs. */
+    static final int CHECKPOINTS_SECONDS = 10;
+
+    private static final int LOOKS_PER_SECOND = 5;
     /** Event time at the end of the input that the watermark never passes, and a little more. */
     private static final long BEHIND_MS = 3000;
 
@@ -80,11 +84,9 @@ public final class TopicMeasurement {
                 long begin = System.nanoTime();
                 long sent = topic.sent();
                 List<Long> lags = new ArrayList<>();
-                for (int second = 1; second <= measured.toSeconds(); second++) {
-                    TimeUnit.NANOSECONDS.sleep(
-                            begin + Duration.ofSeconds(second).toNanos() - System.nanoTime());
-                    lags.add(lag.records());
-                    progress.accept("%d s: lag %,d".formatted(second, lags.get(second - 1)));
+                for (int second = 0; second < measured.toSeconds(); second++) {
+                    lags.add(leastLag(lag, begin + Duration.ofSeconds(second).toNanos()));
+                    progress.accept("%d s: lag %,d".formatted(second + 1, lags.get(second)));
                 }
                 double rate = (topic.sent() - sent) / ((System.nanoTime() - begin) / 1e9);
                 return new HeldRate(devices, rate, lags);
@@ -94,6 +96,17 @@ public final class TopicMeasurement {
                 job.cancel();
             }
         }
+    }
+
+    /** In the second that begins at this time. */
+    private static long leastLag(GroupLag lag, long begin) throws Exception {
+        long least = Long.MAX_VALUE;
+        for (int look = 1; look <= LOOKS_PER_SECOND; look++) {
+            long next = begin + Duration.ofSeconds(look).toNanos() / LOOKS_PER_SECOND;
+            TimeUnit.NANOSECONDS.sleep(next - System.nanoTime());
+            least = Math.min(least, lag.records());
+        }
+        return least;
     }
 
     /** How long after a position its alarm is in the topic of results, in whole milliseconds. */
@@ -136,7 +149,8 @@ public final class TopicMeasurement {
         List<String> args = new ArrayList<>(more);
         args.addAll(List.of("--bootstrap-servers", cluster.kafka().getProperty("bootstrap.servers")));
         args.addAll(List.of("--input", topic.name(), "--output", topic.results()));
-        args.addAll(List.of("--parallelism", Integer.toString(parallelism), "--checkpoint-interval", "1s"));
+        args.addAll(List.of("--parallelism", Integer.toString(parallelism)));
+        args.addAll(List.of("--checkpoint-interval", CHECKPOINTS_SECONDS + "s"));
         args.addAll(List.of(
                 "--checkpoint-dir",
                 cluster.checkpoints().resolve(jobName()).toUri().toString()));

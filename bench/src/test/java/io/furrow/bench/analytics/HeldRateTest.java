@@ -30,7 +30,7 @@ class HeldRateTest {
 
     private static List<Long> lags(long growth, long swing) {
         return LongStream.range(0, 60)
-                .mapToObj(second -> 500 + growth * second + second % 3 * swing / 2)
+                .mapToObj(second -> 500 + growth * second + second % 10 * swing / 9)
                 .toList();
     }
 }

@@ -1,6 +1,7 @@
 package io.furrow.model.ngsi;
 
-import java.util.Iterator;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.Map;
 import java.util.Objects;
 import java.util.Optional;
@@ -95,13 +96,14 @@ public record Entity(ObjectNode json) {
     }
 
     /** The attributes, built-ins included, in the order in which they were reported. */
-    public Iterable<Map.Entry<String, JsonNode>> attributes() {
-        return () -> {
-            Iterator<Map.Entry<String, JsonNode>> all = json.properties().iterator();
-            return java.util.stream.StreamSupport.stream(java.util.Spliterators.spliteratorUnknownSize(all, 0), false)
-                    .filter(member -> !NOT_ATTRIBUTES.contains(member.getKey()))
-                    .iterator();
-        };
+    public List<Map.Entry<String, JsonNode>> attributes() {
+        List<Map.Entry<String, JsonNode>> attributes = new ArrayList<>(json.size());
+        for (Map.Entry<String, JsonNode> member : json.properties()) {
+            if (!NOT_ATTRIBUTES.contains(member.getKey())) {
+                attributes.add(member);
+            }
+        }
+        return attributes;
     }
 
     /**

@@ -84,6 +84,35 @@ class EventIdTest {
                 .doesNotHaveDuplicates();
     }
 
+    /** What one program computes from numbers another computes from the JSON that the first wrote. */
+    @ParameterizedTest
+    @ValueSource(
+            doubles = {
+                0.0,
+                -0.0,
+                1,
+                120,
+                -7.25,
+                1e-3,
+                9.99e-4,
+                1e7,
+                9999999.5,
+                1e-7,
+                2e-3,
+                1e23,
+                2.2250738585072014E-308,
+                Double.MAX_VALUE,
+                Double.MIN_VALUE,
+                0.7326269432769902,
+                -3.395899191885078,
+                1.0000000000000002
+            })
+    void isTheSameBeforeAndAfterWriting(double number) throws Exception {
+        Entity built = Entity.builder("a", "T").number("x", number).build();
+
+        assertThat(EventId.of(SCOPE, Entity.parse(built.toBytes()), TIME)).isEqualTo(EventId.of(SCOPE, built, TIME));
+    }
+
     /** Pairs that an encoding without lengths, counts or kinds would take for one. */
     @Test
     void differsForEveryValue() throws Exception {
