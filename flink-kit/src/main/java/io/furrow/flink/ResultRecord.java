@@ -7,7 +7,7 @@ import java.util.Map;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 
 /**
  * What a job found out, as the record that it writes: an entity in normalized form with the headers of every {@code data.*}
@@ -22,7 +22,7 @@ public final class ResultRecord {
      * @param source which job it is, for instance {@code /analytics/temperature}
      */
     public static TopicRecord of(
-            String topic, String key, Entity entity, FiwareScope scope, long timestamp, String source) {
+            String topic, String key, EntityBuilder entity, FiwareScope scope, long timestamp, String source) {
         Instant time = Instant.ofEpochMilli(timestamp);
         Map<String, String> headers = new LinkedHashMap<>();
         headers.put(HeaderNames.CE_ID, EventId.of(scope, entity, time));

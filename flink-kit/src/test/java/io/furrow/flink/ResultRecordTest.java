@@ -7,6 +7,7 @@ import org.junit.jupiter.api.Test;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -41,9 +42,8 @@ class ResultRecordTest {
     }
 
     private static TopicRecord result(double answer, long timestamp) {
-        Entity entity = Entity.builder("Analytics:Answer:1", "Analytics:Answer")
-                .number("answer", answer)
-                .build();
+        EntityBuilder entity =
+                Entity.builder("Analytics:Answer:1", "Analytics:Answer").number("answer", answer);
         return ResultRecord.of("data.answers", "key-1", entity, SCOPE, timestamp, "/analytics/answers");
     }
 }

@@ -21,11 +21,31 @@ final class AnalyticsLoad {
     int heldDevices;
 
     @Option(
+            names = "--held-sides",
+            paramLabel = "M,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "2000,6300",
+            description =
+                    "Metres, sides of the squares in which they are; in the larger as near to each other as 10,000 in"
+                            + " the smaller. Default: ${DEFAULT-VALUE}.")
+    List<Double> heldSides;
+
+    @Option(
             names = "--held-seconds",
             paramLabel = "S",
             defaultValue = "60",
             description = "Seconds for which HELD looks at the lag, at least 20. Default: ${DEFAULT-VALUE}.")
     int heldSeconds;
+
+    @Option(
+            names = "--held-ongoing",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description =
+                    "Option --ongoing-every of the job of HELD: 100,000 devices on four square kilometres are 98,000"
+                            + " close pairs at any time. Default: ${DEFAULT-VALUE}.")
+    String heldOngoing;
 
     @Option(
             names = "--eager-devices",

@@ -85,13 +85,13 @@ public final class Cell {
         List<Change> changes = new ArrayList<>(updates.size());
         for (CellUpdate update : updates) {
             Member before = members.remove(update.fix());
-            List<Member> partners = new ArrayList<>(0);
+            List<Member> partners = new ArrayList<>();
             if (before != null) {
                 members.closeTo(before, proximity, partners);
             }
             changes.add(new Change(before, memberOf(update), partners));
         }
-        List<Member> met = new ArrayList<>(0);
+        List<Member> met = new ArrayList<>();
         for (int i = changes.size() - 1; i >= 0; i--) {
             Change change = changes.get(i);
             long time = updates.get(i).time();

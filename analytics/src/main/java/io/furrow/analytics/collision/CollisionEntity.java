@@ -13,34 +13,33 @@ public final class CollisionEntity {
 
     private CollisionEntity() {}
 
-    public static Entity of(Encounter encounter) {
+    public static EntityBuilder of(Encounter encounter) {
         String pair = encounter.pairId();
         EntityBuilder entity = Entity.builder(TYPE + ":" + pair, TYPE)
                 .number("distance", encounter.distance())
                 .integer("time", encounter.time());
-        device(entity, "Device1", encounter.first());
-        device(entity, "Device2", encounter.second());
+        device(entity, Names.FIRST, encounter.first());
+        device(entity, Names.SECOND, encounter.second());
         entity.text("encounter", encounter.id(pair))
                 .text("phase", encounter.phase().code())
                 .number("minDistance", encounter.minDistance())
                 .integer("startTime", encounter.startTime());
-        return (encounter.confirms().isEmpty() ? entity : entity.text("confirms", encounter.confirms())).build();
+        return encounter.confirms().isEmpty() ? entity : entity.text("confirms", encounter.confirms());
     }
 
     /** An entity of its own, {@code Analytics:Collision:<pair>:<phase>}: the pair's encounter stays as it is. */
-    public static Entity of(Approach approach) {
+    public static EntityBuilder of(Approach approach) {
         String phase = approach.phase().code();
         EntityBuilder entity = Entity.builder(TYPE + ":" + approach.pairId() + ":" + phase, TYPE)
                 .number("distance", approach.distance())
                 .integer("time", approach.time());
-        device(entity, "Device1", approach.first());
-        device(entity, "Device2", approach.second());
+        device(entity, Names.FIRST, approach.first());
+        device(entity, Names.SECOND, approach.second());
         return entity.text("encounter", approach.id())
                 .text("phase", phase)
                 .number("tcpa", approach.tcpa())
                 .number("dcpa", approach.dcpa())
-                .integer("startTime", approach.startTime())
-                .build();
+                .integer("startTime", approach.startTime());
     }
 
     /** The record's key: both entity ids, the lesser first. */
@@ -52,11 +51,26 @@ public final class CollisionEntity {
         return first.id() + "-" + second.id();
     }
 
-    private static void device(EntityBuilder entity, String name, PositionFix fix) {
-        entity.text(name + "_ID", fix.id())
-                .number(name + "_latitude", fix.latitude())
-                .number(name + "_longitude", fix.longitude())
-                .integer(name + "_timestamp", fix.time())
-                .text(name + "_Mission", fix.mission());
+    /** The names of a device's attributes; made once, because of all results these are told most. */
+    private record Names(String id, String latitude, String longitude, String timestamp, String mission) {
+        static final Names FIRST = of("Device1");
+        static final Names SECOND = of("Device2");
+
+        private static Names of(String device) {
+            return new Names(
+                    device + "_ID",
+                    device + "_latitude",
+                    device + "_longitude",
+                    device + "_timestamp",
+                    device + "_Mission");
+        }
+    }
+
+    private static void device(EntityBuilder entity, Names names, PositionFix fix) {
+        entity.text(names.id, fix.id())
+                .number(names.latitude, fix.latitude())
+                .number(names.longitude, fix.longitude())
+                .integer(names.timestamp, fix.time())
+                .text(names.mission, fix.mission());
     }
 }

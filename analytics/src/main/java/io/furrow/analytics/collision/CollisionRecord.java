@@ -6,6 +6,7 @@ import io.furrow.analytics.collision.motion.Approach;
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -34,15 +35,14 @@ final class CollisionRecord {
     /** One entity per cell; timestamp = when. */
     static TopicRecord overflow(CellOverflow overflow, String topic) {
         String cell = HexFormat.of().toHexDigits(overflow.cell());
-        Entity entity = Entity.builder(OVERFLOW_TYPE + ":" + cell, OVERFLOW_TYPE)
+        EntityBuilder entity = Entity.builder(OVERFLOW_TYPE + ":" + cell, OVERFLOW_TYPE)
                 .text("cell", cell)
                 .number("Latitude", overflow.latitude())
                 .number("Longitude", overflow.longitude())
                 .integer("time", overflow.time())
                 .integer("devices", overflow.devices())
                 .integer("pairs", overflow.pairs())
-                .integer("pairsLeftOut", overflow.pairsLeftOut())
-                .build();
+                .integer("pairsLeftOut", overflow.pairsLeftOut());
         String output = Topics.resultOf(overflow.witness().topic(), topic);
         return ResultRecord.of(output, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
     }
@@ -60,12 +60,11 @@ final class CollisionRecord {
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */
     static TopicRecord late(PositionFix fix, String topic) {
-        Entity entity = Entity.builder(fix.id(), LATE_TYPE)
+        EntityBuilder entity = Entity.builder(fix.id(), LATE_TYPE)
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .integer("Time", fix.time())
-                .text("Mission", fix.mission())
-                .build();
+                .text("Mission", fix.mission());
         return ResultRecord.of(Topics.resultOf(fix.topic(), topic), fix.id(), entity, fix.scope(), fix.time(), SOURCE);
     }
 }

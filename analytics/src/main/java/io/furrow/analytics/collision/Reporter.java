@@ -18,7 +18,10 @@ import io.furrow.analytics.format.Text;
  * and again, and to make their texts anew each time costs more than all that is done with a position.
  */
 public final class Reporter {
-    private static final int SLOT_BITS = 18;
+    private static final int SLOT_BITS = 19;
+    /** Places for those of one slot: of 100,000 devices one in 1,000 finds them all taken. */
+    private static final int WAYS = 4;
+
     private static final int SPREAD = 0x9E3779B9;
     private static final Reporter[] KNOWN = new Reporter[1 << SLOT_BITS];
 
@@ -47,12 +50,13 @@ public final class Reporter {
      */
     public static Reporter of(Device device, String id, String type, String mission, String carrier) {
         int slot = slot(device.hashCode());
-        Reporter known = KNOWN[slot];
-        if (known == null || !known.has(device, id, type, mission, carrier)) {
-            known = new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier));
-            KNOWN[slot] = known;
+        for (int way = 0; way < WAYS; way++) {
+            Reporter known = KNOWN[slot ^ way];
+            if (known != null && known.has(device, id, type, mission, carrier)) {
+                return known;
+            }
         }
-        return known;
+        return keep(new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier)), slot);
     }
 
     private boolean has(Device device, String id, String type, String mission, String carrier) {
@@ -61,6 +65,16 @@ public final class Reporter {
                 && this.type.equals(type)
                 && this.mission.equals(mission)
                 && this.carrier.equals(carrier);
+    }
+
+    /** In an empty place, else in the first. Of two threads that take one place the later is remembered; either is right. */
+    private static Reporter keep(Reporter reporter, int slot) {
+        int way = WAYS - 1;
+        while (way > 0 && KNOWN[slot ^ way] != null) {
+            way--;
+        }
+        KNOWN[slot ^ way] = reporter;
+        return reporter;
     }
 
     private static int slot(int hash) {
@@ -97,12 +111,13 @@ public final class Reporter {
         int slot = slot(in.readInt());
         byte[] block = new byte[in.readInt()];
         in.readFully(block);
-        Reporter known = KNOWN[slot]; // whichever of two threads wrote last
-        if (known == null || !Arrays.equals(known.block, block)) {
-            known = decoded(block);
-            KNOWN[slot] = known;
+        for (int way = 0; way < WAYS; way++) {
+            Reporter known = KNOWN[slot ^ way];
+            if (known != null && Arrays.equals(known.block, block)) {
+                return known;
+            }
         }
-        return known;
+        return keep(decoded(block), slot);
     }
 
     private static Reporter decoded(byte[] block) throws IOException {

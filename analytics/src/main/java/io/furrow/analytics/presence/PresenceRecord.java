@@ -52,17 +52,16 @@ final class PresenceRecord {
             entity.text("Domain", stay.domain());
         }
         String output = Topics.resultOf(fix.topic(), topic);
-        return ResultRecord.of(output, fix.id(), entity.build(), fix.scope(), passage.told(), SOURCE);
+        return ResultRecord.of(output, fix.id(), entity, fix.scope(), passage.told(), SOURCE);
     }
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */
     static TopicRecord late(PresenceFix fix, String topic) {
-        Entity entity = Entity.builder(fix.id(), LATE_TYPE)
+        EntityBuilder entity = Entity.builder(fix.id(), LATE_TYPE)
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .integer("Time", fix.time())
-                .text("Mission", fix.mission())
-                .build();
+                .text("Mission", fix.mission());
         return ResultRecord.of(Topics.resultOf(fix.topic(), topic), fix.id(), entity, fix.scope(), fix.time(), SOURCE);
     }
 

@@ -65,7 +65,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
 
     private TopicRecord record(String key, EntityBuilder entity, InputScope scope, long time) {
         String output = Topics.resultOf(scope.topic(), topic);
-        return ResultRecord.of(output, key, entity.build(), scope.fiware(), time, SOURCE);
+        return ResultRecord.of(output, key, entity, scope.fiware(), time, SOURCE);
     }
 
     /** Null where there was nothing to average: the value of an earlier window must not stand beside this one's. */

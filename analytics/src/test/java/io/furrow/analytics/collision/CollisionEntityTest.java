@@ -39,10 +39,12 @@ class CollisionEntityTest {
 
     @Test
     void isOnePerPairWhateverTheEncounter() {
-        Entity entity = CollisionEntity.of(encounter);
-        Entity later = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, SECOND, 1, 1, 9000, 9000));
+        Entity entity = CollisionEntity.of(encounter).build();
+        Entity later = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, SECOND, 1, 1, 9000, 9000))
+                .build();
         PositionFix elsewhere = Fixes.of("other|/|r2", "r2", "", 40.5, -3.5, 2000);
-        Entity other = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, elsewhere, 1, 1, 9000, 9000));
+        Entity other = CollisionEntity.of(new Encounter(Phase.STARTED, FIRST, elsewhere, 1, 1, 9000, 9000))
+                .build();
         assertThat(later.id()).isEqualTo(entity.id());
         assertThat(later.text("encounter")).isNotEqualTo(entity.text("encounter"));
         assertThat(other.id()).isNotEqualTo(entity.id());

@@ -14,7 +14,9 @@ final class Fleet {
     static final long START = 1_700_000_000_000L;
     static final int TICKS_PER_SECOND = 5;
 
-    private static final double SIDE = 2000;
+    /** Of the square, in metres, where nothing else is said. */
+    static final double SIDE = 2000;
+
     private static final double LATITUDE = 40.3125;
     private static final double LONGITUDE = -3.4821;
     private static final double METERS_PER_DEGREE = 6_371_000 * Math.PI / 180;
@@ -29,12 +31,18 @@ final class Fleet {
     private final int devices;
     private final int share;
     private final int shares;
+    private final double side;
     private final double[] east;
     private final double[] north;
     private final Reporter[] reporters;
 
     /** Every {@code shares}-th device from number {@code share} on. */
     Fleet(int devices, int share, int shares) {
+        this(devices, share, shares, SIDE);
+    }
+
+    Fleet(int devices, int share, int shares, double side) {
+        this.side = side;
         this.devices = devices;
         this.share = share;
         this.shares = shares;
@@ -44,8 +52,8 @@ final class Fleet {
         reporters = new Reporter[mine];
         for (int i = 0; i < mine; i++) {
             int device = share + i * shares;
-            east[i] = SIDE * uniform(mixed(device, -1));
-            north[i] = SIDE * uniform(mixed(device, -2));
+            east[i] = side * uniform(mixed(device, -1));
+            north[i] = side * uniform(mixed(device, -2));
             String id = "urn:ngsi-ld:Robot:" + device;
             reporters[i] = reporter(SCOPE + id, id);
         }
@@ -101,8 +109,8 @@ final class Fleet {
                 fix.id(), fix.id().lastIndexOf(':') + 1, fix.id().length(), 10);
     }
 
-    private static double inside(double meters) {
-        return meters < 0 ? -meters : meters > SIDE ? 2 * SIDE - meters : meters;
+    private double inside(double meters) {
+        return meters < 0 ? -meters : meters > side ? 2 * side - meters : meters;
     }
 
     private static double uniform(long bits) {

@@ -78,8 +78,8 @@ final class FleetTopic implements AutoCloseable {
     }
 
     /** Each device once a second at the time of sending, until {@link #stop}. */
-    void report(int devices) {
-        Fleet fleet = new Fleet(devices, 0, 1);
+    void report(int devices, double side) {
+        Fleet fleet = new Fleet(devices, 0, 1, side);
         long begin = System.currentTimeMillis();
         for (long tick = 0; !stopped; tick++) {
             fleet.tick(tick, fix -> {

@@ -7,10 +7,12 @@ import java.util.List;
 /**
  * A fleet that reported once a second, and the job behind it.
  *
+ * @param side metres, of the square in which they are
  * @param sentPerSecond what the fleet really sent
+ * @param foundPerSecond records that the job wrote
  * @param lags the least of the job's consumer in each second, in records, as of its newest checkpoint
  */
-public record HeldRate(int devices, double sentPerSecond, List<Long> lags) {
+public record HeldRate(int devices, double side, double sentPerSecond, double foundPerSecond, List<Long> lags) {
     /** Of the rate: what the slope of a lag that does not grow stays below. */
     private static final double GROWTH = 0.01;
 
@@ -46,7 +48,9 @@ public record HeldRate(int devices, double sentPerSecond, List<Long> lags) {
     public void addTo(Figures figures) {
         figures.add(
                 "devices", devices,
+                "side m", side,
                 "sent/s", sentPerSecond,
+                "found/s", foundPerSecond,
                 "seconds", lags.size(),
                 "first trough", troughs().get(0),
                 "last trough", troughs().get(troughs().size() - 1),
@@ -60,7 +64,8 @@ public record HeldRate(int devices, double sentPerSecond, List<Long> lags) {
         for (int second = 0; second < lags.size(); second++) {
             points.add(new double[] {second + 1, Math.max(1, lags.get(second))});
         }
-        Plot plot = new Plot("Lag of the consumer in records, %,d devices at 1 Hz".formatted(devices), "seconds");
+        Plot plot = new Plot(
+                "Lag of the consumer in records, %,d devices at 1 Hz on %,.0f m".formatted(devices, side), "seconds");
         plot.line("lag", points);
         plot.line("a second's", List.of(new double[] {1, devices}, new double[] {lags.size(), devices}));
         return plot.svg();

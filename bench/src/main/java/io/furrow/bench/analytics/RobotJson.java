@@ -1,6 +1,7 @@
 package io.furrow.bench.analytics;
 
 import java.nio.charset.StandardCharsets;
+import java.util.Arrays;
 
 import org.apache.kafka.clients.producer.ProducerRecord;
 
@@ -9,44 +10,86 @@ import io.furrow.model.event.HeaderNames;
 
 /** A fix as the entity of a robot in the form in which the NGSI source writes it. */
 final class RobotJson {
-    private static final byte[] SERVICE = "farm".getBytes(StandardCharsets.UTF_8);
-    private static final byte[] SERVICE_PATH = "/".getBytes(StandardCharsets.UTF_8);
+    private static final byte[] SERVICE = ascii("farm");
+    private static final byte[] SERVICE_PATH = ascii("/");
 
+    private static final byte[] HEAD = ascii("{\"id\":\"");
+    private static final byte[] LOCATION = ascii("\",\"type\":\"Robot\",\"location\":{\"type\":\"geo:json\",\"value\":{"
+            + "\"type\":\"Point\",\"coordinates\":[");
+    private static final byte[] OTHERS = ascii("]},\"metadata\":{}},"
+            + "\"Status\":{\"type\":\"Boolean\",\"value\":true,\"metadata\":{}},"
+            + "\"Battery\":{\"type\":\"Float\",\"value\":0.87,\"metadata\":{}},"
+            + "\"Time\":{\"type\":\"Integer\",\"value\":");
+    private static final byte[] TAIL = ascii(",\"metadata\":{}}}");
+
+    private static final int TIME_DIGITS = 13;
+    /** A sign and three digits. */
+    private static final int WHOLE_WIDTH = 4;
+
+    private static final int DECIMAL_DIGITS = 7;
     private static final long DECIMALS = 10_000_000;
+    private static final int LENGTH = HEAD.length
+            + LOCATION.length
+            + 2 * (WHOLE_WIDTH + 1 + DECIMAL_DIGITS)
+            + 1
+            + OTHERS.length
+            + TIME_DIGITS
+            + TAIL.length;
 
     private RobotJson() {}
 
     /** @param time of the record, epoch milliseconds */
     static ProducerRecord<byte[], byte[]> record(String topic, PositionFix fix, long time) {
-        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
-                topic, null, time, fix.id().getBytes(StandardCharsets.ISO_8859_1), bytes(fix, time));
+        byte[] id = ascii(fix.id());
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, time, id, bytes(id, fix, time));
         record.headers().add(HeaderNames.SERVICE, SERVICE).add(HeaderNames.SERVICE_PATH, SERVICE_PATH);
         return record;
     }
 
-    private static byte[] bytes(PositionFix fix, long time) {
-        StringBuilder json = new StringBuilder(400)
-                .append("{\"id\":\"")
-                .append(fix.id())
-                .append(
-                        "\",\"type\":\"Robot\",\"location\":{\"type\":\"geo:json\",\"value\":{\"type\":\"Point\",\"coordinates\":[");
-        appendDegrees(json, fix.longitude());
-        json.append(',');
-        appendDegrees(json, fix.latitude());
-        return json.append("]},\"metadata\":{}},\"Status\":{\"type\":\"Boolean\",\"value\":true,\"metadata\":{}},")
-                .append("\"Battery\":{\"type\":\"Float\",\"value\":0.87,\"metadata\":{}},")
-                .append("\"Time\":{\"type\":\"Integer\",\"value\":")
-                .append(time)
-                .append(",\"metadata\":{}}}")
-                .toString()
-                .getBytes(StandardCharsets.ISO_8859_1);
+    private static byte[] bytes(byte[] id, PositionFix fix, long time) {
+        byte[] json = Arrays.copyOf(HEAD, LENGTH + id.length);
+        int at = put(id, json, HEAD.length);
+        at = put(LOCATION, json, at);
+        at = putDegrees(fix.longitude(), json, at);
+        json[at++] = ',';
+        at = putDegrees(fix.latitude(), json, at);
+        at = put(OTHERS, json, at);
+        at = putDigits(time, TIME_DIGITS, json, at);
+        put(TAIL, json, at);
+        return json;
     }
 
-    /** With seven decimals, a centimetre, as receivers tell them. */
-    private static void appendDegrees(StringBuilder json, double degrees) {
+    private static int put(byte[] part, byte[] json, int at) {
+        System.arraycopy(part, 0, json, at, part.length);
+        return at + part.length;
+    }
+
+    /** With seven decimals, a centimetre, as receivers tell them, and as much white space as makes all equally long. */
+    private static int putDegrees(double degrees, byte[] json, int at) {
         long units = Math.round(Math.abs(degrees) * DECIMALS);
-        json.append(degrees < 0 ? "-" : "").append(units / DECIMALS).append('.');
-        String decimals = Long.toString(DECIMALS + units % DECIMALS);
-        json.append(decimals, 1, decimals.length());
+        int point = at + WHOLE_WIDTH;
+        int first = point;
+        for (long rest = units / DECIMALS; rest > 0 || first == point; rest /= 10) {
+            json[--first] = (byte) ('0' + rest % 10);
+        }
+        if (degrees < 0) {
+            json[--first] = '-';
+        }
+        Arrays.fill(json, at, first, (byte) ' ');
+        json[point] = '.';
+        return putDigits(units % DECIMALS, DECIMAL_DIGITS, json, point + 1);
+    }
+
+    private static int putDigits(long number, int digits, byte[] json, int at) {
+        long rest = number;
+        for (int i = at + digits - 1; i >= at; i--) {
+            json[i] = (byte) ('0' + rest % 10);
+            rest /= 10;
+        }
+        return at + digits;
+    }
+
+    private static byte[] ascii(String text) {
+        return text.getBytes(StandardCharsets.US_ASCII);
     }
 }

@@ -73,23 +73,39 @@ public final class TopicMeasurement {
         }
     }
 
-    /** A fleet that reports once a second as time goes by, and how far the job's consumer is behind it, second by second. */
-    public HeldRate held(int devices, int parallelism, Duration warmUp, Duration measured) throws Exception {
+    /**
+     * What is to be held, and for how long.
+     *
+     * @param devices each reports once a second
+     * @param side metres, of the square in which they are
+     * @param ongoingEvery option of the job
+     */
+    public record Held(
+            int devices, double side, int parallelism, String ongoingEvery, Duration warmUp, Duration measured) {}
+
+    /** A fleet that reports as time goes by, and how far the job's consumer is behind it, second by second. */
+    public HeldRate held(Held plan) throws Exception {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
-            Thread fleet = new Thread(() -> topic.report(devices), "bench-fleet");
-            Running job = start(topic, parallelism, List.of());
+            Thread fleet = new Thread(() -> topic.report(plan.devices, plan.side), "bench-fleet");
+            Running job = start(topic, plan.parallelism, List.of("--ongoing-every", plan.ongoingEvery));
             fleet.start();
             try (GroupLag lag = new GroupLag(cluster.kafka(), topic.name(), jobName())) {
-                TimeUnit.MILLISECONDS.sleep(warmUp.toMillis());
+                TimeUnit.MILLISECONDS.sleep(plan.warmUp.toMillis());
                 long begin = System.nanoTime();
                 long sent = topic.sent();
+                long found = lag.written(topic.results());
                 List<Long> lags = new ArrayList<>();
-                for (int second = 0; second < measured.toSeconds(); second++) {
+                for (int second = 0; second < plan.measured.toSeconds(); second++) {
                     lags.add(leastLag(lag, begin + Duration.ofSeconds(second).toNanos()));
                     progress.accept("%d s: lag %,d".formatted(second + 1, lags.get(second)));
                 }
-                double rate = (topic.sent() - sent) / ((System.nanoTime() - begin) / 1e9);
-                return new HeldRate(devices, rate, lags);
+                double seconds = (System.nanoTime() - begin) / 1e9;
+                return new HeldRate(
+                        plan.devices,
+                        plan.side,
+                        (topic.sent() - sent) / seconds,
+                        (lag.written(topic.results()) - found) / seconds,
+                        lags);
             } finally {
                 topic.stop();
                 fleet.join();
@@ -112,7 +128,7 @@ public final class TopicMeasurement {
     /** How long after a position its alarm is in the topic of results, in whole milliseconds. */
     public Histogram alarms(int devices, int parallelism, Duration measured) throws Exception {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
-            Thread fleet = new Thread(() -> topic.report(devices), "bench-fleet");
+            Thread fleet = new Thread(() -> topic.report(devices, Fleet.SIDE), "bench-fleet");
             Running job = start(topic, parallelism, List.of("--eager"));
             fleet.start();
             try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), true)) {

@@ -4,7 +4,7 @@ import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
 import java.time.Instant;
-import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.HexFormat;
 import java.util.List;
 import java.util.Map;
@@ -13,6 +13,7 @@ import java.util.TreeMap;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 
 /**
  * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity id, event time and the sorted
@@ -26,18 +27,24 @@ public final class EventId {
     private EventId() {}
 
     public static String of(FiwareScope scope, Entity entity, Instant eventTime) {
+        List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
+        attributes.sort(Map.Entry.comparingByKey());
         Parts parts = new Parts();
         parts.addEvent(scope, entity.id(), eventTime);
-        List<Map.Entry<String, JsonNode>> attributes = new ArrayList<>();
-        for (Map.Entry<String, JsonNode> attribute : entity.attributes()) {
-            if (!Entity.BUILT_INS.contains(attribute.getKey())) {
-                attributes.add(attribute);
-            }
-        }
-        attributes.sort(Map.Entry.comparingByKey());
         for (Map.Entry<String, JsonNode> attribute : attributes) {
-            parts.addText(attribute.getKey());
-            parts.addValue(attribute.getValue().path("value"));
+            parts.addAttribute(attribute.getKey(), attribute.getValue().path("value"));
+        }
+        return parts.digest();
+    }
+
+    /** The id of the event that tells the entity as it stands there. */
+    public static String of(FiwareScope scope, EntityBuilder entity, Instant eventTime) {
+        List<EntityBuilder.Attribute> attributes = entity.attributes();
+        attributes.sort(Comparator.comparing(EntityBuilder.Attribute::name));
+        Parts parts = new Parts();
+        parts.addEvent(scope, entity.id(), eventTime);
+        for (EntityBuilder.Attribute attribute : attributes) {
+            parts.addAttribute(attribute.name(), attribute.value());
         }
         return parts.digest();
     }
@@ -59,6 +66,13 @@ public final class EventId {
             addText(scope.servicePath());
             addText(entityId);
             text.append(eventTime.toEpochMilli());
+        }
+
+        void addAttribute(String name, JsonNode value) {
+            if (!Entity.BUILT_INS.contains(name)) {
+                addText(name);
+                addValue(value);
+            }
         }
 
         /** The length before the text makes the whole injective: no separator can be part of a text. */

@@ -95,7 +95,7 @@ public record Entity(ObjectNode json) {
         return value(attribute).flatMap(Numbers::finite);
     }
 
-    /** The attributes, built-ins included, in the order in which they were reported. */
+    /** The attributes, built-ins included, in the order in which they were reported; a list of the caller's own. */
     public List<Map.Entry<String, JsonNode>> attributes() {
         List<Map.Entry<String, JsonNode>> attributes = new ArrayList<>(json.size());
         for (Map.Entry<String, JsonNode> member : json.properties()) {

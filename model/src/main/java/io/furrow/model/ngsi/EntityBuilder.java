@@ -1,19 +1,32 @@
 package io.furrow.model.ngsi;
 
+import java.util.ArrayList;
 import java.util.Collection;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** Builds an {@link Entity} attribute by attribute, with the attribute types that WeLASER's programs know. */
+/**
+ * Builds an {@link Entity} attribute by attribute, with the attribute types that WeLASER's programs know. What is only to be
+ * written need not become an entity first: see {@link #toBytes}.
+ */
 public final class EntityBuilder {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
-    private final ObjectNode json = NODES.objectNode();
+    private final String id;
+    private final String type;
+    private final Map<String, Attribute> attributes = new LinkedHashMap<>();
+
+    /** What an attribute is in normalized form; it has no metadata. */
+    public record Attribute(String name, String type, JsonNode value) {}
 
     EntityBuilder(String id, String type) {
-        json.put("id", id).put("type", type);
+        this.id = id;
+        this.type = type;
     }
 
     /** An attribute of type {@code String}. */
@@ -59,14 +72,35 @@ public final class EntityBuilder {
         if (name.equals("id") || name.equals("type")) {
             throw new IllegalArgumentException("'" + name + "' is no name for an attribute");
         }
-        ObjectNode attribute = NODES.objectNode().put("type", type);
-        attribute.set("value", value);
-        attribute.set("metadata", NODES.objectNode());
-        json.set(name, attribute);
+        attributes.put(name, new Attribute(name, type, value));
         return this;
     }
 
+    public String id() {
+        return id;
+    }
+
+    String type() {
+        return type;
+    }
+
+    /** In the order in which they were given. */
+    public List<Attribute> attributes() {
+        return new ArrayList<>(attributes.values());
+    }
+
     public Entity build() {
+        ObjectNode json = NODES.objectNode().put("id", id).put("type", type);
+        for (Attribute each : attributes.values()) {
+            ObjectNode attribute = json.putObject(each.name).put("type", each.type);
+            attribute.set("value", each.value);
+            attribute.putObject("metadata");
+        }
         return new Entity(json);
+    }
+
+    /** UTF-8 JSON, byte by byte that of the entity. */
+    public byte[] toBytes() {
+        return NgsiJson.write(this);
     }
 }

@@ -93,7 +93,12 @@ public final class EntityReader {
     }
 
     private static boolean isPlain(String name) {
-        return name.chars().noneMatch(sign -> Character.isSurrogate((char) sign));
+        for (int i = 0; i < name.length(); i++) {
+            if (Character.isSurrogate(name.charAt(i))) {
+                return false;
+            }
+        }
+        return true;
     }
 
     /**

@@ -4,11 +4,15 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 
 import com.fasterxml.jackson.core.JsonFactory;
+import com.fasterxml.jackson.core.JsonGenerator;
 import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.core.SerializableString;
 import com.fasterxml.jackson.core.StreamReadConstraints;
 import com.fasterxml.jackson.core.StreamReadFeature;
 import com.fasterxml.jackson.core.StreamWriteFeature;
 import com.fasterxml.jackson.core.exc.StreamConstraintsException;
+import com.fasterxml.jackson.core.io.SerializedString;
+import com.fasterxml.jackson.core.util.ByteArrayBuilder;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
@@ -22,6 +26,11 @@ import com.fasterxml.jackson.databind.json.JsonMapper;
 public final class NgsiJson {
     public static final int MAX_NESTING = 64;
     public static final int MAX_STRING = 8 * 1024 * 1024;
+
+    private static final int TYPICAL_ENTITY = 2048;
+    private static final SerializableString TYPE = new SerializedString("type");
+    private static final SerializableString VALUE = new SerializedString("value");
+    private static final SerializableString METADATA = new SerializedString("metadata");
 
     private static final ObjectMapper MAPPER = JsonMapper.builder(JsonFactory.builder()
                     .streamReadConstraints(StreamReadConstraints.builder()
@@ -86,6 +95,44 @@ public final class NgsiJson {
             throw new UnreadableException(Reason.TOO_DEEP, "a number's exponent is out of range", e);
         } catch (IOException e) { // Jackson's answer to bytes that are not UTF-8
             throw new UnreadableException(Reason.NOT_JSON, e.getMessage(), e);
+        }
+    }
+
+    /** The entity as UTF-8 JSON without white space. */
+    static byte[] write(EntityBuilder entity) {
+        ByteArrayBuilder bytes = new ByteArrayBuilder(TYPICAL_ENTITY);
+        try (JsonGenerator json = MAPPER.createGenerator(bytes)) {
+            json.writeStartObject();
+            json.writeStringField("id", entity.id());
+            json.writeFieldName(TYPE);
+            json.writeString(entity.type());
+            for (EntityBuilder.Attribute attribute : entity.attributes()) {
+                json.writeObjectFieldStart(attribute.name());
+                json.writeFieldName(TYPE);
+                json.writeString(attribute.type());
+                json.writeFieldName(VALUE);
+                write(attribute.value(), json);
+                json.writeFieldName(METADATA);
+                json.writeStartObject();
+                json.writeEndObject();
+                json.writeEndObject();
+            }
+            json.writeEndObject();
+        } catch (IOException e) {
+            throw new UncheckedIOException("an entity could not be written", e);
+        }
+        return bytes.toByteArray();
+    }
+
+    private static void write(JsonNode value, JsonGenerator json) throws IOException {
+        if (value.isTextual()) {
+            json.writeString(value.textValue());
+        } else if (value.isLong()) {
+            json.writeNumber(value.longValue());
+        } else if (value.isDouble()) {
+            json.writeNumber(value.doubleValue());
+        } else {
+            json.writeTree(value);
         }
     }
 

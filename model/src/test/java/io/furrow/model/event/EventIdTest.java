@@ -11,6 +11,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.Notification;
 import io.furrow.model.ngsi.RecordedNotification;
 import io.furrow.model.ngsi.UnreadableException;
@@ -108,9 +109,12 @@ class EventIdTest {
                 1.0000000000000002
             })
     void isTheSameBeforeAndAfterWriting(double number) throws Exception {
-        Entity built = Entity.builder("a", "T").number("x", number).build();
+        EntityBuilder built = Entity.builder("a", "T").text("t", "é").number("x", number);
 
-        assertThat(EventId.of(SCOPE, Entity.parse(built.toBytes()), TIME)).isEqualTo(EventId.of(SCOPE, built, TIME));
+        assertThat(built.toBytes()).isEqualTo(built.build().toBytes());
+        assertThat(EventId.of(SCOPE, built, TIME))
+                .isEqualTo(EventId.of(SCOPE, built.build(), TIME))
+                .isEqualTo(EventId.of(SCOPE, Entity.parse(built.toBytes()), TIME));
     }
 
     /** Pairs that an encoding without lengths, counts or kinds would take for one. */
