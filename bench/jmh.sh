@@ -7,7 +7,7 @@ target=$home/bench/target
 (cd "$home" && ./mvnw -B -q -pl bench -am test-compile dependency:build-classpath \
     -Dmdep.includeScope=test -Dmdep.outputFile="$target/jmh.classpath")
 java=${JAVA_HOME:+$JAVA_HOME/bin/}java
-path=$target/test-classes:$(cat "$target/jmh.classpath")
+path=$target/test-classes:$target/classes:$(cat "$target/jmh.classpath")
 
 # JMH writes a class around each benchmark.
 rm -rf "$target/jmh"

@@ -15,7 +15,7 @@ usage() {
 Usage: ./furrow soak collision-cases [OPTION VALUE]…
 Runs the test that every build runs with 1000 cases. Each case goes through the three exact stages, and those behind them, on a
 Flink cluster in this process, its positions shuffled within the bound. It passes where every record of every case is that of the
-definition. 100,000 cases take about an hour on two cores.
+definition. 100,000 cases take about a quarter of an hour on two cores.
 
   --cases N  A multiple of 100. Default: $cases.
   --seed N   The seed that a failure printed, to see it again (with --cases 10000).
@@ -39,7 +39,7 @@ logs=$home/target/soak/collision-cases
 rm -rf "$logs"
 mkdir -p "$logs"
 
-# A new process for every 10,000: the metrics of all its jobs stay in its memory.
+# A new process for every 10,000, so that one shows how far it is.
 for ((done = 0; done < cases; done += now)); do
     now=$((cases - done < 10000 ? cases - done : 10000))
     say "$done of $cases cases passed"

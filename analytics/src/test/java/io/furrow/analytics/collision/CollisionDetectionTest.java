@@ -3,12 +3,12 @@ package io.furrow.analytics.collision;
 import java.util.ArrayList;
 import java.util.List;
 
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
+
+import io.furrow.analytics.JobCounters;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -17,11 +17,9 @@ import static org.assertj.core.api.Assertions.assertThat;
  * sets {@code furrow.collision.cases}, and {@code furrow.collision.seed} to see a failure again.
  */
 class CollisionDetectionTest {
-    private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
-
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
+            .setConfiguration(JobCounters.kept())
             .setNumberSlotsPerTaskManager(4)
             .build());
 
@@ -67,7 +65,7 @@ class CollisionDetectionTest {
         }
         for (int parallelism : new int[] {1, 2, 4}) {
             List<PositionFix> arrivals = new Worlds(seed + parallelism).shuffled(fixes, DetectionRun.BOUND);
-            DetectionRun run = DetectionRun.of(arrivals, rules, parallelism, METRICS);
+            DetectionRun run = DetectionRun.of(arrivals, rules, parallelism);
             String which = "job %d, parallelism %d, seed %d, %s".formatted(job, parallelism, seed, rules);
             assertThat(run.late()).as(which).isEmpty();
             assertThat(CollisionOracle.difference(run.encounters(), encounters))
@@ -139,7 +137,7 @@ class CollisionDetectionTest {
 
     private static DetectionRun run(List<PositionFix> arrivals, CollisionRules rules, int parallelism)
             throws Exception {
-        return DetectionRun.of(arrivals, rules, parallelism, METRICS);
+        return DetectionRun.of(arrivals, rules, parallelism);
     }
 
     private static List<PositionFix> worlds(double threshold, long seed) {

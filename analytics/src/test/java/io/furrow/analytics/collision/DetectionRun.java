@@ -9,43 +9,28 @@ import org.apache.flink.api.common.JobExecutionResult;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.PipelineOptions;
-import org.apache.flink.metrics.Counter;
-import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.util.CloseableIterator;
 
-import static org.assertj.core.api.Assertions.assertThat;
+import io.furrow.analytics.JobCounters;
 
 /**
  * What came out of one run of the stages on a cluster.
  *
  * @param overflows as told, in the order of the definition's
- * @param metrics of the run
  */
 record DetectionRun(
-        List<Encounter> encounters,
-        List<PositionFix> late,
-        List<CellOverflow> overflows,
-        JobExecutionResult result,
-        InMemoryReporter metrics) {
+        List<Encounter> encounters, List<PositionFix> late, List<CellOverflow> overflows, JobExecutionResult result) {
     /** How much later than a newer position an older one may come. */
     static final long BOUND = 1500;
 
-    static DetectionRun of(List<PositionFix> arrivals, CollisionRules rules, int parallelism, InMemoryReporter metrics)
-            throws Exception {
-        return of(
-                arrivals,
-                fixes -> CollisionDetection.define(fixes.keyBy(PositionFix::device), rules),
-                parallelism,
-                metrics);
+    static DetectionRun of(List<PositionFix> arrivals, CollisionRules rules, int parallelism) throws Exception {
+        return of(arrivals, fixes -> CollisionDetection.define(fixes.keyBy(PositionFix::device), rules), parallelism);
     }
 
     static DetectionRun of(
-            List<PositionFix> arrivals,
-            Function<DataStream<PositionFix>, CollisionDetection> defined,
-            int parallelism,
-            InMemoryReporter metrics)
+            List<PositionFix> arrivals, Function<DataStream<PositionFix>, CollisionDetection> defined, int parallelism)
             throws Exception {
         Configuration settings = new Configuration().set(PipelineOptions.GENERIC_TYPES, false);
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
@@ -66,8 +51,7 @@ record DetectionRun(
                 all(encounters, CollisionOracle.ORDER),
                 all(late, PositionFix.SEQUENCE),
                 all(overflows, Comparator.comparingLong(CellOverflow::time).thenComparingLong(CellOverflow::cell)),
-                result,
-                metrics);
+                result);
     }
 
     List<CollisionOracle.Overflow> toldOverflows() {
@@ -78,11 +62,7 @@ record DetectionRun(
 
     /** The sum of a counter over all subtasks. */
     long total(String counter) {
-        var found = metrics.findMetrics(result.getJobID(), ".*\\." + counter);
-        assertThat(found).isNotEmpty();
-        return found.values().stream()
-                .mapToLong(metric -> ((Counter) metric).getCount())
-                .sum();
+        return JobCounters.total(result.getJobID(), counter);
     }
 
     private static <T> List<T> all(CloseableIterator<T> from, Comparator<T> order) {

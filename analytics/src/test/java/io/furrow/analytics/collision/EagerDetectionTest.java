@@ -5,8 +5,6 @@ import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
 
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
@@ -15,11 +13,8 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EagerDetectionTest {
-    private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
-
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
             .setNumberSlotsPerTaskManager(4)
             .build());
 
@@ -51,8 +46,7 @@ class EagerDetectionTest {
             DetectionRun run = DetectionRun.of(
                     arrivals,
                     positions -> CollisionDetection.define(positions.keyBy(PositionFix::device), rules, true),
-                    parallelism,
-                    METRICS);
+                    parallelism);
             String which = "job %d, seed %d, %s".formatted(job, seed, rules);
             assertThat(CollisionOracle.difference(exact(run.encounters()), expected))
                     .as(which)
