@@ -16,8 +16,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.analytics.TestEnvironment;
 import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.TopicRecord;
 import io.furrow.flink.device.DeviceInput;
 import io.furrow.model.event.HeaderNames;
@@ -172,7 +172,7 @@ class MotionJobTest {
     }
 
     private static List<TopicRecord> run(CollisionOptions options, List<TopicRecord> records) throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        StreamExecutionEnvironment env = TestEnvironment.of(options);
         env.setParallelism(2);
         DataStream<TopicRecord> source = env.fromData(records)
                 .setParallelism(1)

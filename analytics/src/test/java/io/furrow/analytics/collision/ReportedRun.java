@@ -11,8 +11,8 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.TestEnvironment;
 import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.flink.device.DeviceInput;
@@ -36,7 +36,7 @@ final class ReportedRun {
     private ReportedRun() {}
 
     static List<TopicRecord> run(CollisionOptions options, TopicRecord... records) throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        StreamExecutionEnvironment env = TestEnvironment.of(options);
         env.setParallelism(options.parallelism().orElse(2));
         DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
                 .setParallelism(1)

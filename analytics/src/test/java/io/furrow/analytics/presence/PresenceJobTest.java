@@ -11,7 +11,6 @@ import org.apache.flink.api.common.eventtime.Watermark;
 import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
@@ -21,10 +20,10 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.presence.Plot.Box;
 import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.DeadLetter;
@@ -38,10 +37,7 @@ import static org.assertj.core.api.Assertions.tuple;
 
 class PresenceJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-            .setNumberTaskManagers(1)
-            .setNumberSlotsPerTaskManager(4)
-            .build());
+    static final MiniClusterExtension FLINK = AfterBroadcast.cluster(4);
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
@@ -153,11 +149,14 @@ class PresenceJobTest {
 
     private static List<TopicRecord> run(PresenceOptions options, List<Plot> plots, TopicRecord... records)
             throws Exception {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
+        StreamExecutionEnvironment env = TestEnvironment.of(options);
         env.setParallelism(options.parallelism().orElse(2));
         DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
                 .setParallelism(1)
                 .uid("records")
+                .filter(new AfterBroadcast("Follow devices", env.getParallelism()))
+                .setParallelism(1)
+                .uid("after-broadcast")
                 .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachRecord())
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .setParallelism(1)

@@ -14,13 +14,11 @@ import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.configuration.Configuration;
-import org.apache.flink.configuration.RestartStrategyOptions;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
@@ -71,13 +69,7 @@ record JobRun(JobID id, List<TopicRecord> records) {
     }
 
     static StreamExecutionEnvironment environment(TemperatureOptions options) {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        Configuration failAtOnce = new Configuration();
-        failAtOnce.set(RestartStrategyOptions.RESTART_STRATEGY, "none");
-        env.configure(failAtOnce);
-        // A barrier of one source holds up its records until the other's comes, which here may wait for those records.
-        env.getCheckpointConfig().disableCheckpointing();
-        return env;
+        return TestEnvironment.of(options);
     }
 
     static DataStream<TopicRecord> source(
