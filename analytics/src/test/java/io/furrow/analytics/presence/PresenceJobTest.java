@@ -6,11 +6,15 @@ import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.eventtime.Watermark;
 import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.api.common.functions.FilterFunction;
+import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
@@ -24,7 +28,6 @@ import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.presence.Plot.Box;
 import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.KafkaEnds;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
@@ -37,9 +40,13 @@ import static org.assertj.core.api.Assertions.tuple;
 
 class PresenceJobTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = AfterBroadcast.cluster(4);
+    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setNumberTaskManagers(1)
+            .setNumberSlotsPerTaskManager(4)
+            .build());
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
+    private static volatile CountDownLatch fieldsHoldUp;
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
     /** In any order of arrival, at any parallelism: what the definition says of several stories after each other. */
@@ -149,14 +156,16 @@ class PresenceJobTest {
 
     private static List<TopicRecord> run(PresenceOptions options, List<Plot> plots, TopicRecord... records)
             throws Exception {
+        fieldsHoldUp = new CountDownLatch(1);
         StreamExecutionEnvironment env = TestEnvironment.of(options);
+        env.setBufferTimeout(0); // what was sent first is there first
         env.setParallelism(options.parallelism().orElse(2));
         DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
                 .setParallelism(1)
                 .uid("records")
-                .filter(new AfterBroadcast("Follow devices", env.getParallelism()))
+                .filter(new AfterFields())
                 .setParallelism(1)
-                .uid("after-broadcast")
+                .uid("after-fields")
                 .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachRecord())
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .setParallelism(1)
@@ -165,7 +174,7 @@ class PresenceJobTest {
         DataStream<TopicRecord> versions = env.fromData(records(known))
                 .setParallelism(1)
                 .uid("fields")
-                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                .assignTimestampsAndWatermarks(WatermarkStrategy.forGenerator(context -> new NoHindrance()))
                 .setParallelism(1)
                 .uid("no-hindrance");
         PresenceJob.Inputs in = new PresenceJob.Inputs(source, new FieldInput(versions, () -> records(known)));
@@ -188,6 +197,28 @@ class PresenceJobTest {
         public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
             newest = Math.max(newest, time);
             output.emitWatermark(new Watermark(newest - Story.BOUND - 1));
+        }
+
+        @Override
+        public void onPeriodicEmit(WatermarkOutput output) {}
+    }
+
+    /** The fields say first that they hold event time up no more: which position is late would else depend on chance. */
+    private static final class AfterFields implements FilterFunction<TopicRecord> {
+        private static final long serialVersionUID = 1L;
+
+        @Override
+        public boolean filter(TopicRecord record) throws InterruptedException {
+            assertThat(fieldsHoldUp.await(1, TimeUnit.MINUTES)).isTrue();
+            return true;
+        }
+    }
+
+    private static final class NoHindrance implements WatermarkGenerator<TopicRecord> {
+        @Override
+        public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
+            output.emitWatermark(new Watermark(Long.MAX_VALUE - 1));
+            fieldsHoldUp.countDown();
         }
 
         @Override
