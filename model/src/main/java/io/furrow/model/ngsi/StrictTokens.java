@@ -22,10 +22,13 @@ final class StrictTokens {
 
     private final OpenNames names = new OpenNames();
     private JsonParser parser;
+    /** Whether no text of the document can hold a surrogate or be too long: then those that nobody wants stay undecoded. */
+    private boolean plain;
 
     /** Begins a document; the parser belongs to the caller, who closes it. */
     JsonParser open(byte[] json, int length) throws IOException {
         names.clear();
+        plain = length <= NgsiJson.MAX_STRING && isFreeOfSurrogates(json, length);
         parser = FACTORY.createParser(json, 0, length);
         return parser;
     }
@@ -65,8 +68,21 @@ final class StrictTokens {
         return false;
     }
 
+    /** In UTF-8 only four bytes make a pair of them, and only an escape a half; both are rare. */
+    private static boolean isFreeOfSurrogates(byte[] json, int length) {
+        for (int i = 0; i < length; i++) {
+            if (json[i] == '\\' || (json[i] & 0xf8) == 0xf0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
     /** Whether the text holds no surrogate, neither half of a pair nor a pair, which is rare. */
     boolean isPlainText() throws IOException {
+        if (plain) {
+            return true;
+        }
         char[] text = parser.getTextCharacters();
         int end = parser.getTextOffset() + parser.getTextLength();
         for (int i = parser.getTextOffset(); i < end; i++) {
