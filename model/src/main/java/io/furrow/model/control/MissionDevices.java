@@ -29,6 +29,19 @@ public record MissionDevices(List<DeviceGroup> groups) {
         return groups.stream().mapToInt(DeviceGroup::count).sum();
     }
 
+    /**
+     * As {@link #toJson()} wrote it.
+     *
+     * @throws IllegalArgumentException if it did not
+     */
+    public static MissionDevices of(ArrayNode json) {
+        try {
+            return read(new Members(JsonNodeFactory.instance.objectNode().set("devices", json)));
+        } catch (RefusedException e) {
+            throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
+        }
+    }
+
     /** The member {@code devices} of a request or a template. */
     static MissionDevices read(Members members) throws RefusedException {
         ArrayNode array = members.arrayOrNull("devices", DeviceGroup.MOST);

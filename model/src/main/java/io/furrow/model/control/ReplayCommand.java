@@ -6,6 +6,7 @@ import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** What the topic {@code service.replaymanager} asks for. */
@@ -34,7 +35,7 @@ public sealed interface ReplayCommand extends Command {
             request.put("mission", mission);
             DeviceGroup.put(request, "from", from);
             DeviceGroup.put(request, "to", to);
-            put(request, speed);
+            request.set("speed", json(speed));
             request.put("loop", loop);
             if (!devices.isEmpty()) {
                 ArrayNode ids = request.putArray("devices");
@@ -90,7 +91,7 @@ public sealed interface ReplayCommand extends Command {
         @Override
         public void describe(ObjectNode request) {
             request.put("replay", replay);
-            put(request, speed);
+            request.set("speed", json(speed));
         }
     }
 
@@ -168,12 +169,8 @@ public sealed interface ReplayCommand extends Command {
         return number;
     }
 
-    /** Puts a speed as requests have it. */
-    static void put(ObjectNode json, double speed) {
-        if (speed == MAX) {
-            json.put("speed", "max");
-        } else {
-            json.put("speed", speed);
-        }
+    /** A speed as requests have it: a number, or {@code max}. */
+    static JsonNode json(double speed) {
+        return speed == MAX ? JsonNodeFactory.instance.textNode("max") : JsonNodeFactory.instance.numberNode(speed);
     }
 }

@@ -51,6 +51,13 @@ public final class Requests {
         return NgsiJson.write(json);
     }
 
+    /** The answer to a command that was understood and not granted. */
+    public static Response refusal(RefusedException refusal, Command command) {
+        ObjectNode request = json();
+        command.describe(request);
+        return aboutSubjects(Response.refused(refusal), request);
+    }
+
     private static <C> Received<C> read(byte[] value, Reader<C> reader) {
         if (value == null) {
             return new Received.Passed<>();
@@ -93,14 +100,18 @@ public final class Requests {
     }
 
     private static <C> Received<C> refused(String requestId, RefusedException refusal, ObjectNode request) {
-        Response answer = Response.refused(refusal);
+        return new Received.Refused<>(requestId, aboutSubjects(Response.refused(refusal), request));
+    }
+
+    private static Response aboutSubjects(Response refusal, ObjectNode request) {
+        Response answer = refusal;
         for (String subject : SUBJECTS) {
             String name = request.path(subject).asText("");
             if (TopicName.isLegal(name) || ReplayCommand.REPLAY.matcher(name).matches()) {
                 answer = answer.with(subject, name);
             }
         }
-        return new Received.Refused<>(requestId, answer);
+        return answer;
     }
 
     private static ObjectNode json() {
