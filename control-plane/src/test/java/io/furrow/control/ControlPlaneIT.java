@@ -8,6 +8,7 @@ import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
 
@@ -125,6 +126,37 @@ class ControlPlaneIT {
     }
 
     @Test
+    void runsNoOldRequestAgainThoughKafkaHasForgottenWhatWasRead() throws Exception {
+        Path state = directory.resolve("state");
+        try (KafkaProducer<String, byte[]> producer = producer()) {
+            try (ControlPlane plane = plane(state)) {
+                assertThat(plane.state()).isNotEqualTo("ERROR");
+                send(producer, null, new DomainCommand.Create("north", DomainDetails.NONE));
+                send(producer, null, new DomainCommand.Delete("north", false));
+                await().atMost(PATIENCE)
+                        .until(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
+            }
+            try (Admin admin = Admin.create(client())) {
+                await().atMost(PATIENCE)
+                        .ignoreExceptions()
+                        .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
+                                        .all()
+                                        .get()
+                                == null);
+            }
+            try (ControlPlane plane = plane(state)) {
+                assertThat(plane.state()).isNotEqualTo("ERROR");
+                send(producer, "last", new DomainCommand.Delete("nosuch", false));
+                await().atMost(PATIENCE)
+                        .until(() -> answers(Topics.DOMAIN_MANAGER).stream()
+                                .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
+            }
+        }
+        assertThat(answers(Topics.DOMAIN_MANAGER)).hasSize(3);
+        assertThat(records(Topics.DOMAINS)).hasSize(2);
+    }
+
+    @Test
     void putsTheCleanupPolicyOfItsTopicsRight() throws Exception {
         try (KafkaProducer<String, byte[]> producer = producer()) {
             producer.send(new ProducerRecord<>(Topics.DEVICES, "k", "{}".getBytes(StandardCharsets.UTF_8)))
@@ -155,6 +187,10 @@ class ControlPlaneIT {
     private static void create(KafkaProducer<String, byte[]> producer, int number) {
         DomainCommand command = new DomainCommand.Create("d-" + number, DomainDetails.NONE);
         producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, Requests.write("r-" + number, command)));
+    }
+
+    private static void send(KafkaProducer<String, byte[]> producer, String requestId, DomainCommand command) {
+        producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, 0, null, null, Requests.write(requestId, command)));
     }
 
     private KafkaProducer<String, byte[]> producer() {

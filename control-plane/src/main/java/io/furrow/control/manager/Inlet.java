@@ -17,9 +17,10 @@ public final class Inlet {
     /** The requests to a manager; a missing key is empty. */
     public static KStream<String, byte[]> requests(StreamsBuilder builder, ManagerTopic<?> manager) {
         builder.addStateStore(StoreRecords.builder(manager.positions()));
-        KStream<String, byte[]> taken = builder.stream(manager.topic(), from(manager.name() + "-requests-in"))
+        KStream<String, byte[]> noted = builder.stream(manager.topic(), from(manager.name() + "-requests-in"))
+                .process(() -> new NoteOrigin(manager), Named.as(manager.name() + "-note-origin"));
+        return inLine(noted, manager.name() + "-requests")
                 .process(() -> new TakeOnce(manager), Named.as(manager.name() + "-take-once"), manager.positions());
-        return inLine(taken, manager.name() + "-requests");
     }
 
     /** A topic on which executors say what is. */

@@ -3,17 +3,14 @@ package io.furrow.control.manager;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
-import org.apache.kafka.streams.processor.api.RecordMetadata;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.model.control.Received;
-
 /**
- * Lets each request pass once, and no response: also where Kafka has forgotten how far the topic was read, as it does with the offsets of
- * a group that was away for {@code offsets.retention.minutes}: no request of last week is run again.
+ * Lets each request pass once, also where Kafka has forgotten how far its topic, or the line behind it, was read, as it does with
+ * the offsets of a group that was away for {@code offsets.retention.minutes}: no request of last week is run again.
  *
- * <p><b>State</b>: offset and newest timestamp by partition, in a named store. <b>Cleared</b>: never, it is as large as there are
+ * <p><b>State</b>: offset and newest timestamp by partition of the topic, in a named store. <b>Cleared</b>: never, it is as large as there are
  * partitions. <b>Twice</b>: dropped where neither the offset nor the timestamp is new; a topic that was deleted and made anew
  * has old offsets, but new timestamps.
  */
@@ -50,17 +47,14 @@ final class TakeOnce extends ContextualProcessor<String, byte[], String, byte[]>
 
     @Override
     public void process(Record<String, byte[]> record) {
-        RecordMetadata at = context().recordMetadata().orElseThrow();
-        String partition = at.topic() + "-" + at.partition();
-        Position known = positions.get(partition);
-        if (known != null && known.covers(at.offset(), record.timestamp())) {
-            LOG.warn("{}@{} was read before and is passed over", partition, at.offset());
+        NoteOrigin.Origin origin = NoteOrigin.Origin.of(record);
+        Position known = positions.get(origin.partition());
+        if (known != null && known.covers(origin.offset(), record.timestamp())) {
+            LOG.warn("{}@{} was read before and is passed over", origin.partition(), origin.offset());
             return;
         }
-        Position now = new Position(at.offset(), record.timestamp());
-        positions.put(partition, known == null ? now : known.with(at.offset(), record.timestamp()));
-        if (!(manager.read(record.value()) instanceof Received.Passed)) {
-            context().forward(record.withKey(record.key() == null ? "" : record.key()));
-        }
+        Position now = new Position(origin.offset(), record.timestamp());
+        positions.put(origin.partition(), known == null ? now : known.with(origin.offset(), record.timestamp()));
+        context().forward(record);
     }
 }

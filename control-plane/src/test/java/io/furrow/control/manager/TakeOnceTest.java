@@ -1,6 +1,5 @@
 package io.furrow.control.manager;
 
-import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.Properties;
 
@@ -51,9 +50,9 @@ class TakeOnceTest {
     }
 
     private void read(long offset, long timestamp) {
-        context.setRecordMetadata(Topics.DOMAIN_MANAGER, 0, offset);
-        byte[] request = "{\"type\":\"request\",\"domain\":\"north\"}".getBytes(StandardCharsets.UTF_8);
-        takeOnce.process(new Record<>("", request, timestamp));
+        Record<String, byte[]> request = new Record<>("", new byte[0], timestamp);
+        new NoteOrigin.Origin(Topics.DOMAIN_MANAGER + "-0", offset).noteOn(request);
+        takeOnce.process(request);
     }
 
     private List<Long> taken() {
