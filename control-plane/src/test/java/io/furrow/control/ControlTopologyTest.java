@@ -88,7 +88,6 @@ class ControlTopologyTest {
         driver.advanceWallClockTime(REMEMBERED.minusSeconds(1));
         ask(Topics.DOMAIN_MANAGER, null, request);
         assertThat(read(Topics.DOMAIN_MANAGER)).hasSize(1);
-
         driver.advanceWallClockTime(REMEMBERED.dividedBy(4));
         ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-2','domain':'south'}");
         read(Topics.DOMAIN_MANAGER);
@@ -108,7 +107,6 @@ class ControlTopologyTest {
     void passesOverAnswersAndRecordsWithoutAValue() {
         ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
         TestRecord<String, byte[]> answer = only(Topics.DOMAIN_MANAGER);
-
         pipe(Topics.DOMAIN_MANAGER, answer.key(), answer.value());
         pipe(Topics.DOMAIN_MANAGER, null, null);
         assertThat(read(Topics.DOMAIN_MANAGER)).isEmpty();
@@ -147,7 +145,6 @@ class ControlTopologyTest {
                 "{'type':'request','command':'start','mission':'m','domain':'north','template':'thesis-demo','start':'2026-03-01T08:01:00Z'}");
         assertThat(state("m")).isEqualTo("created");
         assertThat(only(Topics.TEMPLATES).key()).isEqualTo("thesis-demo@1");
-
         driver.advanceWallClockTime(Duration.ofSeconds(59));
         assertThat(read(Topics.DEVICES)).isEmpty();
         driver.advanceWallClockTime(Duration.ofSeconds(1));
