@@ -1,0 +1,56 @@
+package io.furrow.control;
+
+import java.time.Duration;
+import java.util.Properties;
+
+import org.apache.kafka.streams.StreamsConfig;
+
+import io.furrow.control.mission.MissionOptions;
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * What the control plane is started with.
+ *
+ * @param client settings of Kafka clients, {@code bootstrap.servers} among them
+ * @param standbyReplicas how many further instances hold a copy of all state, ready to take over; 0 with a single instance
+ * @param replicationFactor of the topics that it makes; -1 for the broker's default
+ * @param remembered how long ids of requests are, so that a second request of the same id has no effect
+ * @param missions how missions are run
+ */
+public record ControlSettings(
+        Properties client, int standbyReplicas, short replicationFactor, Duration remembered, MissionOptions missions) {
+    /** Name of the group, first part of the names of its topics, of which state is rebuilt: never changed. */
+    static final String APPLICATION = "furrow-control-plane";
+
+    private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
+
+    /** One instance; requests are remembered for an hour, devices have a minute to come up. */
+    public static ControlSettings of(Properties client) {
+        return new ControlSettings(
+                client,
+                0,
+                (short) -1,
+                Duration.ofHours(1),
+                new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT));
+    }
+
+    public ControlSettings with(MissionOptions newMissions) {
+        return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions);
+    }
+
+    public ControlSettings withStandbyReplicas(int replicas) {
+        return new ControlSettings(client, replicas, replicationFactor, remembered, missions);
+    }
+
+    Properties streams() {
+        Properties streams = new Properties();
+        streams.putAll(client);
+        streams.put(StreamsConfig.APPLICATION_ID_CONFIG, APPLICATION);
+        streams.put(StreamsConfig.PROCESSING_GUARANTEE_CONFIG, StreamsConfig.EXACTLY_ONCE_V2);
+        streams.put(StreamsConfig.NUM_STANDBY_REPLICAS_CONFIG, standbyReplicas);
+        streams.put(StreamsConfig.REPLICATION_FACTOR_CONFIG, (int) replicationFactor);
+        streams.put(StreamsConfig.consumerPrefix("auto.offset.reset"), "earliest");
+        streams.put(StreamsConfig.mainConsumerPrefix("session.timeout.ms"), (int) TAKEN_OVER_AFTER.toMillis());
+        return streams;
+    }
+}

@@ -1,0 +1,40 @@
+package io.furrow.control;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.UUID;
+
+import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.Topology;
+
+import io.furrow.control.domain.DomainManager;
+import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.mission.MissionManager;
+import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.replay.ReplayManager;
+
+/** The three managers as one topology of Kafka Streams. */
+final class ControlTopology {
+    private ControlTopology() {}
+
+    /** @param remembered how long ids of requests are */
+    static Topology of(Duration remembered, MissionOptions missions) {
+        StreamsBuilder builder = new StreamsBuilder();
+
+        for (List<String> shared : List.of(DomainManager.stores(), MissionManager.stores())) {
+            shared.forEach(store -> builder.addStateStore(StoreRecords.builder(store)));
+        }
+
+        DomainManager.add(
+                builder,
+                remembered,
+                (context, outbox) -> MissionManager.desk(context, outbox, missions),
+                MissionManager.stores());
+
+        MissionManager.add(builder, remembered, missions);
+
+        ReplayManager.add(builder, remembered, UUID::randomUUID);
+
+        return builder.build();
+    }
+}

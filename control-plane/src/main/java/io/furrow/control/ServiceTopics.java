@@ -1,0 +1,106 @@
+package io.furrow.control;
+
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.Collection;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.AlterConfigOp;
+import org.apache.kafka.clients.admin.ConfigEntry;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.KafkaFuture;
+import org.apache.kafka.common.config.ConfigResource;
+import org.apache.kafka.common.errors.TopicExistsException;
+
+import io.furrow.model.topic.Topics;
+
+/**
+ * The topics that the control plane reads and writes. Requests are kept for the broker's retention and stamped by the broker; what
+ * is wanted and what is are compacted, one partition each, so that nothing overtakes.
+ */
+final class ServiceTopics {
+    private static final long PATIENCE_SECONDS = 30;
+    private static final String POLICY = "cleanup.policy";
+
+    private static final List<String> REQUESTS =
+            List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER);
+    private static final List<String> COMPACTED = List.of(
+            Topics.DOMAINS,
+            Topics.MISSIONS,
+            Topics.TEMPLATES,
+            Topics.DEVICES,
+            Topics.REPLAYS,
+            Topics.MISSIONS_STATUS,
+            Topics.DEVICES_STATUS,
+            Topics.REPLAYS_STATUS);
+
+    private ServiceTopics() {}
+
+    /**
+     * Makes those that are missing. Of those that are there, as a client makes them by asking first, the cleanup policy is put
+     * right: else the broker would delete what is wanted.
+     *
+     * @throws IOException if Kafka does not answer or refuses
+     */
+    static void prepare(ControlSettings settings) throws IOException {
+        try (Admin admin = Admin.create(settings.client())) {
+            List<NewTopic> wanted = new ArrayList<>();
+            REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
+            COMPACTED.forEach(name -> wanted.add(topic(name, settings, Map.of(POLICY, "compact"))));
+            for (KafkaFuture<Void> made : admin.createTopics(wanted).values().values()) {
+                await(made, true);
+            }
+            Map<ConfigResource, Collection<AlterConfigOp>> policies = new LinkedHashMap<>();
+            REQUESTS.forEach(name -> set(policies, name, requestConfigs()));
+            COMPACTED.forEach(name -> set(policies, name, Map.of(POLICY, "compact")));
+            await(admin.incrementalAlterConfigs(policies).all(), false);
+        } catch (KafkaException | ExecutionException | TimeoutException e) {
+            throw new IOException(
+                    "The topics service.* cannot be prepared at %s (%s). Check the address, and that the user may create and alter them."
+                            .formatted(settings.client().get("bootstrap.servers"), e.getMessage()),
+                    e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new IOException("interrupted while the topics service.* were prepared", e);
+        }
+    }
+
+    private static NewTopic topic(String name, ControlSettings settings, Map<String, String> configs) {
+        Optional<Short> replication =
+                settings.replicationFactor() < 0 ? Optional.empty() : Optional.of(settings.replicationFactor());
+        return new NewTopic(name, Optional.of(1), replication).configs(configs);
+    }
+
+    /** The time of the broker, because the control plane tells old requests from new ones by it. */
+    private static Map<String, String> requestConfigs() {
+        return Map.of(POLICY, "delete", "message.timestamp.type", "LogAppendTime");
+    }
+
+    private static void set(
+            Map<ConfigResource, Collection<AlterConfigOp>> all, String topic, Map<String, String> configs) {
+        List<AlterConfigOp> changes = configs.entrySet().stream()
+                .map(each ->
+                        new AlterConfigOp(new ConfigEntry(each.getKey(), each.getValue()), AlterConfigOp.OpType.SET))
+                .toList();
+        all.put(new ConfigResource(ConfigResource.Type.TOPIC, topic), changes);
+    }
+
+    private static void await(KafkaFuture<Void> done, boolean mayBeThere)
+            throws ExecutionException, InterruptedException, TimeoutException {
+        try {
+            done.get(PATIENCE_SECONDS, TimeUnit.SECONDS);
+        } catch (ExecutionException e) {
+            if (!mayBeThere || !(e.getCause() instanceof TopicExistsException)) {
+                throw e;
+            }
+        }
+    }
+}

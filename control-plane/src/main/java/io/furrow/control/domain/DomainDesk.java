@@ -1,0 +1,76 @@
+package io.furrow.control.domain;
+
+import java.util.List;
+
+import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Records;
+import io.furrow.control.manager.Sequence;
+import io.furrow.model.control.DomainCommand;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.Response;
+import io.furrow.model.topic.Topics;
+
+/** Grants or refuses what is asked of domains. What is refused has changed nothing. */
+public final class DomainDesk {
+    private final Records<Domain> domains;
+    private final DomainMissions missions;
+    private final Sequence sequence;
+    private final Outbox outbox;
+
+    public DomainDesk(Records<Domain> domains, DomainMissions missions, Sequence sequence, Outbox outbox) {
+        this.domains = domains;
+        this.missions = missions;
+        this.sequence = sequence;
+        this.outbox = outbox;
+    }
+
+    /** @param now epoch ms */
+    public Response answer(DomainCommand command, long now) throws RefusedException {
+        if (command instanceof DomainCommand.Create create) {
+            return create(create, now);
+        }
+        Domain known = domains.get(command.domain());
+        if (known == null) {
+            throw new RefusedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
+        }
+        if (command instanceof DomainCommand.Change change) {
+            keep(known.changed(change.details(), now, sequence.next()));
+            return about(known.domain(), "changed");
+        }
+        delete(known.domain(), ((DomainCommand.Delete) command).force(), now);
+        return Response.of("deleted").with("domain", known.domain());
+    }
+
+    private Response create(DomainCommand.Create create, long now) throws RefusedException {
+        if (domains.get(create.domain()) != null) {
+            throw new RefusedException(
+                    ErrorCode.DOMAIN_EXISTS,
+                    "there is a domain '%s' already; 'change' changes it".formatted(create.domain()));
+        }
+        keep(Domain.of(create.domain(), create.details(), now, sequence.next()));
+        return about(create.domain(), "created");
+    }
+
+    private void delete(String domain, boolean force, long now) throws RefusedException {
+        List<String> active = missions.activeIn(domain);
+        if (!active.isEmpty() && !force) {
+            throw new RefusedException(
+                    ErrorCode.MISSIONS_RUNNING,
+                    "%d missions run in domain '%s', '%s' among them; stop them first, or ask with force"
+                            .formatted(active.size(), domain, active.get(0)));
+        }
+        active.forEach(mission -> missions.stop(mission, now));
+        domains.put(domain, null);
+        outbox.put(Topics.DOMAINS, domain, null);
+    }
+
+    private void keep(Domain domain) {
+        domains.put(domain.domain(), domain);
+        outbox.put(Topics.DOMAINS, domain.domain(), domain.toBytes());
+    }
+
+    private static Response about(String domain, String status) {
+        return Response.of(status).with("domain", domain).with("topic", Topics.realtime(domain));
+    }
+}

@@ -1,0 +1,2 @@
+/** Domains: made, changed, deleted when nothing runs in them. */
+package io.furrow.control.domain;

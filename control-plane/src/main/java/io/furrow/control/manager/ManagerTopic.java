@@ -1,0 +1,39 @@
+package io.furrow.control.manager;
+
+import java.util.function.Function;
+
+import io.furrow.model.control.DomainCommand;
+import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.Received;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.Requests;
+import io.furrow.model.topic.Topics;
+
+/**
+ * The topic of a manager: requests come on it, answers go to it.
+ *
+ * @param name the first part of the names of its stores and nodes; never changed, state is found by it
+ * @param <C> its commands
+ */
+public record ManagerTopic<C>(String name, String topic, Function<byte[], Received<C>> reader) {
+    public static final ManagerTopic<DomainCommand> DOMAIN =
+            new ManagerTopic<>("domain", Topics.DOMAIN_MANAGER, Requests::domain);
+    public static final ManagerTopic<MissionCommand> MISSION =
+            new ManagerTopic<>("mission", Topics.MISSION_MANAGER, Requests::mission);
+    public static final ManagerTopic<ReplayCommand> REPLAY =
+            new ManagerTopic<>("replay", Topics.REPLAY_MANAGER, Requests::replay);
+
+    Received<C> read(byte[] value) {
+        return reader.apply(value);
+    }
+
+    /** The store of the ids that were answered. */
+    public String answers() {
+        return name + "-answers";
+    }
+
+    /** The store of how far the topic was read. */
+    String positions() {
+        return name + "-positions";
+    }
+}

@@ -1,0 +1,19 @@
+package io.furrow.control.manager;
+
+import java.util.function.Consumer;
+
+/**
+ * What a manager remembers, by key.
+ *
+ * @param <T> is never changed, only put anew
+ */
+public interface Records<T> {
+    /** Null where there is none. */
+    T get(String key);
+
+    /** @param value null takes it away */
+    void put(String key, T value);
+
+    /** In the order of the keys. What is put or taken away meanwhile may be seen or not. */
+    void forEach(Consumer<T> each);
+}

@@ -1,0 +1,2 @@
+/** What the managers share: requests once, answers once, what they write, the topics. */
+package io.furrow.control.manager;

@@ -1,0 +1,40 @@
+package io.furrow.control.mission;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * A device that was asked for, as it is remembered under its key.
+ *
+ * @param wanted the record of {@code service.devices}
+ * @param confirmed whether its host says that it is so
+ * @param reason why it is not, as its host says; null where it said nothing
+ */
+record DeviceState(JsonNode wanted, boolean confirmed, String reason) {
+    static DeviceState asked(WantedDevice device) {
+        try {
+            return new DeviceState(NgsiJson.read(device.toBytes()), false, null);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("a device is not read as it was written", e);
+        }
+    }
+
+    WantedDevice device() {
+        try {
+            return WantedDevice.read(NgsiJson.write(wanted));
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("the remembered device is none", e);
+        }
+    }
+
+    String mission() {
+        return wanted.path("mission").asText();
+    }
+
+    DeviceState reported(boolean asWanted, String why) {
+        return new DeviceState(wanted, asWanted, why);
+    }
+}

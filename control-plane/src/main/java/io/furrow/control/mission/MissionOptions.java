@@ -1,0 +1,13 @@
+package io.furrow.control.mission;
+
+import java.time.Duration;
+
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * What missions are run by.
+ *
+ * @param patience how long devices may take to come up or to go, before the mission goes on without them
+ * @param scope tenant and service path of the devices' entities
+ */
+public record MissionOptions(Duration patience, FiwareScope scope) {}

@@ -1,0 +1,20 @@
+package io.furrow.control.mission;
+
+import io.furrow.control.manager.Records;
+import io.furrow.model.control.MissionTemplate;
+
+/**
+ * All that the manager of missions remembers.
+ *
+ * @param missions by name
+ * @param statuses by the same names
+ * @param devices by the key of {@code service.devices}
+ * @param templates by {@code <name>@<version>}
+ * @param versions by the name of the template
+ */
+record MissionRecords(
+        Records<Mission> missions,
+        Records<MissionStatus> statuses,
+        Records<DeviceState> devices,
+        Records<MissionTemplate> templates,
+        Records<TemplateShelf.Versions> versions) {}

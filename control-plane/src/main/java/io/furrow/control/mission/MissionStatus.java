@@ -1,0 +1,151 @@
+package io.furrow.control.mission;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import io.furrow.control.manager.StateJson;
+
+/**
+ * How far a mission is: remembered, and a record of {@code service.missions.status} under its name. The methods are the
+ * mission's life; each gives the status after something happened.
+ *
+ * @param since when it came to that state, epoch ms
+ * @param sequence of the mission that this is the status of
+ * @param devices how many somebody is asked to run
+ * @param confirmed how many of them are as wanted: up while it starts or runs, gone after that
+ * @param missing at most {@value #MOST_NAMED} of those that are not, once the time for it has passed
+ * @param reason why it failed; null where it did not
+ * @param due when it goes on by itself, epoch ms; null where it waits for somebody else
+ * @param ends when it is stopped by itself, epoch ms; null where it is not
+ */
+public record MissionStatus(
+        String mission,
+        String domain,
+        MissionState state,
+        long since,
+        long sequence,
+        int devices,
+        int confirmed,
+        List<Missing> missing,
+        String reason,
+        Long due,
+        Long ends) {
+    /** More are counted, but not named. */
+    static final int MOST_NAMED = 100;
+
+    /**
+     * A device that is not as wanted.
+     *
+     * @param id of its entity
+     * @param reason as its host says; null where it said nothing
+     */
+    public record Missing(String id, String reason) {}
+
+    static MissionStatus created(Mission mission, long now) {
+        return new MissionStatus(
+                mission.mission(),
+                mission.domain(),
+                MissionState.CREATED,
+                now,
+                mission.sequence(),
+                0,
+                0,
+                List.of(),
+                null,
+                null,
+                null);
+    }
+
+    /** Waits for its start date. */
+    MissionStatus scheduled(Mission mission, long now) {
+        return next(MissionState.CREATED, now, mission.sequence())
+                .progress(0, 0)
+                .until(mission.start(), null);
+    }
+
+    /** Its devices were asked for. Without devices it runs at once. */
+    MissionStatus started(Mission mission, int hosted, long patience, long now) {
+        Long end = mission.duration() == null ? null : Long.valueOf(now + mission.duration());
+        MissionStatus starting = next(MissionState.STARTING, now, mission.sequence())
+                .progress(hosted, 0)
+                .until(earlier(now + patience, end), end);
+        return starting.advanced(now);
+    }
+
+    /** Its devices were asked to go. Without devices it has stopped at once. */
+    MissionStatus stopped(Mission mission, long patience, long now) {
+        MissionState next = state == MissionState.CREATED ? MissionState.STOPPED : MissionState.STOPPING;
+        boolean stops = next == MissionState.STOPPING;
+        return next(next, now, mission.sequence())
+                .progress(stops ? devices : 0, 0)
+                .until(stops ? Long.valueOf(now + patience) : null, null)
+                .advanced(now);
+    }
+
+    /** It could not start; its devices, if any were asked for, are no longer wanted. */
+    MissionStatus failed(Mission unwanted, String why, long now) {
+        MissionStatus failed = next(MissionState.FAILED, now, unwanted.sequence());
+        return new MissionStatus(
+                mission, domain, failed.state, now, failed.sequence, devices, 0, List.of(), why, null, null);
+    }
+
+    /** One of its devices became as wanted, or is so no longer. */
+    MissionStatus reported(Missing device, boolean asWanted, long now) {
+        List<Missing> named = new ArrayList<>(missing);
+        named.removeIf(known -> known.id().equals(device.id()));
+        if (!asWanted && state == MissionState.RUNNING && named.size() < MOST_NAMED) {
+            named.add(device);
+        }
+        return progress(devices, confirmed + (asWanted ? 1 : -1)).naming(named).advanced(now);
+    }
+
+    /** The time for coming up or going has passed; it goes on without those that are named. */
+    MissionStatus without(List<Missing> late, long now) {
+        boolean starts = state == MissionState.STARTING;
+        MissionStatus next = next(starts ? MissionState.RUNNING : MissionState.STOPPED, now, sequence);
+        return next.until(starts ? ends : null, starts ? ends : null).naming(late);
+    }
+
+    boolean isDue(long now) {
+        return due != null && due <= now;
+    }
+
+    byte[] toBytes() {
+        return StateJson.write(this);
+    }
+
+    /** On to the next state where all devices are as wanted. */
+    private MissionStatus advanced(long now) {
+        if (confirmed < devices || state != MissionState.STARTING && state != MissionState.STOPPING) {
+            return this;
+        }
+        return without(List.of(), now);
+    }
+
+    private MissionStatus next(MissionState next, long now, long newSequence) {
+        if (!state.canBecome(next)) {
+            throw new IllegalStateException("mission %s cannot become %s: it is %s".formatted(mission, next, state));
+        }
+        return new MissionStatus(
+                mission, domain, next, now, newSequence, devices, confirmed, List.of(), null, due, ends);
+    }
+
+    private MissionStatus progress(int newDevices, int newConfirmed) {
+        return new MissionStatus(
+                mission, domain, state, since, sequence, newDevices, newConfirmed, missing, reason, due, ends);
+    }
+
+    private MissionStatus until(Long newDue, Long newEnds) {
+        return new MissionStatus(
+                mission, domain, state, since, sequence, devices, confirmed, missing, reason, newDue, newEnds);
+    }
+
+    private MissionStatus naming(List<Missing> named) {
+        return new MissionStatus(
+                mission, domain, state, since, sequence, devices, confirmed, List.copyOf(named), reason, due, ends);
+    }
+
+    private static Long earlier(long one, Long other) {
+        return other == null ? Long.valueOf(one) : Long.valueOf(Math.min(one, other));
+    }
+}

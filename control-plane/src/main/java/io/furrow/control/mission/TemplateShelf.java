@@ -1,0 +1,109 @@
+package io.furrow.control.mission;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.UncheckedIOException;
+import java.util.ArrayList;
+import java.util.List;
+
+import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Records;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.MissionTemplate;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.topic.Topics;
+
+/** The templates, version by version. A version never changes, and its number is never given again. */
+public final class TemplateShelf {
+    /** The mission of the thesis: one moving camera, three thermometers and one robot. */
+    public static final String DEMO = "thesis-demo";
+
+    private final Records<MissionTemplate> templates;
+    private final Records<Versions> versions;
+    private final Outbox outbox;
+
+    /**
+     * What there is of a template.
+     *
+     * @param last the number given last
+     * @param kept those that were not deleted, ascending
+     */
+    public record Versions(int last, List<Integer> kept) {}
+
+    /**
+     * @param templates by {@link MissionTemplate#key()}
+     * @param versions by name
+     */
+    public TemplateShelf(Records<MissionTemplate> templates, Records<Versions> versions, Outbox outbox) {
+        this.templates = templates;
+        this.versions = versions;
+        this.outbox = outbox;
+    }
+
+    /** Puts {@link #DEMO} there where it never was. */
+    public void stock() {
+        if (versions.get(DEMO) == null) {
+            save(demo());
+        }
+    }
+
+    static MissionTemplate demo() {
+        try (InputStream json = TemplateShelf.class.getResourceAsStream(DEMO + ".json")) {
+            return MissionTemplate.read(json.readAllBytes());
+        } catch (IOException e) {
+            throw new UncheckedIOException("the packaged template cannot be read", e);
+        } catch (RefusedException e) {
+            throw new IllegalStateException("the packaged template is none", e);
+        }
+    }
+
+    /** Keeps it as the next version, which it answers. */
+    MissionTemplate save(MissionTemplate template) {
+        Versions before = known(template.name());
+        MissionTemplate saved = template.as(before.last() + 1);
+        List<Integer> kept = new ArrayList<>(before.kept());
+        kept.add(saved.version());
+        versions.put(saved.name(), new Versions(saved.version(), kept));
+        templates.put(saved.key(), saved);
+        outbox.put(Topics.TEMPLATES, saved.key(), saved.toBytes());
+        return saved;
+    }
+
+    /** @param version 0 for the newest */
+    MissionTemplate find(String name, int version) throws RefusedException {
+        List<Integer> kept = known(name).kept();
+        int wanted = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
+        if (!kept.contains(wanted)) {
+            throw unknown(name, version);
+        }
+        return templates.get(name + "@" + wanted);
+    }
+
+    /** Missions made from it keep their devices. @param version 0 for all */
+    void delete(String name, int version) throws RefusedException {
+        Versions before = known(name);
+        if (version == 0 ? before.kept().isEmpty() : !before.kept().contains(version)) {
+            throw unknown(name, version);
+        }
+        List<Integer> kept = new ArrayList<>(before.kept());
+        for (int each : before.kept()) {
+            if (version == 0 || version == each) {
+                kept.remove((Integer) each);
+                templates.put(name + "@" + each, null);
+                outbox.put(Topics.TEMPLATES, name + "@" + each, null);
+            }
+        }
+        versions.put(name, new Versions(before.last(), kept));
+    }
+
+    private Versions known(String name) {
+        Versions known = versions.get(name);
+        return known == null ? new Versions(0, List.of()) : known;
+    }
+
+    private static RefusedException unknown(String name, int version) {
+        return new RefusedException(
+                ErrorCode.UNKNOWN_TEMPLATE,
+                "there is no template '%s'".formatted(version == 0 ? name : name + "@" + version));
+    }
+}

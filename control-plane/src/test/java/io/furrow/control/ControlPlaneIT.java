@@ -1,0 +1,247 @@
+package io.furrow.control;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.Set;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.config.ConfigResource;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.control.DomainCommand;
+import io.furrow.model.control.DomainDetails;
+import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.Requests;
+import io.furrow.model.control.Response;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ControlPlaneIT {
+    private static final int REQUESTS = 100;
+    private static final int ANSWERED_BEFORE_THE_KILL = 30;
+    private static final int SENT_BEFORE_THE_KILL = 60;
+    private static final Duration PATIENCE = Duration.ofSeconds(90);
+
+    @TempDir
+    Path directory;
+
+    private EmbeddedKafka kafka;
+    private final List<Process> processes = new ArrayList<>();
+
+    @BeforeEach
+    void startKafka() {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        for (Process process : processes) {
+            process.destroyForcibly().waitFor();
+        }
+        kafka.close();
+    }
+
+    @Test
+    void givesEachOfAHundredRequestsOneEffectAndOneAnswerThoughItIsKilledAmongThem() throws Exception {
+        Process first = run("first");
+        try (KafkaProducer<String, byte[]> producer = producer()) {
+            for (int i = 0; i < REQUESTS; i++) {
+                create(producer, i);
+                create(producer, i); // as a client does that has heard nothing
+                if (i == ANSWERED_BEFORE_THE_KILL) {
+                    producer.flush();
+                    await().atMost(PATIENCE)
+                            .until(() -> answers(Topics.DOMAIN_MANAGER).size() > ANSWERED_BEFORE_THE_KILL);
+                } else if (i == SENT_BEFORE_THE_KILL) {
+                    producer.flush();
+                    first.destroyForcibly().waitFor(); // with requests under way
+                    assertThat(answers(Topics.DOMAIN_MANAGER)).hasSizeLessThan(REQUESTS);
+                }
+            }
+            producer.flush();
+            run("second"); // knows nothing but what is in Kafka
+            await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
+
+            // Whatever was answered twice would be answered by then.
+            producer.send(new ProducerRecord<>(
+                    Topics.DOMAIN_MANAGER, Requests.write("last", new DomainCommand.Delete("nosuch", false))));
+            producer.flush();
+            await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
+        }
+
+        List<Response> answers = answers(Topics.DOMAIN_MANAGER);
+        Set<String> ids = new HashSet<>();
+        answers.forEach(answer -> ids.add(answer.requestId().orElseThrow()));
+        assertThat(answers).hasSize(REQUESTS + 1);
+        assertThat(ids).hasSize(REQUESTS + 1);
+        assertThat(answers.stream().filter(answer -> answer.status().equals("created")))
+                .hasSize(REQUESTS);
+        assertThat(records(Topics.DOMAINS)).hasSize(REQUESTS);
+    }
+
+    @Test
+    void handsItsWorkOverToAnotherInstance() throws Exception {
+        Path one = directory.resolve("one");
+        Path two = directory.resolve("two");
+        ControlPlane first = plane(one);
+        try (KafkaProducer<String, byte[]> producer = producer();
+                ControlPlane second = plane(two)) {
+            await().atMost(PATIENCE).until(() -> first.isHealthy() && second.isHealthy());
+            create(producer, 0);
+            await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
+            first.close();
+            producer.send(new ProducerRecord<>(
+                    Topics.MISSION_MANAGER,
+                    Requests.write("m", new MissionCommand.Start("m", "d-0", new MissionPlan.Unsaid(), null, null))));
+            await().atMost(PATIENCE).until(() -> answers(Topics.MISSION_MANAGER).size() == 1);
+            assertThat(answers(Topics.MISSION_MANAGER).get(0).status()).isEqualTo("created");
+            assertThat(second.isHealthy()).isTrue();
+        } finally {
+            first.close();
+        }
+    }
+
+    @Test
+    void runsNoOldRequestAgainThoughKafkaHasForgottenWhatWasRead() throws Exception {
+        Path state = directory.resolve("state");
+        try (KafkaProducer<String, byte[]> producer = producer()) {
+            try (ControlPlane plane = plane(state)) {
+                assertThat(plane.state()).isNotEqualTo("ERROR");
+                send(producer, null, new DomainCommand.Create("north", DomainDetails.NONE));
+                send(producer, null, new DomainCommand.Delete("north", false));
+                await().atMost(PATIENCE)
+                        .until(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
+            }
+            try (Admin admin = Admin.create(client())) {
+                await().atMost(PATIENCE)
+                        .ignoreExceptions()
+                        .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
+                                        .all()
+                                        .get()
+                                == null);
+            }
+            try (ControlPlane plane = plane(state)) {
+                assertThat(plane.state()).isNotEqualTo("ERROR");
+                send(producer, "last", new DomainCommand.Delete("nosuch", false));
+                await().atMost(PATIENCE)
+                        .until(() -> answers(Topics.DOMAIN_MANAGER).stream()
+                                .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
+            }
+        }
+        assertThat(answers(Topics.DOMAIN_MANAGER)).hasSize(3);
+        assertThat(records(Topics.DOMAINS)).hasSize(2);
+    }
+
+    @Test
+    void putsTheCleanupPolicyOfItsTopicsRight() throws Exception {
+        try (KafkaProducer<String, byte[]> producer = producer()) {
+            producer.send(new ProducerRecord<>(Topics.DEVICES, "k", "{}".getBytes(StandardCharsets.UTF_8)))
+                    .get();
+        }
+        ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
+        ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
+
+        await().atMost(PATIENCE)
+                .until(() -> policy(Topics.DEVICES).equals("compact")
+                        && policy(Topics.MISSIONS_STATUS).equals("compact")
+                        && policy(Topics.MISSION_MANAGER).equals("delete"));
+    }
+
+    private ControlPlane plane(Path state) throws Exception {
+        return ControlPlane.start(ControlPlaneProcess.settings(kafka.bootstrapServers(), state.toString())
+                .withStandbyReplicas(1));
+    }
+
+    private Process run(String name) throws Exception {
+        Path state = directory.resolve(name);
+        Files.createDirectories(state);
+        Process process = ControlPlaneProcess.start(kafka.bootstrapServers(), state);
+        processes.add(process);
+        return process;
+    }
+
+    private static void create(KafkaProducer<String, byte[]> producer, int number) {
+        DomainCommand command = new DomainCommand.Create("d-" + number, DomainDetails.NONE);
+        producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, Requests.write("r-" + number, command)));
+    }
+
+    private static void send(KafkaProducer<String, byte[]> producer, String requestId, DomainCommand command) {
+        producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, 0, null, null, Requests.write(requestId, command)));
+    }
+
+    private KafkaProducer<String, byte[]> producer() {
+        return new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+    }
+
+    private List<Response> answers(String topic) throws Exception {
+        List<Response> answers = new ArrayList<>();
+        for (ConsumerRecord<String, byte[]> record : records(topic)) {
+            if (new String(record.value(), StandardCharsets.UTF_8).contains("\"type\":\"response\"")) {
+                answers.add(Response.read(record.value()));
+            }
+        }
+        return answers;
+    }
+
+    /** All that is committed. */
+    private List<ConsumerRecord<String, byte[]>> records(String topic) {
+        Properties settings = client();
+        settings.setProperty("isolation.level", "read_committed");
+        try (KafkaConsumer<String, byte[]> consumer =
+                new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+            List<TopicPartition> all = consumer.partitionsFor(topic).stream()
+                    .map(each -> new TopicPartition(each.topic(), each.partition()))
+                    .toList();
+            consumer.assign(all);
+            consumer.seekToBeginning(all);
+            Map<TopicPartition, Long> ends = consumer.endOffsets(all);
+            List<ConsumerRecord<String, byte[]>> records = new ArrayList<>();
+            while (all.stream().anyMatch(one -> consumer.position(one) < ends.get(one))) {
+                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
+            }
+            return records;
+        }
+    }
+
+    private String policy(String topic) throws Exception {
+        ConfigResource resource = new ConfigResource(ConfigResource.Type.TOPIC, topic);
+        try (Admin admin = Admin.create(client())) {
+            return admin.describeConfigs(List.of(resource))
+                    .all()
+                    .get()
+                    .get(resource)
+                    .get("cleanup.policy")
+                    .value();
+        }
+    }
+
+    private Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+}

@@ -1,0 +1,40 @@
+package io.furrow.control;
+
+import java.io.File;
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.Properties;
+
+/** A control plane in a process of its own, which can be killed. */
+public final class ControlPlaneProcess {
+    private ControlPlaneProcess() {}
+
+    /** Runs until it is killed. */
+    public static void main(String[] args) throws Exception {
+        ControlPlane plane = ControlPlane.start(settings(args[0], args[1]));
+        Thread.currentThread().join();
+        plane.close();
+    }
+
+    static ControlSettings settings(String bootstrapServers, String directory) {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", bootstrapServers);
+        client.setProperty("state.dir", directory);
+        return ControlSettings.of(client);
+    }
+
+    static Process start(String bootstrapServers, Path directory) throws IOException {
+        String java = Path.of(System.getProperty("java.home"), "bin", "java").toString();
+        return new ProcessBuilder(
+                        java,
+                        "-Xmx256m",
+                        "-cp",
+                        System.getProperty("java.class.path"),
+                        ControlPlaneProcess.class.getName(),
+                        bootstrapServers,
+                        directory.toString())
+                .redirectErrorStream(true)
+                .redirectOutput(new File(directory + ".log"))
+                .start();
+    }
+}

@@ -1,0 +1,251 @@
+package io.furrow.control.mission;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.EnumSet;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.Set;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.manager.KeptOutbox;
+import io.furrow.model.control.DeviceGroup;
+import io.furrow.model.control.DomainCommand;
+import io.furrow.model.control.DomainDetails;
+import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** Random commands, reports of hosts and passing time; after each step the farm is sound. */
+class MissionPropertyTest {
+    private static final int FARMS = 60;
+    private static final int STEPS = 150;
+    private static final List<String> NAMES = List.of("a", "b", "c", "d");
+    private static final List<String> DOMAINS = List.of("north", "south");
+
+    @Test
+    void isSoundWhateverIsAskedReportedAndWaitedFor() throws Exception {
+        long seed = System.nanoTime();
+        int refused = 0;
+        for (int i = 0; i < FARMS; i++) {
+            refused += new Walk(new Random(seed + i), "seed " + seed + " farm " + i).run();
+        }
+        assertThat(refused).isBetween(FARMS, FARMS * STEPS);
+    }
+
+    /** One farm and what happens to it. */
+    private static final class Walk {
+        private final Farm farm = new Farm();
+        private final Random random;
+        private final String said;
+        private int refused;
+
+        Walk(Random random, String said) {
+            this.random = random;
+            this.said = said;
+        }
+
+        int run() throws Exception {
+            for (int i = 0; i < STEPS; i++) {
+                Map<String, MissionState> before = states();
+                step();
+                checkStates(before);
+                checkDevices();
+                checkTopics();
+            }
+            checkEverythingSettles();
+            checkSequences();
+            return refused;
+        }
+
+        private void step() {
+            String content = farm.content();
+            int written = farm.outbox.all().size();
+            try {
+                switch (random.nextInt(8)) {
+                    case 0 -> farm.ask(domainCommand());
+                    case 1, 2, 3 -> farm.ask(missionCommand());
+                    case 4 -> farm.pass(random.nextInt(40_000));
+                    case 5 -> farm.hostAll();
+                    default -> reportOne();
+                }
+            } catch (RefusedException e) {
+                refused++;
+                assertThat(farm.content()).as(said + ": " + e.getMessage()).isEqualTo(content);
+                assertThat(farm.outbox.all()).as(said).hasSize(written);
+            }
+        }
+
+        private DomainCommand domainCommand() {
+            String domain = one(DOMAINS);
+            return switch (random.nextInt(5)) {
+                case 0 -> new DomainCommand.Delete(domain, random.nextBoolean());
+                case 1 -> new DomainCommand.Change(domain, new DomainDetails("N" + farm.now, null, null, null));
+                default -> new DomainCommand.Create(domain, DomainDetails.NONE);
+            };
+        }
+
+        private MissionCommand missionCommand() {
+            String mission = one(NAMES);
+            return switch (random.nextInt(6)) {
+                case 0 -> new MissionCommand.Create(mission, one(DOMAINS), plan());
+                case 1 -> new MissionCommand.Delete(mission);
+                case 2 -> new MissionCommand.Stop(mission);
+                default ->
+                    new MissionCommand.Start(
+                            mission,
+                            random.nextInt(3) == 0 ? null : one(DOMAINS),
+                            plan(),
+                            random.nextInt(4) == 0 ? Instant.ofEpochMilli(farm.now + random.nextInt(50_000)) : null,
+                            random.nextInt(3) == 0 ? Duration.ofMillis(1 + random.nextInt(200_000)) : null);
+            };
+        }
+
+        private MissionPlan plan() {
+            return switch (random.nextInt(4)) {
+                case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateShelf.DEMO, 0);
+                case 1 -> new MissionPlan.Unsaid();
+                case 2 -> Farm.devices(Farm.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
+                default -> Farm.devices(Farm.group("Thermometer", 1 + random.nextInt(4)));
+            };
+        }
+
+        private void reportOne() {
+            List<DeviceState> all = farm.devices.all();
+            if (!all.isEmpty()) {
+                WantedDevice device = all.get(random.nextInt(all.size())).device();
+                farm.report(device, State.values()[random.nextInt(3)]);
+            }
+        }
+
+        private Map<String, MissionState> states() {
+            Map<String, MissionState> states = new HashMap<>();
+            farm.statuses.all().forEach(status -> states.put(status.mission(), status.state()));
+            return states;
+        }
+
+        /** Along the life only; a step may pass through several states. What is all as wanted has gone on. */
+        private void checkStates(Map<String, MissionState> before) {
+            for (MissionStatus status : farm.statuses.all()) {
+                MissionState from = before.getOrDefault(status.mission(), MissionState.CREATED);
+                assertThat(reachable(from)).as(said + " " + status).contains(status.state());
+                if (status.state() == MissionState.STARTING || status.state() == MissionState.STOPPING) {
+                    assertThat(status.confirmed()).as(said).isLessThan(status.devices());
+                    assertThat(status.due()).as(said).isNotNull();
+                }
+                assertThat(status.confirmed()).as(said + " " + status).isBetween(0, status.devices());
+                assertThat(status.reason() != null).as(said).isEqualTo(status.state() == MissionState.FAILED);
+                assertThat(status.sequence())
+                        .as(said)
+                        .isEqualTo(farm.missions.get(status.mission()).sequence());
+            }
+            assertThat(before.keySet().stream().filter(name -> farm.status(name) == null))
+                    .as("deleted though active, " + said)
+                    .noneMatch(name -> before.get(name).isActive());
+        }
+
+        private static Set<MissionState> reachable(MissionState from) {
+            Set<MissionState> reached = EnumSet.of(from);
+            for (int i = 0; i < 2; i++) {
+                for (MissionState one : Set.copyOf(reached)) {
+                    for (MissionState next : MissionState.values()) {
+                        if (one.canBecome(next)) {
+                            reached.add(next);
+                        }
+                    }
+                }
+            }
+            return reached;
+        }
+
+        /** A mission that starts or runs has just its devices; every other has none. The counts are true. */
+        private void checkDevices() {
+            Map<String, Integer> running = new HashMap<>();
+            Map<String, Integer> confirmed = new HashMap<>();
+            for (DeviceState each : farm.devices.all()) {
+                running.merge(each.mission(), each.device().running() ? 1 : 0, Integer::sum);
+                boolean counts = each.confirmed() && each.device().isHosted();
+                confirmed.merge(each.mission(), counts ? 1 : 0, Integer::sum);
+                assertThat(farm.status(each.mission())).as(said).isNotNull();
+            }
+            for (MissionStatus status : farm.statuses.all()) {
+                boolean has = status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING;
+                Mission mission = farm.missions.get(status.mission());
+                assertThat(mission.running() || !has).as(said).isTrue();
+                assertThat(running.getOrDefault(status.mission(), 0))
+                        .as(said + " " + status)
+                        .isEqualTo(has ? mission.groups().count() : 0);
+                if (status.state().isActive()) {
+                    assertThat(status.confirmed()).as(said).isEqualTo(confirmed.getOrDefault(status.mission(), 0));
+                }
+            }
+        }
+
+        /** Who reads the topics knows what the managers know. */
+        private void checkTopics() throws Exception {
+            assertThat(texts(Topics.MISSIONS)).as(said).isEqualTo(states(farm.missions.all(), Mission::mission));
+            assertThat(texts(Topics.MISSIONS_STATUS))
+                    .as(said)
+                    .isEqualTo(states(farm.statuses.all(), MissionStatus::mission));
+            assertThat(texts(Topics.DOMAINS)).as(said).isEqualTo(states(farm.domains.all(), domain -> domain.domain()));
+            Map<String, byte[]> devices = farm.outbox.compacted(Topics.DEVICES);
+            assertThat(devices).as(said).hasSameSizeAs(farm.devices.all());
+            for (DeviceState each : farm.devices.all()) {
+                byte[] value = devices.get(each.device().version().key());
+                assertThat(WantedDevice.read(value)).as(said).isEqualTo(each.device());
+                DeviceVersion version = DeviceVersion.read(value);
+                assertThat(version.until() == null)
+                        .as(said)
+                        .isEqualTo(each.device().running());
+            }
+        }
+
+        private Map<String, String> texts(String topic) {
+            Map<String, String> texts = new HashMap<>();
+            farm.outbox.compacted(topic).forEach((key, value) -> texts.put(key, new String(value)));
+            return texts;
+        }
+
+        private static <T> Map<String, String> states(List<T> all, java.util.function.Function<T, String> name) {
+            Map<String, String> states = new HashMap<>();
+            all.forEach(each -> states.put(name.apply(each), Farm.json(each)));
+            return states;
+        }
+
+        /** One that waits for its date starts in the first round, and may end in the second. */
+        private void checkEverythingSettles() {
+            for (int round = 0; round < 3; round++) {
+                farm.pass(300_000);
+                farm.hostAll();
+            }
+            assertThat(farm.statuses.all())
+                    .as(said)
+                    .extracting(MissionStatus::state)
+                    .doesNotContain(MissionState.STARTING, MissionState.STOPPING);
+        }
+
+        private void checkSequences() throws Exception {
+            long last = 0;
+            for (KeptOutbox.Written record : farm.outbox.all()) {
+                if (record.topic().equals(Topics.DEVICES) && record.value() != null) {
+                    long sequence = DeviceVersion.read(record.value()).sequence();
+                    assertThat(sequence).as(said).isGreaterThan(last);
+                    last = sequence;
+                }
+            }
+        }
+
+        private <T> T one(List<T> all) {
+            return all.get(random.nextInt(all.size()));
+        }
+    }
+}
