@@ -12,13 +12,15 @@ import io.furrow.model.ngsi.Position;
 public record LocalPlane(Position origin) {
     private static final double METERS_PER_DEGREE = Math.toRadians(6_371_000);
 
-    Coordinate toMeters(Position place) {
+    /** Metres east and north. */
+    public Coordinate toMeters(Position place) {
         return new Coordinate(
                 (place.longitude() - origin.longitude()) * metersPerDegreeEast(),
                 (place.latitude() - origin.latitude()) * METERS_PER_DEGREE);
     }
 
-    Position toPosition(Coordinate meters) {
+    /** The place so many metres east and north. */
+    public Position toPosition(Coordinate meters) {
         return new Position(
                 origin.latitude() + meters.y / METERS_PER_DEGREE,
                 origin.longitude() + meters.x / metersPerDegreeEast());

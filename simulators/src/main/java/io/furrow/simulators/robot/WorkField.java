@@ -61,6 +61,11 @@ public record WorkField(String id, LocalPlane plane, Polygon area) {
         return new WorkField(id, plane, area);
     }
 
+    /** Whether a place in metres is inside or on the edge. */
+    public boolean covers(Coordinate meters) {
+        return area.covers(GEOMETRIES.createPoint(meters));
+    }
+
     private static List<Position> ring(String id, JsonNode ring) {
         List<Position> corners = new ArrayList<>();
         for (JsonNode corner : ring) {

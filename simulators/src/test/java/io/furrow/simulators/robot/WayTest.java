@@ -189,6 +189,16 @@ class WayTest {
     }
 
     @Test
+    void turnsTheShorterWayRound() {
+        List<Position> corner = List.of(new Position(0, 0), new Position(0.001, 0), new Position(0.001, -0.001));
+        Way way = Way.along(corner, PACE);
+
+        double driving = 4 * 111.1949 / PACE.speed();
+        assertThat(way.lap()).isEqualTo(driving + (90 + 180 + 90 + 180) / PACE.turnRate(), within(0.01));
+        assertThat(way.at(111.1949 / PACE.speed() + 1).heading()).isEqualTo(360 - PACE.turnRate(), within(0.1));
+    }
+
+    @Test
     void goesAlongTheBearingItIsGiven() {
         WorkField field = cases().findFirst().orElseThrow().field();
         List<LineSegment> rows = Rows.of(field, 3, 2, 30d);
