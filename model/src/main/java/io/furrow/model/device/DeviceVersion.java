@@ -86,6 +86,10 @@ public record DeviceVersion(
 
     /** UTF-8 JSON; members without a value are left out. */
     public byte[] toBytes() {
+        return NgsiJson.write(toJson());
+    }
+
+    ObjectNode toJson() {
         ObjectNode json = NgsiJson.mapper().createObjectNode();
         json.put("id", id).put("service", service).put("servicePath", servicePath);
         json.put("domain", domain).put("mission", mission).put("from", from);
@@ -96,7 +100,7 @@ public record DeviceVersion(
         if (carriedBy != null) {
             json.put("carriedBy", carriedBy);
         }
-        return NgsiJson.write(json);
+        return json;
     }
 
     private static String text(JsonNode json, String member) throws UnreadableException {

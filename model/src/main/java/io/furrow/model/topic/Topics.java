@@ -12,6 +12,26 @@ public final class Topics {
     public static final String LATEST = "data.latest";
     /** The context broker's native Kafka notifications. */
     public static final String NOTIFICATIONS = "ngsi.notifications";
+    /** Requests to the manager of domains, and its responses; so for missions and replays. */
+    public static final String DOMAIN_MANAGER = "service.domainmanager";
+
+    public static final String MISSION_MANAGER = "service.missionmanager";
+    public static final String REPLAY_MANAGER = "service.replaymanager";
+
+    /** What domains, missions, templates and replays there shall be; compacted, written by the managers only. */
+    public static final String DOMAINS = "service.domains";
+
+    public static final String MISSIONS = "service.missions";
+    public static final String TEMPLATES = "service.templates";
+    public static final String REPLAYS = "service.replays";
+
+    /** How far each mission is; compacted. */
+    public static final String MISSIONS_STATUS = "service.missions.status";
+    /** What each device is, told by whoever hosts it; compacted. */
+    public static final String DEVICES_STATUS = "service.devices.status";
+    /** What each replay is, told by whoever plays it back; compacted. */
+    public static final String REPLAYS_STATUS = "service.replays.status";
+
     /** To whom each device belongs, see {@code DeviceVersion}; compacted. */
     public static final String DEVICES = "service.devices";
     /** The fields of the farm, version by version, see {@code FieldVersion}; compacted. */
@@ -49,6 +69,11 @@ public final class Topics {
     /** One mission: {@code data.<domain>.realtime.<mission>}. */
     public static String realtime(String domain, String mission) {
         return realtime(domain) + "." + TopicName.of(mission);
+    }
+
+    /** One replay: {@code data.<mission>.replay.<id8>}. */
+    public static String replay(String mission, String id8) {
+        return "data." + TopicName.of(mission) + ".replay." + id8;
     }
 
     /**

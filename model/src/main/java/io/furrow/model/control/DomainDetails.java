@@ -1,0 +1,55 @@
+package io.furrow.model.control;
+
+import java.util.List;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * What is said of a domain. Null is what is not said.
+ *
+ * @param name for people
+ * @param area GeoJSON of a Polygon or MultiPolygon, its coordinates not looked at
+ * @param fields ids of fields, see {@code FieldVersion}
+ */
+public record DomainDetails(String name, String description, ObjectNode area, List<String> fields) {
+    /** Nothing said. */
+    public static final DomainDetails NONE = new DomainDetails(null, null, null, null);
+
+    private static final Pattern FIELD = Pattern.compile("[!-~&&[^&?/#<>\"'=;()]]{1,200}");
+
+    /** These, and of what they do not say the others. */
+    public DomainDetails over(DomainDetails others) {
+        return new DomainDetails(
+                name == null ? others.name : name,
+                description == null ? others.description : description,
+                area == null ? others.area : area,
+                fields == null ? others.fields : fields);
+    }
+
+    static DomainDetails read(Members members) throws RefusedException {
+        ObjectNode area = members.objectOrNull("area");
+        if (area != null && !DeviceGroup.isArea(area)) {
+            throw Members.wrong("area", "a GeoJSON Polygon or MultiPolygon");
+        }
+        return new DomainDetails(
+                members.textOrNull("name"),
+                members.textOrNull("description"),
+                area,
+                members.has("fields") ? members.texts("fields", FIELD, "ids of fields") : null);
+    }
+
+    /** Puts what is said. */
+    public void describe(ObjectNode json) {
+        DeviceGroup.put(json, "name", name);
+        DeviceGroup.put(json, "description", description);
+        if (area != null) {
+            json.set("area", area);
+        }
+        if (fields != null) {
+            ArrayNode ids = json.putArray("fields");
+            fields.forEach(ids::add);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+package io.furrow.model.control;
+
+import java.util.Locale;
+
+/** Why a request was refused: the member {@code error} of the answer. Codes are never renamed, clients branch on them. */
+public enum ErrorCode {
+    /** Not one well-formed JSON document in UTF-8. */
+    NOT_JSON,
+    /** JSON, but no object with {@code type} {@code request} or {@code response}. */
+    NOT_A_REQUEST,
+    /** The manager of this topic knows no such {@code command}. */
+    UNKNOWN_COMMAND,
+    /** The command needs a member that is not there. */
+    MISSING_MEMBER,
+    /** A member is of another form, or out of its range. */
+    WRONG_MEMBER,
+    /** A name is not 1 to 64 of {@code A-Z a-z 0-9 _ -}. */
+    ILLEGAL_NAME,
+    DOMAIN_EXISTS,
+    UNKNOWN_DOMAIN,
+    /** The domain cannot be deleted while missions run in it. */
+    MISSIONS_RUNNING,
+    MISSION_EXISTS,
+    UNKNOWN_MISSION,
+    /** The mission would have to be stopped first. */
+    MISSION_RUNNING,
+    /** There is nothing to stop. */
+    MISSION_NOT_RUNNING,
+    /** A mission of this name belongs to another domain. */
+    NAME_TAKEN,
+    UNKNOWN_TEMPLATE,
+    /** Another mission that runs has the device. */
+    DEVICE_TAKEN,
+    UNKNOWN_REPLAY,
+    /** The replay is not in the state that the command needs. */
+    WRONG_STATE;
+
+    /** The name in lower case with hyphens, for instance {@code not-json}. */
+    public String code() {
+        return name().toLowerCase(Locale.ROOT).replace('_', '-');
+    }
+}

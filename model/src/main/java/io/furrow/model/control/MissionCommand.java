@@ -1,0 +1,118 @@
+package io.furrow.model.control;
+
+import java.time.Duration;
+import java.time.Instant;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** What the topic {@code service.missionmanager} asks for. */
+public sealed interface MissionCommand extends Command {
+    record Create(String mission, String domain, MissionPlan plan) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "create";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("mission", mission).put("domain", domain);
+            plan.describe(request);
+        }
+    }
+
+    /**
+     * Makes the mission where there is none.
+     *
+     * @param domain null for that of a mission that is there
+     * @param start when it shall start; null, and a time that has passed, is now
+     * @param duration after which it is stopped, from its start on; null for never
+     */
+    record Start(String mission, String domain, MissionPlan plan, Instant start, Duration duration)
+            implements MissionCommand {
+        @Override
+        public String verb() {
+            return "start";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("mission", mission);
+            DeviceGroup.put(request, "domain", domain);
+            plan.describe(request);
+            DeviceGroup.put(request, "start", start);
+            DeviceGroup.put(request, "duration", duration == null ? null : duration.toString());
+        }
+    }
+
+    record Stop(String mission) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "stop";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("mission", mission);
+        }
+    }
+
+    record Delete(String mission) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "delete";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("mission", mission);
+        }
+    }
+
+    /** Keeps a new version; the version that the template names is passed over. */
+    record SaveTemplate(MissionTemplate template) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "save-template";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            template.describe(request);
+        }
+    }
+
+    /** @param version 0 for all */
+    record DeleteTemplate(String template, int version) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "delete-template";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("template", template);
+            if (version > 0) {
+                request.put("version", version);
+            }
+        }
+    }
+
+    static MissionCommand read(String verb, Members members) throws RefusedException {
+        return switch (verb == null ? "" : verb) {
+            case "create" -> new Create(members.name("mission"), members.name("domain"), MissionPlan.read(members));
+            case "start" ->
+                new Start(
+                        members.name("mission"),
+                        members.nameOrNull("domain"),
+                        MissionPlan.read(members),
+                        members.timeOrNull("start"),
+                        members.durationOrNull("duration"));
+            case "stop" -> new Stop(members.name("mission"));
+            case "delete" -> new Delete(members.name("mission"));
+            case "save-template" -> new SaveTemplate(MissionTemplate.read(members));
+            case "delete-template" ->
+                new DeleteTemplate(members.name("template"), members.wholeNumber("version", 1, Integer.MAX_VALUE, 0));
+            default -> throw Requests.unknown(verb, "create, start, stop, delete, save-template, delete-template");
+        };
+    }
+}

@@ -1,0 +1,118 @@
+package io.furrow.model.control;
+
+import java.util.List;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.TopicName;
+
+/**
+ * Requests to and from JSON. Reading never throws: what cannot be understood is {@link Received.Refused} with a code and a
+ * sentence. Members of names that no command has are passed over, because older clients send more than is asked for.
+ */
+public final class Requests {
+    private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
+    /** Members that an error answers with, so that a client without request ids knows what it is about. */
+    private static final List<String> SUBJECTS = List.of("domain", "mission", "replay");
+
+    private Requests() {}
+
+    /** Makes a command of a request's members. */
+    private interface Reader<C> {
+        C read(String verb, Members members) throws RefusedException;
+    }
+
+    /** A record of {@code service.domainmanager}; the value may be null. */
+    public static Received<DomainCommand> domain(byte[] value) {
+        return read(value, DomainCommand::read);
+    }
+
+    /** A record of {@code service.missionmanager}; the value may be null. */
+    public static Received<MissionCommand> mission(byte[] value) {
+        return read(value, MissionCommand::read);
+    }
+
+    /** A record of {@code service.replaymanager}; the value may be null. */
+    public static Received<ReplayCommand> replay(byte[] value) {
+        return read(value, ReplayCommand::read);
+    }
+
+    /** @param requestId may be null */
+    public static byte[] write(String requestId, Command command) {
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("type", "request");
+        DeviceGroup.put(json, "requestId", requestId);
+        json.put("command", command.verb());
+        command.describe(json);
+        return NgsiJson.write(json);
+    }
+
+    private static <C> Received<C> read(byte[] value, Reader<C> reader) {
+        if (value == null) {
+            return new Received.Passed<>();
+        }
+        JsonNode json;
+        try {
+            json = NgsiJson.read(value);
+        } catch (UnreadableException e) {
+            return refused(null, new RefusedException(ErrorCode.NOT_JSON, Members.quotable(e.getMessage())), json());
+        }
+        if ("response".equals(json.path("type").textValue())) {
+            return new Received.Passed<>();
+        }
+        if (!(json instanceof ObjectNode object)
+                || !"request".equals(json.path("type").textValue())) {
+            return refused(
+                    null, new RefusedException(ErrorCode.NOT_A_REQUEST, "it is no object with type=request"), json());
+        }
+        return read(object, reader);
+    }
+
+    private static <C> Received<C> read(ObjectNode json, Reader<C> reader) {
+        Members members = new Members(json);
+        String requestId = null;
+        try {
+            requestId = requestId(members);
+            Members.checkReadable(json);
+            return new Received.Request<>(requestId, reader.read(members.textOrNull("command"), members));
+        } catch (RefusedException e) {
+            return refused(requestId, e, json);
+        }
+    }
+
+    private static String requestId(Members members) throws RefusedException {
+        String id = members.textOrNull("requestId");
+        if (id != null && !REQUEST_ID.matcher(id).matches()) {
+            throw Members.wrong("requestId", "1 to 200 printable ASCII signs without blanks");
+        }
+        return id;
+    }
+
+    private static <C> Received<C> refused(String requestId, RefusedException refusal, ObjectNode request) {
+        Response answer = Response.refused(refusal);
+        for (String subject : SUBJECTS) {
+            String name = request.path(subject).asText("");
+            if (TopicName.isLegal(name) || ReplayCommand.REPLAY.matcher(name).matches()) {
+                answer = answer.with(subject, name);
+            }
+        }
+        return new Received.Refused<>(requestId, answer);
+    }
+
+    private static ObjectNode json() {
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    static RefusedException unknown(String verb, String known) {
+        return verb == null
+                ? new RefusedException(
+                        ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + known)
+                : new RefusedException(
+                        ErrorCode.UNKNOWN_COMMAND,
+                        "there is no command '%s' here, but %s".formatted(Members.quotable(verb), known));
+    }
+}

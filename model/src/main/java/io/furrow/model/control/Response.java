@@ -1,0 +1,79 @@
+package io.furrow.model.control;
+
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What a manager answers: {@code type=response}, {@code status}, and what the command says beside it.
+ *
+ * @param json the whole message; owned by the response, not to be changed by readers
+ */
+public record Response(ObjectNode json) {
+    /** The status of whatever is refused. */
+    public static final String ERROR = "error";
+
+    private static final String REQUEST_ID = "requestId";
+
+    /** An answer of a status, for instance {@code created}. */
+    public static Response of(String status) {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        return new Response(json.put("type", "response").put("status", status));
+    }
+
+    public static Response refused(RefusedException refusal) {
+        return of(ERROR).with("error", refusal.code().code()).with("reason", refusal.getMessage());
+    }
+
+    /** With one more member; of null the same. */
+    public Response with(String member, String value) {
+        return value == null ? this : new Response(json.deepCopy().put(member, value));
+    }
+
+    public Response with(String member, long value) {
+        return new Response(json.deepCopy().put(member, value));
+    }
+
+    /** To a request; the id may be null. */
+    public Response to(String requestId) {
+        return with(REQUEST_ID, requestId);
+    }
+
+    public String status() {
+        return json.path("status").asText();
+    }
+
+    /** The code of an error, else empty. */
+    public Optional<String> error() {
+        return Optional.ofNullable(json.path("error").textValue());
+    }
+
+    public Optional<String> requestId() {
+        return Optional.ofNullable(json.path(REQUEST_ID).textValue());
+    }
+
+    /**
+     * Reads a message; members of other names are kept.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no response
+     */
+    public static Response read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        if (!(json instanceof ObjectNode object)
+                || !"response".equals(json.path("type").textValue())
+                || !json.path("status").isTextual()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object with type=response and a status");
+        }
+        return new Response(object);
+    }
+
+    public byte[] toBytes() {
+        return NgsiJson.write(json);
+    }
+}

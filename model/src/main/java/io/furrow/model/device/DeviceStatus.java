@@ -1,0 +1,65 @@
+package io.furrow.model.device;
+
+import java.util.Locale;
+import java.util.Objects;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What a device is, told by its host: a record of {@code service.devices.status} under the key of {@code service.devices}.
+ *
+ * @param sequence of the wanted device that this is the state of; a smaller one than the newest wanted says nothing of it
+ * @param reason why it failed; null where it did not
+ */
+public record DeviceStatus(long sequence, State state, String reason) {
+    /** How it is with a device. */
+    public enum State {
+        RUNNING,
+        STOPPED,
+        FAILED;
+
+        /** As the record has it. */
+        public String word() {
+            return name().toLowerCase(Locale.ROOT);
+        }
+    }
+
+    public DeviceStatus {
+        Objects.requireNonNull(state);
+    }
+
+    /**
+     * Reads the value of a record; members of other names are passed over.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     */
+    public static DeviceStatus read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        JsonNode sequence = json.path("sequence");
+        if (!sequence.isIntegralNumber() || !sequence.canConvertToLong()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "'sequence' of the status is no whole number");
+        }
+        for (State state : State.values()) {
+            if (state.word().equals(json.path("state").textValue())) {
+                return new DeviceStatus(
+                        sequence.longValue(), state, json.path("reason").textValue());
+            }
+        }
+        throw new UnreadableException(Reason.NOT_AN_EVENT, "'state' of the status is not running, stopped or failed");
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        json.put("sequence", sequence).put("state", state.word());
+        if (reason != null) {
+            json.put("reason", reason);
+        }
+        return NgsiJson.write(json);
+    }
+}

@@ -1,0 +1,107 @@
+package io.furrow.model.control;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Random;
+import java.util.function.Function;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class RequestsPropertyTest {
+    private static final int CASES = 3000;
+    private static final String[] SPLICES = {
+        "null",
+        "{}",
+        "[]",
+        "1e999",
+        "-1",
+        "1000e2147483647",
+        "\"\\ud800\"",
+        "\"\"",
+        "[[[[]]]]",
+        "true",
+        "\"a.b\"",
+        "999999999999999999",
+        "\"+999999999-12-31T23:59:59Z\"",
+        "\"PT9999999999999999H\"",
+        "{\"type\":\"Polygon\"}"
+    };
+
+    @Test
+    void readsEveryCommandAsItWasWritten() {
+        long seed = System.nanoTime();
+        MadeUpCommands made = new MadeUpCommands(new Random(seed));
+        for (int i = 0; i < CASES; i++) {
+            String id = i % 2 == 0 ? "r-" + i : null;
+            DomainCommand domain = made.domain();
+            MissionCommand mission = made.mission();
+            ReplayCommand replay = made.replay();
+
+            assertThat(Requests.domain(Requests.write(id, domain)))
+                    .as("seed %d", seed)
+                    .isEqualTo(new Received.Request<>(id, domain));
+            assertThat(Requests.mission(Requests.write(id, mission)))
+                    .as("seed %d", seed)
+                    .isEqualTo(new Received.Request<>(id, mission));
+            assertThat(Requests.replay(Requests.write(id, replay)))
+                    .as("seed %d", seed)
+                    .isEqualTo(new Received.Request<>(id, replay));
+        }
+    }
+
+    @Test
+    void answersWhateverIsBrokenWithACodeAndASentence() throws Exception {
+        long seed = System.nanoTime();
+        Random random = new Random(seed);
+        MadeUpCommands made = new MadeUpCommands(random);
+        int refused = 0;
+        for (int i = 0; i < CASES; i++) {
+            refused += refusals(broken(Requests.write("r", made.domain()), random), Requests::domain, seed);
+            refused += refusals(broken(Requests.write("r", made.mission()), random), Requests::mission, seed);
+            refused += refusals(broken(Requests.write("r", made.replay()), random), Requests::replay, seed);
+        }
+        assertThat(refused).isGreaterThan(CASES);
+    }
+
+    /** Whatever is understood can be written and read again; whatever is not has an answer that can be read. */
+    private static <C extends Command> int refusals(byte[] request, Function<byte[], Received<C>> reader, long seed)
+            throws Exception {
+        Received<C> received = reader.apply(request);
+        String said = "seed %d: %s".formatted(seed, new String(request, StandardCharsets.UTF_8));
+        if (received instanceof Received.Request<C> understood) {
+            assertThat(reader.apply(Requests.write(understood.requestId(), understood.command())))
+                    .as(said)
+                    .isEqualTo(received);
+        } else if (received instanceof Received.Refused<C> refused) {
+            Response answer =
+                    Response.read(refused.answer().to(refused.requestId()).toBytes());
+            assertThat(answer.status()).as(said).isEqualTo("error");
+            assertThat(answer.error()).as(said).isPresent();
+            assertThat(answer.json().path("reason").asText()).as(said).isNotBlank();
+            return 1;
+        }
+        return 0;
+    }
+
+    private static byte[] broken(byte[] request, Random random) {
+        String text = new String(request, StandardCharsets.UTF_8);
+        int at = random.nextInt(text.length());
+        int colon = text.indexOf(':', at);
+        text = switch (random.nextInt(4)) {
+            case 0 -> text.substring(0, at);
+            case 1 -> text.substring(0, at) + (char) random.nextInt(128) + text.substring(at + 1);
+            default -> colon < 0 ? text + "]" : spliced(text, colon + 1, SPLICES[random.nextInt(SPLICES.length)]);
+        };
+        return text.getBytes(StandardCharsets.UTF_8);
+    }
+
+    /** Puts another value in the place of a plain one. */
+    private static String spliced(String text, int from, String value) {
+        int end = from;
+        while (end < text.length() && ",}]".indexOf(text.charAt(end)) < 0) {
+            end++;
+        }
+        return text.substring(0, from) + value + text.substring(end);
+    }
+}
