@@ -5,7 +5,6 @@ import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.time.Instant;
 import java.time.ZoneOffset;
 import java.time.format.DateTimeFormatter;
 import java.util.ArrayList;
@@ -67,8 +66,7 @@ public final class FieldPicture {
         String what = Stream.concat(
                         Stream.of(view.where()),
                         seen.stream()
-                                .map(thing ->
-                                        String.format(Locale.ROOT, "%s %.0fM", thing.name(), thing.meters())))
+                                .map(thing -> String.format(Locale.ROOT, "%s %.0fM", thing.name(), thing.meters())))
                 .filter(part -> !part.isBlank())
                 .collect(Collectors.joining(" / "));
         String where = String.format(Locale.ROOT, "%.5f %.5f", place.latitude(), place.longitude());

@@ -26,6 +26,7 @@ record Camera(String name) implements Sensor {
 
     @Override
     public JsonNode measure(Instant time, Position place) {
-        return TextNode.valueOf(Base64.getEncoder().encodeToString(FieldPicture.png(new View(name, time, place, 0, "", List.of()))));
+        return TextNode.valueOf(
+                Base64.getEncoder().encodeToString(FieldPicture.png(new View(name, time, place, 0, "", List.of()))));
     }
 }

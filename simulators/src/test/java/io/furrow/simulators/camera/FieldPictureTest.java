@@ -56,10 +56,8 @@ class FieldPictureTest {
         assertThat(lines.get(0)).isEqualTo(view.camera().toUpperCase(Locale.ROOT));
         String[] parts = lines.get(1).split(" ");
         assertThat(Instant.parse(parts[0] + "T" + parts[1] + "Z")).isEqualTo(view.time());
-        assertThat(Double.parseDouble(parts[2]))
-                .isEqualTo(view.place().latitude(), within(0.00001));
-        assertThat(Double.parseDouble(parts[3]))
-                .isEqualTo(view.place().longitude(), within(0.00001));
+        assertThat(Double.parseDouble(parts[2])).isEqualTo(view.place().latitude(), within(0.00001));
+        assertThat(Double.parseDouble(parts[3])).isEqualTo(view.place().longitude(), within(0.00001));
         assertThat(lines.get(2)).isEqualTo(view.where().toUpperCase(Locale.ROOT));
     }
 
