@@ -13,7 +13,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** JSON over HTTP in the tenant and service path of the settings; one attempt, at most ten seconds. */
-final class FiwareHttp {
+public final class FiwareHttp {
     private static final Duration PATIENCE = Duration.ofSeconds(10);
 
     private final HttpClient client = HttpClient.newBuilder()
@@ -22,7 +22,7 @@ final class FiwareHttp {
             .build();
     private final FleetSettings settings;
 
-    FiwareHttp(FleetSettings settings) {
+    public FiwareHttp(FleetSettings settings) {
         this.settings = settings;
     }
 
@@ -36,7 +36,8 @@ final class FiwareHttp {
         }
     }
 
-    CompletableFuture<HttpResponse<String>> postAsync(URI base, String path, JsonNode body) {
+    /** Asks without waiting; a base as in {@code http://127.0.0.1:1026}, a path with its query. */
+    public CompletableFuture<HttpResponse<String>> postAsync(URI base, String path, JsonNode body) {
         return client.sendAsync(request(base, path, body), HttpResponse.BodyHandlers.ofString());
     }
 

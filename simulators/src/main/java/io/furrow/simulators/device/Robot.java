@@ -3,18 +3,17 @@ package io.furrow.simulators.device;
 import java.net.http.HttpResponse;
 import java.time.Duration;
 import java.time.Instant;
-import java.util.Locale;
 import java.util.concurrent.CompletableFuture;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import com.fasterxml.jackson.databind.node.TextNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.Position;
+import io.furrow.simulators.robot.FirosEntity;
 
 /**
  * A robot as FIROS shows it: written to the context broker directly, its position a ROS NavSatFix message as text in
@@ -59,26 +58,11 @@ final class Robot implements Device {
     Entity entity(Instant now) {
         DevicePlan device = assignment.device();
         Position place = path.at(Duration.between(start, now));
-        EntityBuilder entity = Entity.builder(device.entity(), "ROBOT")
-                .attribute("gnss", "sensor_msgs.msg.NavSatFix", TextNode.valueOf(navSatFix(place, now)))
-                .integer("Time", now.toEpochMilli());
+        EntityBuilder entity = FirosEntity.located(device.entity(), place, now);
         if (device instanceof DevicePlan.RobotPlan plan && plan.tellsMission()) {
             entity.text("Domain", assignment.domain()).text("Mission", assignment.mission());
         }
         return entity.build();
-    }
-
-    private static String navSatFix(Position place, Instant now) {
-        return String.format(
-                        Locale.ROOT,
-                        "{'header': {'seq': 0, 'stamp': {'secs': %d, 'nsecs': %d}, 'frame_id': 'gps'}, "
-                                + "'status': {'status': 0, 'service': 1}, 'latitude': %.8f, 'longitude': %.8f, "
-                                + "'altitude': 0.0, 'position_covariance_type': 0}",
-                        now.getEpochSecond(),
-                        now.getNano(),
-                        place.latitude(),
-                        place.longitude())
-                .replace("'", "%27");
     }
 
     /** Says once that fixes do not arrive, and once that they do again. */

@@ -1,9 +1,9 @@
-package io.furrow.simulators.device;
+package io.furrow.simulators.camera;
 
 import java.awt.image.BufferedImage;
 import java.util.Map;
 
-/** Letters of 3 × 5 dots, each dot 2 × 2 pixels: capitals, digits and {@code : - . /}; anything else is a blank. */
+/** Letters of 3 × 5 dots, each dot 2 × 2 pixels: capitals, digits and {@code : - . / _}; anything else is a blank. */
 final class PixelFont {
     private static final int DOT = 2;
     private static final int ADVANCE = 4 * DOT;
@@ -49,13 +49,10 @@ final class PixelFont {
             Map.entry(':', 002020),
             Map.entry('-', 000700),
             Map.entry('.', 000002),
-            Map.entry('/', 011244));
+            Map.entry('/', 011244),
+            Map.entry('_', 000007));
 
     private PixelFont() {}
-
-    static int width(String text) {
-        return text.length() * ADVANCE;
-    }
 
     /** Writes the text with its upper left corner at x, y; what does not fit to the right is cut. */
     static void write(BufferedImage image, String text, int x, int y, int rgb) {

@@ -1,0 +1,154 @@
+package io.furrow.simulators.fleet;
+
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Queue;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ConcurrentLinkedQueue;
+import java.util.concurrent.atomic.AtomicBoolean;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.simulators.device.FiwareHttp;
+import io.furrow.simulators.device.FleetSettings;
+
+/**
+ * The robots' way to the context broker and back. One update of a robot at a time keeps them in order; one that comes while the
+ * last is not answered is dropped, as FIROS does. Commands are asked for. The first update of a robot empties its {@code cmd}, so
+ * that no old command is run again; what {@code cmd} holds after that is a command when it is another than the last time. One
+ * that changes and changes back between two questions is not seen.
+ */
+final class RobotLink {
+    private static final Logger LOG = LoggerFactory.getLogger(RobotLink.class);
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+    private static final int PAGE = 500;
+
+    private final FleetSettings settings;
+    private final FiwareHttp http;
+    private final Set<String> busy = ConcurrentHashMap.newKeySet();
+    /** Whose {@code cmd} has been emptied. */
+    private final Set<String> listening = ConcurrentHashMap.newKeySet();
+
+    private final Map<String, ObjectNode> results = new ConcurrentHashMap<>();
+    private final Map<String, String> last = new HashMap<>();
+    private final Queue<Order> orders = new ConcurrentLinkedQueue<>();
+    private final AtomicBoolean asking = new AtomicBoolean();
+    private volatile boolean away;
+
+    /** What {@code cmd} of an entity holds. */
+    record Order(String entity, String word) {}
+
+    RobotLink(FleetSettings settings) {
+        this.settings = settings;
+        this.http = new FiwareHttp(settings);
+    }
+
+    /** Writes an entity without waiting for the outcome. */
+    void update(Entity entity) {
+        String id = entity.id();
+        if (!busy.add(id)) {
+            return;
+        }
+        ObjectNode more =
+                results.getOrDefault(id, listening.contains(id) ? NODES.objectNode() : attribute("cmd", "String", ""));
+        ObjectNode body = NODES.objectNode().put("actionType", "append");
+        body.putArray("entities").add(entity.json().deepCopy().<ObjectNode>setAll(more));
+        http.postAsync(settings.contextBroker(), "/v2/op/update", body).whenComplete((answer, failure) -> {
+            if (failure == null && answer.statusCode() / 100 == 2) {
+                listening.add(id);
+                results.remove(id, more);
+            }
+            busy.remove(id);
+            note(answer, failure);
+        });
+    }
+
+    /** What became of a command: goes with the robot's next update as {@code cmd_status} and {@code cmd_info}. */
+    void answer(String entity, boolean obeyed, String sentence) {
+        ObjectNode result = attribute("cmd_status", "commandStatus", obeyed ? "OK" : "ERROR");
+        results.put(entity, result.setAll(attribute("cmd_info", "commandResult", sentence)));
+    }
+
+    private static ObjectNode attribute(String name, String type, String value) {
+        ObjectNode json = NODES.objectNode();
+        json.putObject(name).put("type", type).put("value", value);
+        return json;
+    }
+
+    /** Asks for the commands of robots without waiting for the answer; while one question is open it asks no other. */
+    void ask(List<String> robots) {
+        List<String> entities = robots.stream().filter(listening::contains).toList();
+        if (entities.isEmpty() || !asking.compareAndSet(false, true)) {
+            return;
+        }
+        ask(entities, 0);
+    }
+
+    private void ask(List<String> entities, int from) {
+        ObjectNode query = NODES.objectNode();
+        ArrayNode wanted = query.putArray("entities");
+        List<String> page = entities.subList(from, Math.min(entities.size(), from + PAGE));
+        page.forEach(id -> wanted.addObject().put("id", id).put("type", "ROBOT"));
+        query.putArray("attrs").add("cmd");
+        http.postAsync(settings.contextBroker(), "/v2/op/query?limit=" + PAGE, query)
+                .whenComplete((answer, failure) -> {
+                    if (failure == null && answer.statusCode() == 200) {
+                        read(answer.body());
+                    }
+                    if (failure == null && from + PAGE < entities.size()) {
+                        ask(entities, from + PAGE);
+                    } else {
+                        asking.set(false);
+                    }
+                });
+    }
+
+    private void read(String body) {
+        try {
+            for (JsonNode entity : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8))) {
+                String word = entity.path("cmd").path("value").asText("");
+                if (!word.isBlank()) {
+                    orders.add(new Order(entity.path("id").asText(), word));
+                }
+            }
+        } catch (UnreadableException e) {
+            LOG.warn("{} answers what is no JSON to a question for commands", settings.contextBroker(), e);
+        }
+    }
+
+    /** The commands that are new since the last time; from one thread. */
+    List<Order> orders() {
+        List<Order> fresh = new ArrayList<>();
+        for (Order order = orders.poll(); order != null; order = orders.poll()) {
+            if (!order.word().equals(last.put(order.entity(), order.word()))) {
+                fresh.add(order);
+            }
+        }
+        return fresh;
+    }
+
+    /** Says once that updates do not arrive, and once that they do again. */
+    private void note(HttpResponse<String> answer, Throwable failure) {
+        boolean arrived = failure == null && answer.statusCode() / 100 == 2;
+        if (!arrived && !away) {
+            String reason = failure == null ? answer.statusCode() + " " + answer.body() : failure.toString();
+            LOG.warn("{} does not take what robots report: {}", settings.contextBroker(), reason);
+        } else if (arrived && away) {
+            LOG.info("{} takes what robots report again", settings.contextBroker());
+        }
+        away = !arrived;
+    }
+}

@@ -1,0 +1,168 @@
+package io.furrow.simulators.fleet;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.Base64;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.OptionalDouble;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.Position;
+import io.furrow.simulators.camera.FieldPicture;
+import io.furrow.simulators.camera.View;
+import io.furrow.simulators.robot.Command;
+import io.furrow.simulators.robot.FirosEntity;
+import io.furrow.simulators.robot.RobotModel;
+import io.furrow.simulators.robot.RobotState;
+import io.furrow.simulators.robot.Way;
+import io.furrow.simulators.scenario.SimulatedDevice;
+import io.furrow.simulators.scenario.SimulatedDevice.Camera;
+import io.furrow.simulators.scenario.SimulatedDevice.Place;
+import io.furrow.simulators.scenario.SimulatedDevice.Robot;
+import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
+
+/**
+ * What devices show, each when it is asked, and what becomes of it. Reads no clock: the same devices, asked and told the same at
+ * the same times in the same order, show the same.
+ */
+final class Scene {
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+    private static final double NANOS = 1e9;
+
+    private final Instant start;
+    private final Map<String, Robot> robots = new HashMap<>();
+    private final Map<String, RobotState> states = new HashMap<>();
+    private final Map<String, Position> places = new HashMap<>();
+    private final Set<String> off = new HashSet<>();
+
+    Scene(Instant start) {
+        this.start = start;
+    }
+
+    /** A device that is new here, switched on; a robot sets out at that time. */
+    void add(SimulatedDevice device, Instant now) {
+        if (device instanceof Robot robot) {
+            robots.put(robot.id(), robot);
+            keep(robot, RobotState.starting(now, robot.driven()));
+        }
+    }
+
+    void remove(String device) {
+        robots.remove(device);
+        states.remove(device);
+        places.remove(device);
+        off.remove(device);
+    }
+
+    /** What a device says at a time; nothing where it is off or silent. */
+    Optional<Report> report(SimulatedDevice device, Instant now) {
+        if (device instanceof Robot robot) {
+            RobotState state = advance(robot, now);
+            return off.contains(robot.id()) ? Optional.empty() : Optional.of(update(robot, state));
+        }
+        if (off.contains(device.id())) {
+            return Optional.empty();
+        }
+        return device instanceof Sensor sensor ? measures(sensor, now) : picture((Camera) device, now);
+    }
+
+    /** Switches a device on or off; the last word of one that is switched off says so, or its status would stay true. */
+    Optional<Report> switchTo(SimulatedDevice device, boolean on, Instant now) {
+        boolean changed = on ? off.remove(device.id()) : off.add(device.id());
+        return changed && !on && !(device instanceof Robot)
+                ? Optional.of(new Report.Measures(
+                        device.id(), NODES.objectNode().put("stat", false).put("time", now.toEpochMilli())))
+                : Optional.empty();
+    }
+
+    /** Tells a robot something; it has effect from that time on. */
+    void tell(Robot robot, Command command, Instant now) {
+        keep(robot, advance(robot, now).told(command));
+    }
+
+    private RobotState advance(Robot robot, Instant now) {
+        Map<String, Position> others = robot.model().manners().meeting() > 0 ? places : Map.of();
+        RobotState state =
+                robot.model().advance(states.get(robot.id()), now, new RobotModel.Surroundings(List.of(), others));
+        keep(robot, state);
+        return state;
+    }
+
+    private void keep(Robot robot, RobotState state) {
+        states.put(robot.id(), state);
+        places.put(robot.id(), robot.model().pose(state).place());
+    }
+
+    private Way.Pose pose(Place place, Instant now) {
+        if (place.carrier() == null) {
+            return place.way().at(Math.max(0, Duration.between(start, now).toNanos() / NANOS));
+        }
+        Robot carrier = robots.get(place.carrier());
+        return carrier.model().pose(advance(carrier, now));
+    }
+
+    private Optional<Report> measures(Sensor sensor, Instant now) {
+        ObjectNode json = NODES.objectNode();
+        for (SimulatedDevice.Quantity quantity : sensor.quantities()) {
+            OptionalDouble value = quantity.signal().at(now);
+            if (value.isPresent()) {
+                json.put(quantity.attribute().objectId(), value.getAsDouble());
+            }
+        }
+        if (json.isEmpty() || gone(sensor.place())) {
+            return Optional.empty();
+        }
+        Position place = pose(sensor.place(), now).place();
+        return Optional.of(new Report.Measures(sensor.id(), located(json, place, sensor.place(), now)));
+    }
+
+    private Optional<Report> picture(Camera camera, Instant now) {
+        if (camera.silent().stream().anyMatch(span -> span.holds(now)) || gone(camera.place())) {
+            return Optional.empty();
+        }
+        Way.Pose pose = pose(camera.place(), now);
+        double heading = camera.heading() == null ? pose.heading() : camera.heading();
+        List<View.Thing> about = new ArrayList<>();
+        places.forEach((robot, place) -> {
+            if (!robot.equals(camera.place().carrier())) {
+                about.add(new View.Thing(robot, place));
+            }
+        });
+        about.sort((a, b) -> a.name().compareTo(b.name()));
+        View view =
+                new View(camera.id(), now, pose.place(), heading, camera.place().where(), about);
+        ObjectNode json = NODES.objectNode().put("img", Base64.getEncoder().encodeToString(FieldPicture.png(view)));
+        return Optional.of(new Report.Measures(camera.id(), located(json, pose.place(), camera.place(), now)));
+    }
+
+    /** Whether the robot that carries it is no longer there. */
+    private boolean gone(Place place) {
+        return place.carrier() != null && !robots.containsKey(place.carrier());
+    }
+
+    private static ObjectNode located(ObjectNode json, Position position, Place place, Instant now) {
+        return json.put("stat", true)
+                .put("time", now.toEpochMilli())
+                .put("lat", position.latitude())
+                .put("lon", position.longitude())
+                .put("where", place.where());
+    }
+
+    private static Report update(Robot robot, RobotState state) {
+        SimulatedDevice.Identity who = robot.identity();
+        EntityBuilder entity = FirosEntity.of(who.entity(), robot.model(), state);
+        if (robot.tellsMission()) {
+            entity.text("Domain", who.domain()).text("Mission", who.mission());
+        }
+        return new Report.Update(who.id(), entity.build());
+    }
+}

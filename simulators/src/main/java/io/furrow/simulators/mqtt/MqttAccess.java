@@ -1,0 +1,77 @@
+package io.furrow.simulators.mqtt;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.security.GeneralSecurityException;
+import java.security.KeyStore;
+import java.security.cert.Certificate;
+import java.security.cert.CertificateFactory;
+import javax.net.ssl.SSLContext;
+import javax.net.ssl.SSLSocketFactory;
+import javax.net.ssl.TrustManagerFactory;
+
+/**
+ * An MQTT broker and how to speak to it.
+ *
+ * @param broker {@code tcp://host:port}, or {@code ssl://host:port} with TLS; {@code mqtt} and {@code mqtts} mean the same
+ * @param trusted PEM file with the certificates of those whom to trust; null for those whom the JDK trusts
+ * @param qos of measures, 0 or 1: with 0 what is measured while the connection is broken is lost
+ */
+public record MqttAccess(URI broker, Path trusted, int qos) {
+    public MqttAccess {
+        broker = URI.create(broker.toString().replaceFirst("^mqtt:", "tcp:").replaceFirst("^mqtts:", "ssl:"));
+        if (!"tcp".equals(broker.getScheme()) && !"ssl".equals(broker.getScheme())) {
+            throw new IllegalArgumentException(
+                    broker + " is no address of an MQTT broker: use tcp://host:port, or ssl://host:port with TLS");
+        }
+        if (qos != 0 && qos != 1) {
+            throw new IllegalArgumentException("QoS is 0 or 1, not " + qos);
+        }
+    }
+
+    /** As whom to connect; the password is left out of {@link #toString()}. */
+    public record Login(String user, String password) {
+        @Override
+        public String toString() {
+            return user;
+        }
+    }
+
+    boolean isEncrypted() {
+        return broker.getScheme().equals("ssl");
+    }
+
+    /**
+     * Sockets that speak TLS with those whom to trust only.
+     *
+     * @throws IOException naming the file, where it holds no certificate
+     */
+    public SSLSocketFactory encryptedSockets() throws IOException {
+        try {
+            SSLContext tls = SSLContext.getInstance("TLS");
+            tls.init(null, trusted == null ? null : trust().getTrustManagers(), null);
+            return new NoDelayEncryptedSockets(tls.getSocketFactory());
+        } catch (GeneralSecurityException e) {
+            throw new IOException(trusted + " holds no certificates in PEM that TLS could trust", e);
+        }
+    }
+
+    private TrustManagerFactory trust() throws GeneralSecurityException, IOException {
+        KeyStore store = KeyStore.getInstance(KeyStore.getDefaultType());
+        store.load(null, null);
+        try (InputStream pem = Files.newInputStream(trusted)) {
+            for (Certificate each : CertificateFactory.getInstance("X.509").generateCertificates(pem)) {
+                store.setCertificateEntry("trusted-" + store.size(), each);
+            }
+        }
+        if (store.size() == 0) {
+            throw new GeneralSecurityException("no certificate in the file");
+        }
+        TrustManagerFactory trust = TrustManagerFactory.getInstance(TrustManagerFactory.getDefaultAlgorithm());
+        trust.init(store);
+        return trust;
+    }
+}

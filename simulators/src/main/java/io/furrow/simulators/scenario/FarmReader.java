@@ -1,0 +1,135 @@
+package io.furrow.simulators.scenario;
+
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.simulators.robot.WorkField;
+import io.furrow.simulators.scenario.SimulatedDevice.Camera;
+import io.furrow.simulators.scenario.SimulatedDevice.Place;
+import io.furrow.simulators.scenario.SimulatedDevice.Robot;
+import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
+
+/** Reads a whole scenario and checks what concerns more than one device: ids that are taken, carriers that are missing. */
+final class FarmReader {
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_-]{1,64}");
+
+    private final Instant start;
+    private final Map<String, String> ids = new LinkedHashMap<>();
+    private final Map<String, String> entities = new LinkedHashMap<>();
+    private final Map<String, String> robots = new LinkedHashMap<>();
+
+    FarmReader(Instant start) {
+        this.start = start;
+    }
+
+    Farm farm(Members file) throws UnusableScenarioException {
+        PlaceReader places = new PlaceReader(fields(file));
+        GroupReader groups = new GroupReader(places, new FaultReader(start), file.whole("seed", 0, Long.MAX_VALUE, 0));
+        String apiKey = name(file, "apiKey");
+        List<SimulatedDevice> devices = new ArrayList<>();
+        for (Members mission : file.objects("missions")) {
+            List<SimulatedDevice> loose = new ArrayList<>();
+            Map<SimulatedDevice, Members> from = new LinkedHashMap<>();
+            String domain = name(mission, "domain");
+            String named = name(mission, "mission");
+            for (Members group : mission.objects("devices")) {
+                for (SimulatedDevice device : groups.devices(group, domain, named)) {
+                    register(device, group);
+                    loose.add(device);
+                    from.put(device, group);
+                }
+            }
+            mission.end();
+            for (SimulatedDevice device : loose) {
+                devices.add(carried(device, from.get(device)));
+            }
+        }
+        file.end();
+        return new Farm(apiKey, List.copyOf(devices));
+    }
+
+    private static Map<String, WorkField> fields(Members file) throws UnusableScenarioException {
+        Map<String, WorkField> fields = new LinkedHashMap<>();
+        if (!file.has("fields")) {
+            return fields;
+        }
+        int number = 0;
+        for (JsonNode feature : file.object("fields").node("features")) {
+            String at = "fields.features[" + number++ + "]";
+            try {
+                WorkField field = WorkField.of(feature);
+                if (fields.put(field.id(), field) != null) {
+                    throw new UnusableScenarioException(at, "field '" + field.id() + "' is there twice");
+                }
+            } catch (IllegalArgumentException e) {
+                UnusableScenarioException refused = new UnusableScenarioException(at, e.getMessage());
+                refused.initCause(e);
+                throw refused;
+            }
+        }
+        return fields;
+    }
+
+    private static String name(Members json, String member) throws UnusableScenarioException {
+        String name = json.text(member);
+        if (!NAME.matcher(name).matches()) {
+            throw json.refused(member, "must be 1 to 64 of A-Z a-z 0-9 _ -, not '" + name + "'");
+        }
+        return name;
+    }
+
+    private void register(SimulatedDevice device, Members group) throws UnusableScenarioException {
+        if (!NAME.matcher(device.id()).matches()) {
+            throw group.refused("id", "must be 1 to 64 of A-Z a-z 0-9 _ -, not '" + device.id() + "'");
+        }
+        free(ids, device.id(), group, "id");
+        free(entities, device.identity().entity(), group, "entity");
+        if (device instanceof Robot) {
+            robots.put(device.id(), device.identity().mission());
+        }
+    }
+
+    private static void free(Map<String, String> taken, String value, Members group, String member)
+            throws UnusableScenarioException {
+        String by = taken.put(value, group.path());
+        if (by != null) {
+            throw group.refused(member, "'%s' is taken by %s; give it another".formatted(value, by));
+        }
+    }
+
+    /** The same, with its carrier found: the robot of the same number, or the one robot that carries the whole group. */
+    private SimulatedDevice carried(SimulatedDevice device, Members group) throws UnusableScenarioException {
+        if (device instanceof Sensor sensor && sensor.place().carrier() != null) {
+            return new Sensor(
+                    sensor.identity(), sensor.period(), found(sensor.place(), device, group), sensor.quantities());
+        }
+        if (device instanceof Camera camera && camera.place().carrier() != null) {
+            return new Camera(
+                    camera.identity(),
+                    camera.period(),
+                    found(camera.place(), device, group),
+                    camera.heading(),
+                    camera.silent());
+        }
+        return device;
+    }
+
+    private Place found(Place place, SimulatedDevice device, Members group) throws UnusableScenarioException {
+        String said = group.text("carriedBy");
+        for (String carrier : List.of(place.carrier(), said)) {
+            if (device.identity().mission().equals(robots.get(carrier))) {
+                return new Place(place.where(), null, carrier);
+            }
+        }
+        throw group.refused(
+                "carriedBy",
+                "there is no robot '%s' in mission '%s'; a carrier is a robot of the same mission"
+                        .formatted(place.carrier(), device.identity().mission()));
+    }
+}

@@ -1,0 +1,94 @@
+package io.furrow.simulators.scenario;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.simulators.signal.Draw;
+import io.furrow.simulators.signal.Fault;
+import io.furrow.simulators.signal.Span;
+
+/** Reads what is wrong with a device: {@code "faults": [{"kind": "drift", "perHour": 2, "after": "PT10M"}]}. */
+final class FaultReader {
+    private static final double MOST = 1e9;
+
+    private final Instant start;
+
+    FaultReader(Instant start) {
+        this.start = start;
+    }
+
+    /** @param attribute what is shown wrongly; null for all that the device shows */
+    record Wrong(String attribute, Fault fault) {}
+
+    /**
+     * The faults of one device of a group.
+     *
+     * @param number of the device in its group, from 1
+     * @param attributes names of what it shows; the first is meant where a fault names none
+     */
+    List<Wrong> faults(Members device, long number, long seed, List<String> attributes)
+            throws UnusableScenarioException {
+        List<Wrong> faults = new ArrayList<>();
+        if (!device.has("faults")) {
+            return faults;
+        }
+        for (Members each : device.objects("faults")) {
+            Wrong wrong = wrong(each, Draw.seed(seed, "fault " + faults.size()), attributes);
+            boolean mine = isFor(each, number);
+            each.end();
+            if (mine) {
+                faults.add(wrong);
+            }
+        }
+        return faults;
+    }
+
+    private Wrong wrong(Members json, long seed, List<String> attributes) throws UnusableScenarioException {
+        Instant from = start.plus(json.duration("after", Duration.ZERO));
+        Span during = new Span(from, json.has("for") ? from.plus(json.duration("for")) : null);
+        String kind = json.text("kind");
+        if (kind.equals("silent")) {
+            return new Wrong(null, new Fault.Silent(during));
+        }
+        if (attributes.isEmpty()) {
+            throw json.refused("kind", "'%s' is no fault of this device; it can only be silent".formatted(kind));
+        }
+        String attribute = json.text("attribute", attributes.get(0));
+        if (!attributes.contains(attribute)) {
+            throw json.refused(
+                    "attribute", "'%s' is not shown; shown are %s".formatted(attribute, String.join(", ", attributes)));
+        }
+        Fault fault = switch (kind) {
+            case "stuck" ->
+                new Fault.Stuck(during, json.has("value") ? Double.valueOf(json.number("value", -MOST, MOST)) : null);
+            case "drift" -> new Fault.Drift(during, json.number("perHour", -MOST, MOST));
+            case "spikes" ->
+                new Fault.Spikes(during, json.number("share", 0, 1), json.number("height", -MOST, MOST), seed);
+            default ->
+                throw json.refused(
+                        "kind", "'%s' is no kind of fault; use stuck, drift, spikes or silent".formatted(kind));
+        };
+        return new Wrong(attribute, fault);
+    }
+
+    /** {@code "numbers": [2, 5]} says which devices of the group; all where it is missing. */
+    private static boolean isFor(Members fault, long number) throws UnusableScenarioException {
+        if (!fault.has("numbers")) {
+            return true;
+        }
+        Set<Long> numbers = new HashSet<>();
+        for (JsonNode each : fault.node("numbers")) {
+            numbers.add(each.asLong(0));
+        }
+        if (!fault.node("numbers").isArray() || numbers.contains(0L)) {
+            throw fault.refused("numbers", "must be a list of the devices' numbers, from 1, as in [1, 3]");
+        }
+        return numbers.contains(number);
+    }
+}

@@ -1,0 +1,133 @@
+package io.furrow.simulators.scenario;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import org.locationtech.jts.geom.Coordinate;
+import org.locationtech.jts.geom.Envelope;
+
+import io.furrow.model.ngsi.Position;
+import io.furrow.simulators.robot.Way;
+import io.furrow.simulators.robot.WorkField;
+import io.furrow.simulators.signal.Draw;
+
+/** Reads where a device is: {@code at} a place, along a {@code route}, somewhere in an {@code area}, or in {@code rows} of a field. */
+final class PlaceReader {
+    private static final double MOST_SPEED = 50;
+    private static final int TRIES = 10_000;
+
+    private final Map<String, WorkField> fields;
+
+    /** The same for all robots of a group, and costly where the field has many corners. */
+    private final Map<Plan, Way> ways = new HashMap<>();
+
+    private record Plan(String field, Way.Work work, Way.Pace pace) {}
+
+    PlaceReader(Map<String, WorkField> fields) {
+        this.fields = fields;
+    }
+
+    /** Of a device that is not carried. */
+    SimulatedDevice.Place place(Members device, long seed) throws UnusableScenarioException {
+        once(device, "area", "at", "route", "carriedBy");
+        String where = device.text("where", device.text("area", ""));
+        if (device.has("area")) {
+            Position drawn = somewhereIn(field(device, "area"), seed);
+            return new SimulatedDevice.Place(where, standing(drawn), null);
+        }
+        if (device.has("at")) {
+            return new SimulatedDevice.Place(where, standing(position(device.object("at"))), null);
+        }
+        if (device.has("route")) {
+            return new SimulatedDevice.Place(where, route(device), null);
+        }
+        throw device.refused("area", "is missing; say where it is with one of area, at, route or carriedBy");
+    }
+
+    /** The way of a robot. */
+    Way way(Members device) throws UnusableScenarioException {
+        once(device, "rows", "route");
+        if (!device.has("rows")) {
+            if (!device.has("route")) {
+                throw device.refused("rows", "is missing; a robot needs either rows or a route");
+            }
+            return route(device);
+        }
+        Members rows = device.object("rows");
+        WorkField field = field(rows, "field");
+        Double bearing = rows.has("bearing") ? Double.valueOf(rows.number("bearing", 0, 360)) : null;
+        Way.Work work =
+                new Way.Work(rows.number("spacing", 0.2, 1000, 3), rows.number("margin", 0.2, 1000, 2), bearing);
+        rows.end();
+        Way.Pace pace = pace(device);
+        try {
+            return ways.computeIfAbsent(new Plan(field.id(), work, pace), plan -> Way.through(field, work, pace));
+        } catch (IllegalArgumentException e) {
+            throw device.refused("rows", e);
+        }
+    }
+
+    /** That of several members that say the same thing there is at most one. */
+    static void once(Members device, String... names) throws UnusableScenarioException {
+        String said = null;
+        for (String name : names) {
+            if (device.has(name) && said != null) {
+                throw device.refused(name, "says again where the device is, after %s; leave one out".formatted(said));
+            }
+            said = device.has(name) ? name : said;
+        }
+    }
+
+    private Way route(Members device) throws UnusableScenarioException {
+        List<Position> points = new ArrayList<>();
+        for (Members point : device.objects("route")) {
+            points.add(position(point));
+        }
+        if (points.isEmpty()) {
+            throw device.refused("route", "has no point; give at least one {latitude, longitude}");
+        }
+        return Way.along(points, pace(device));
+    }
+
+    private static Way.Pace pace(Members device) throws UnusableScenarioException {
+        return new Way.Pace(device.number("speed", 0.01, MOST_SPEED, 1), device.number("turnRate", 1, 3600, 90));
+    }
+
+    private static Way standing(Position place) {
+        return Way.along(List.of(place), new Way.Pace(1, 90));
+    }
+
+    private static Position position(Members point) throws UnusableScenarioException {
+        Position position = new Position(point.number("latitude", -90, 90), point.number("longitude", -180, 180));
+        point.end();
+        return position;
+    }
+
+    private WorkField field(Members device, String name) throws UnusableScenarioException {
+        WorkField field = fields.get(device.text(name));
+        if (field == null) {
+            throw device.refused(
+                    name,
+                    "there is no field '%s' in this file; there are: %s"
+                            .formatted(device.text(name), String.join(", ", fields.keySet())));
+        }
+        return field;
+    }
+
+    /** Drawn evenly from the field's area. */
+    private static Position somewhereIn(WorkField field, long seed) {
+        Envelope extent = field.area().getEnvelopeInternal();
+        for (int number = 0; number < TRIES; number++) {
+            var draw = Draw.of(seed, number);
+            Coordinate place = new Coordinate(
+                    extent.getMinX() + draw.nextDouble() * extent.getWidth(),
+                    extent.getMinY() + draw.nextDouble() * extent.getHeight());
+            if (field.covers(place)) {
+                return field.plane().toPosition(place);
+            }
+        }
+        return field.plane().toPosition(field.area().getInteriorPoint().getCoordinate());
+    }
+}

@@ -1,0 +1,48 @@
+package io.furrow.simulators.signal;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.time.ZoneOffset;
+import java.util.OptionalDouble;
+
+/** The forms that what sensors measure is put together from. */
+public final class Curves {
+    private static final int WARMEST_HOUR = 15;
+
+    private Curves() {}
+
+    /** A cosine over each day: {@code mean + swing} at 15:00 UTC, {@code mean - swing} at 03:00 UTC. */
+    public static Signal diurnal(double mean, double swing) {
+        return time -> OptionalDouble.of(mean + swing * Math.cos(2 * Math.PI * (hour(time) - WARMEST_HOUR) / 24));
+    }
+
+    /** Noise of normal distribution and mean 0, another from one millisecond to the next. */
+    public static Signal noise(double deviation, long seed) {
+        return time ->
+                OptionalDouble.of(deviation * Draw.of(seed, time.toEpochMilli()).nextGaussian());
+    }
+
+    /** One value for ever, drawn evenly from {@code -width} to {@code width}: what an instrument is off by. */
+    public static Signal offset(double width, long seed) {
+        double value = width * (2 * Draw.of(seed, 0).nextDouble() - 1);
+        return time -> OptionalDouble.of(value);
+    }
+
+    /** Wanders smoothly between {@code -width} and {@code width}: drawn anew each {@code pace}, a cosine in between. */
+    public static Signal wandering(double width, Duration pace, long seed) {
+        long step = pace.toMillis();
+        return time -> {
+            long number = Math.floorDiv(time.toEpochMilli(), step);
+            double share = Math.floorMod(time.toEpochMilli(), step) / (double) step;
+            double before = 2 * Draw.of(seed, number).nextDouble() - 1;
+            double after = 2 * Draw.of(seed, number + 1).nextDouble() - 1;
+            double weight = (1 - Math.cos(Math.PI * share)) / 2;
+            return OptionalDouble.of(width * (before + weight * (after - before)));
+        };
+    }
+
+    /** Hours since midnight UTC. */
+    static double hour(Instant time) {
+        return time.atOffset(ZoneOffset.UTC).toLocalTime().toNanoOfDay() / 3.6e12;
+    }
+}

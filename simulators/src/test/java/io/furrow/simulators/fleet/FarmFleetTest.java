@@ -1,0 +1,237 @@
+package io.furrow.simulators.fleet;
+
+import java.io.ByteArrayInputStream;
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Clock;
+import java.time.Instant;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.PositionReading;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.fiware.FiwareSettings;
+import io.furrow.simulators.fiware.FiwareStandIn;
+import io.furrow.simulators.scenario.Farm;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+class FarmFleetTest {
+    private static final String FARM = """
+            {"seed": 1, "apiKey": "k", "missions": [
+              {"domain": "farm", "mission": "weeding", "devices": [
+                {"type": "Thermometer", "id": "t", "count": 3, "at": {"latitude": 40.31, "longitude": -3.48}, "period": "PT0.05S"},
+                {"type": "Robot", "id": "r", "period": "PT0.05S", "speed": 2,
+                 "route": [{"latitude": 40.31, "longitude": -3.48}, {"latitude": 40.32, "longitude": -3.48}]},
+                {"type": "Camera", "id": "c", "carriedBy": "r", "period": "PT0.1S"}]},
+              {"domain": "farm", "mission": "scouting", "devices": [
+                {"type": "WeatherStation", "id": "w", "at": {"latitude": 40.3, "longitude": -3.4}, "period": "PT0.05S"}]}]}
+            """;
+
+    private static EmbeddedMqtt mqtt;
+    private static FiwareStandIn fiware;
+    private FarmFleet fleet;
+    private Listener listener;
+
+    @BeforeAll
+    static void startEnds() throws Exception {
+        mqtt = EmbeddedMqtt.start(Map.of("farmer", "plough"));
+        fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
+    }
+
+    @AfterAll
+    static void stopEnds() {
+        fiware.close();
+        mqtt.close();
+    }
+
+    @AfterEach
+    void closeAll() {
+        if (fleet != null) {
+            fleet.close();
+        }
+        if (listener != null) {
+            listener.close();
+        }
+    }
+
+    @Test
+    void bringsEveryDeviceIntoTheContextBroker() throws Exception {
+        fleet = FarmFleet.start(farm(), access("plough"));
+
+        await().untilAsserted(() -> {
+            for (String id : List.of("Thermometer:t-1", "Thermometer:t-3", "Camera:c", "WeatherStation:w", "Robot:r")) {
+                Entity entity = entity(id);
+                assertThat(entity.text("Domain")).contains("farm");
+                assertThat(entity.text("Mission")).isPresent();
+                assertThat(PositionReading.of(entity).usable()).isPresent();
+                assertThat(entity.number("Time")).isPresent();
+            }
+            assertThat(entity("WeatherStation:w").number("SolarRadiation")).isPresent();
+            assertThat(entity("Camera:c").text("Image")).isPresent();
+        });
+        assertThat(fleet.connections()).isEqualTo(5);
+        assertThat(fleet.reports()).isPositive();
+        await().until(() -> fleet.tally().acknowledged() > 10);
+    }
+
+    @Test
+    void putsManyDevicesOfAMissionOnOneConnectionWithTheirOwnTopics() throws Exception {
+        listener = new Listener(settings("plough"));
+        fleet = FarmFleet.start(farm(), access("plough"), 4, Clock.systemUTC());
+
+        await().untilAsserted(() -> {
+            for (String device : List.of("t-1", "t-2", "t-3", "c", "w")) {
+                assertThat(listener.heard("/k/" + device + "/attrs")).isNotEmpty();
+            }
+        });
+        assertThat(fleet.connections()).isEqualTo(2);
+        listener.say("/k/t-2/cmd", "{\"off\":\"\"}");
+        await().untilAsserted(() ->
+                assertThat(listener.heard("/k/t-2/cmdexe")).singleElement().hasToString("{\"off\":\"ok\"}"));
+        assertThat(listener.heard("/k/t-1/cmdexe")).isEmpty();
+    }
+
+    @Test
+    void switchesADeviceOffAndOn() throws Exception {
+        listener = new Listener(settings("plough"));
+        fleet = FarmFleet.start(farm(), access("plough"), 500, Clock.systemUTC());
+        await().until(() -> !listener.heard("/k/t-1/attrs").isEmpty());
+
+        listener.say("/k/t-1/cmd", "{\"off\":\"\"}");
+        await().until(() -> !lastStatus());
+        int heard = listener.heard("/k/t-1/attrs").size();
+        long reports = fleet.reports();
+        await().until(() -> fleet.reports() > reports + 30);
+        assertThat(listener.heard("/k/t-1/attrs")).hasSize(heard);
+
+        listener.say("/k/t-1/cmd", "{\"on\":\"\"}");
+        await().until(this::lastStatus);
+    }
+
+    @Test
+    void answersACommandThatNobodyKnows() throws Exception {
+        listener = new Listener(settings("plough"));
+        fleet = FarmFleet.start(farm(), access("plough"), 500, Clock.systemUTC());
+
+        listener.say("/k/t-1/cmd", "off!");
+        listener.say("/k/t-1/cmd", "{\"dance\":\"\"}");
+
+        await().until(() -> !listener.heard("/k/t-1/cmdexe").isEmpty());
+        assertThat(listener.heard("/k/t-1/cmdexe")).singleElement().hasToString("{\"dance\":\"unknown command\"}");
+    }
+
+    @Test
+    void stopsARobotByItsAttributeAndSaysWhatBecameOfIt() throws Exception {
+        fleet = FarmFleet.start(farm(), access("plough"));
+        await().untilAsserted(() -> assertThat(entity("Robot:r").value("cmd")).contains(TextNode.valueOf("")));
+
+        command("Stop");
+        await().untilAsserted(() -> {
+            assertThat(entity("Robot:r").text("state").orElse("")).contains("Stopped");
+            assertThat(entity("Robot:r").text("cmd_status")).contains("OK");
+            assertThat(entity("Robot:r").text("cmd_info")).contains("Stop");
+        });
+        Object stopped = PositionReading.of(entity("Robot:r"));
+        long reports = fleet.reports();
+        await().until(() -> fleet.reports() > reports + 30);
+        assertThat(PositionReading.of(entity("Robot:r"))).isEqualTo(stopped);
+
+        command("Dance");
+        await().untilAsserted(() -> {
+            assertThat(entity("Robot:r").text("cmd_status")).contains("ERROR");
+            assertThat(entity("Robot:r").text("cmd_info")).contains("no such command: use Running, Stop or Resume");
+        });
+        command("Resume");
+        await().untilAsserted(() ->
+                assertThat(entity("Robot:r").text("state").orElse("")).contains("Running"));
+    }
+
+    @Test
+    void runsNoCommandOfBeforeItsStart() throws Exception {
+        fleet = FarmFleet.start(farm(), access("plough"));
+        await().untilAsserted(() -> assertThat(entity("Robot:r").value("cmd")).contains(TextNode.valueOf("")));
+        fleet.close();
+        command("Stop");
+
+        fleet = FarmFleet.start(farm(), access("plough"));
+
+        await().untilAsserted(() -> assertThat(entity("Robot:r").value("cmd")).contains(TextNode.valueOf("")));
+        long reports = fleet.reports();
+        await().until(() -> fleet.reports() > reports + 150);
+        assertThat(entity("Robot:r").text("state").orElse("")).contains("Running");
+    }
+
+    @Test
+    void isRefusedWithAWrongPasswordAndLeavesNothingBehind() {
+        assertThatThrownBy(() -> FarmFleet.start(farm(), access("harrow"), 500, Clock.systemUTC()))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("refuses user 'farmer'")
+                .hasMessageContaining(mqtt.uri().toString())
+                .hasMessageNotContaining("harrow");
+        assertThat(access("harrow").toString()).doesNotContain("harrow");
+    }
+
+    private boolean lastStatus() {
+        List<JsonNode> heard = listener.heard("/k/t-1/attrs");
+        return heard.get(heard.size() - 1).path("stat").booleanValue();
+    }
+
+    private static Farm farm() throws IOException {
+        return Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), Instant.now());
+    }
+
+    private static FleetAccess access(String password) {
+        return FleetAccess.of(settings(password));
+    }
+
+    private static FleetSettings settings(String password) {
+        return new FleetSettings(
+                fiware.contextBroker(), fiware.iotAgent(), mqtt.uri(), "farmer", password, "farm", "/");
+    }
+
+    private static Entity entity(String id) throws Exception {
+        HttpResponse<byte[]> answer =
+                send(request("/v2/entities/urn:ngsi-ld:" + id).build());
+        assertThat(answer.statusCode()).as(id).isEqualTo(200);
+        return Entity.of(NgsiJson.read(answer.body()));
+    }
+
+    private static void command(String word) throws Exception {
+        HttpResponse<byte[]> answer = send(request("/v2/entities/urn:ngsi-ld:Robot:r/attrs")
+                .header("Content-Type", "application/json")
+                .method(
+                        "PATCH",
+                        HttpRequest.BodyPublishers.ofString(
+                                "{\"cmd\": {\"type\": \"String\", \"value\": \"%s\"}}".formatted(word)))
+                .build());
+        assertThat(answer.statusCode()).isEqualTo(204);
+    }
+
+    private static HttpRequest.Builder request(String path) {
+        return HttpRequest.newBuilder(URI.create(fiware.contextBroker() + path))
+                .header("fiware-service", "farm")
+                .header("fiware-servicepath", "/");
+    }
+
+    private static HttpResponse<byte[]> send(HttpRequest request) throws Exception {
+        return HttpClient.newHttpClient().send(request, HttpResponse.BodyHandlers.ofByteArray());
+    }
+}

@@ -1,0 +1,66 @@
+package io.furrow.simulators.fleet;
+
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+
+import org.eclipse.paho.client.mqttv3.IMqttDeliveryToken;
+import org.eclipse.paho.client.mqttv3.MqttAsyncClient;
+import org.eclipse.paho.client.mqttv3.MqttCallback;
+import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
+import org.eclipse.paho.client.mqttv3.MqttException;
+import org.eclipse.paho.client.mqttv3.MqttMessage;
+import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.simulators.mqtt.MqttAccess;
+
+/** Hears all measures, each told by topic and time; its session outlives the broker's restarts, so that it misses none. */
+record Subscriber(MqttAsyncClient client, Set<String> heard) implements AutoCloseable {
+    static Subscriber to(Mosquitto broker, String name) throws Exception {
+        MqttAsyncClient client = new MqttAsyncClient(broker.uri().toString(), name, new MemoryPersistence());
+        Set<String> measures = ConcurrentHashMap.newKeySet();
+        client.setCallback(new MqttCallback() {
+            @Override
+            public void messageArrived(String topic, MqttMessage message) throws UnreadableException {
+                measures.add(topic + " " + NgsiJson.read(message.getPayload()).path("time"));
+            }
+
+            @Override
+            public void connectionLost(Throwable cause) {
+                // It comes back when it is asked what it heard.
+            }
+
+            @Override
+            public void deliveryComplete(IMqttDeliveryToken token) {
+                // It sends nothing.
+            }
+        });
+        MqttConnectOptions options = new MqttConnectOptions();
+        options.setUserName("farmer");
+        options.setPassword("plough".toCharArray());
+        options.setCleanSession(false);
+        options.setSocketFactory(new MqttAccess(broker.uri(), broker.certificate(), 1).encryptedSockets());
+        client.connect(options).waitForCompletion();
+        client.subscribe("/+/+/attrs", 1).waitForCompletion();
+        return new Subscriber(client, measures);
+    }
+
+    /** What it has heard; where its connection is broken, it begins to open it again. */
+    Set<String> measures() {
+        if (!client.isConnected()) {
+            try {
+                client.reconnect();
+            } catch (MqttException e) {
+                // It is being opened already.
+            }
+        }
+        return heard;
+    }
+
+    @Override
+    public void close() throws MqttException {
+        client.disconnectForcibly(0, 100);
+        client.close(true);
+    }
+}
