@@ -17,6 +17,7 @@ public final class Topics {
 
     public static final String MISSION_MANAGER = "service.missionmanager";
     public static final String REPLAY_MANAGER = "service.replaymanager";
+    public static final String ALARM_MANAGER = "service.alarmmanager";
 
     /** What domains, missions, templates and replays there shall be; compacted, written by the managers only. */
     public static final String DOMAINS = "service.domains";
@@ -29,6 +30,8 @@ public final class Topics {
     public static final String MISSIONS_STATUS = "service.missions.status";
     /** What each device is, told by whoever hosts it; compacted. */
     public static final String DEVICES_STATUS = "service.devices.status";
+    /** When each device was last heard of, its battery, whether it is silent; compacted. */
+    public static final String DEVICES_HEALTH = "service.devices.health";
     /** What each replay is, told by whoever plays it back; compacted. */
     public static final String REPLAYS_STATUS = "service.replays.status";
 
@@ -36,6 +39,14 @@ public final class Topics {
     public static final String DEVICES = "service.devices";
     /** The fields of the farm, version by version, see {@code FieldVersion}; compacted. */
     public static final String FIELDS = "service.fields";
+
+    /** What somebody ought to look at, and whether somebody did; compacted. */
+    public static final String ALARMS = "service.alarms";
+    /** Every command: who, what, when, with which result. */
+    public static final String AUDIT = "service.audit";
+
+    /** Entities that shall exist in the context broker: domains, missions. */
+    public static final String CONTEXT = "data.context";
 
     public static final String TEMPERATURE = "data.temperature";
     public static final String TEMPERATURE_LATE = "data.temperature.late";
