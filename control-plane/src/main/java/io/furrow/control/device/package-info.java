@@ -1,0 +1,2 @@
+/** Commands to devices, through the context broker. */
+package io.furrow.control.device;
