@@ -7,6 +7,8 @@ import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.JobCounters;
 
@@ -17,6 +19,8 @@ import static org.assertj.core.api.Assertions.assertThat;
  * sets {@code furrow.collision.cases}, and {@code furrow.collision.seed} to see a failure again.
  */
 class CollisionDetectionTest {
+    private static final Logger LOG = LoggerFactory.getLogger(CollisionDetectionTest.class);
+
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
             .setConfiguration(JobCounters.kept())
@@ -32,7 +36,7 @@ class CollisionDetectionTest {
     @Test
     void agreesWithTheDefinitionAtAnyParallelism() throws Exception {
         long seed = Long.getLong("furrow.collision.seed", System.nanoTime());
-        System.out.println(CASES + " cases of collisions on a cluster from seed " + seed);
+        LOG.info("{} cases of collisions on a cluster from seed {}", CASES, seed);
         int records = 0;
         int overflows = 0;
         for (int job = 0; job * CASES_PER_JOB < CASES; job++) {
@@ -40,7 +44,7 @@ class CollisionDetectionTest {
             records += expected.encounters().size();
             overflows += expected.overflows().size();
         }
-        System.out.println(records + " records of encounters, " + overflows + " of crowded cells, no difference");
+        LOG.info("{} records of encounters, {} of crowded cells, no difference", records, overflows);
         assertThat(records).as("something was compared").isGreaterThan(CASES);
         assertThat(overflows).as("something was left out").isGreaterThanOrEqualTo(CASES / 1000 * 10);
     }

@@ -4,16 +4,19 @@ import java.util.List;
 import java.util.Random;
 
 import org.junit.jupiter.api.Test;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class CollisionSimulationTest {
+    private static final Logger LOG = LoggerFactory.getLogger(CollisionSimulationTest.class);
     private static final int CASES = 1000;
 
     @Test
     void agreesWithTheDefinitionInRandomWorlds() {
         long seed = System.nanoTime();
-        System.out.println("collision worlds from seed " + seed);
+        LOG.info("collision worlds from seed {}", seed);
         int transitions = 0;
         for (int i = 0; i < CASES; i++) {
             CollisionRules rules = rules(i, 2 + i % 30);
@@ -31,7 +34,7 @@ class CollisionSimulationTest {
     @Test
     void agreesWithTheDefinitionUnderAnyRules() {
         long seed = System.nanoTime();
-        System.out.println("collision worlds under any rules from seed " + seed);
+        LOG.info("collision worlds under any rules from seed {}", seed);
         int transitions = 0;
         int overflows = 0;
         for (int i = 0; i < CASES; i++) {

@@ -9,10 +9,14 @@ import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class EagerDetectionTest {
+    private static final Logger LOG = LoggerFactory.getLogger(EagerDetectionTest.class);
+
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
             .setNumberSlotsPerTaskManager(4)
@@ -26,7 +30,7 @@ class EagerDetectionTest {
     @Test
     void confirmsOrWithdrawsOnceWhatItTellsAtOnceAndChangesNothingExact() throws Exception {
         long seed = Long.getLong("furrow.collision.seed", System.nanoTime());
-        System.out.println("eager collisions from seed " + seed);
+        LOG.info("eager collisions from seed {}", seed);
         int confirmed = 0;
         int withdrawn = 0;
         for (int job = 0; job < JOBS; job++) {
@@ -74,7 +78,7 @@ class EagerDetectionTest {
             resolved.addAll(taken);
             assertThat(resolved).as(which).containsExactlyInAnyOrderElementsOf(provisional);
         }
-        System.out.println(confirmed + " confirmed, " + withdrawn + " withdrawn");
+        LOG.info("{} confirmed, {} withdrawn", confirmed, withdrawn);
         assertThat(confirmed).isGreaterThan(6 * CASES_PER_JOB);
         assertThat(withdrawn).isGreaterThan(JOBS);
     }

@@ -37,6 +37,8 @@ import org.awaitility.Awaitility;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.eventtime.Timed;
 
@@ -44,6 +46,8 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The stages killed in the middle of encounters and continued from a savepoint at another parallelism. */
 class RescaledDetectionTest {
+    private static final Logger LOG = LoggerFactory.getLogger(RescaledDetectionTest.class);
+
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
             .setNumberSlotsPerTaskManager(4)
@@ -67,7 +71,7 @@ class RescaledDetectionTest {
     @Test
     void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster) throws Exception {
         long seed = System.nanoTime();
-        System.out.println("rescaled run from seed " + seed);
+        LOG.info("rescaled run from seed {}", seed);
         CollisionRules rules = Worlds.rules(5, 10, false).with(new Steadiness(1.5, DWELL));
         List<PositionFix> fixes = worlds(rules.thresholdMeters(), seed);
         arrivals = new Worlds(seed).shuffled(fixes, DetectionRun.BOUND);

@@ -6,16 +6,19 @@ import java.util.List;
 import java.util.Random;
 
 import org.junit.jupiter.api.Test;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RestartedStagesTest {
+    private static final Logger LOG = LoggerFactory.getLogger(RestartedStagesTest.class);
     private static final long BOUND = 1500;
 
     @Test
     void tellTheSameAsTheDefinitionHoweverOftenTheyRestart() throws Exception {
         long seed = System.nanoTime();
-        System.out.println("restarted stages from seed " + seed);
+        LOG.info("restarted stages from seed {}", seed);
         Random random = new Random(seed);
         int compared = 0;
         for (int i = 0; i < 40; i++) {

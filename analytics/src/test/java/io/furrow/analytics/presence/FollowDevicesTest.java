@@ -6,6 +6,8 @@ import java.util.List;
 import java.util.Random;
 
 import org.junit.jupiter.api.Test;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.presence.Plot.Box;
 import io.furrow.flink.TopicRecord;
@@ -13,6 +15,7 @@ import io.furrow.flink.TopicRecord;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class FollowDevicesTest {
+    private static final Logger LOG = LoggerFactory.getLogger(FollowDevicesTest.class);
     private static final PresenceRules AT_ONCE = new PresenceRules(Duration.ofSeconds(60), Duration.ZERO);
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
@@ -21,7 +24,7 @@ class FollowDevicesTest {
     void tellsTheSameAsTheDefinitionHoweverOftenItRestarts() throws Exception {
         long seed = Long.getLong("presence.seed", System.nanoTime());
         int cases = Integer.getInteger("presence.cases", 300);
-        System.out.println(cases + " stories of presence from seed " + seed);
+        LOG.info("{} stories of presence from seed {}", cases, seed);
         int compared = 0;
         for (int index = 0; index < cases; index++) {
             Story story = new Story(seed + index);

@@ -22,6 +22,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.TestEnvironment;
@@ -39,6 +41,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
 
 class PresenceJobTest {
+    private static final Logger LOG = LoggerFactory.getLogger(PresenceJobTest.class);
+
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
             .setNumberTaskManagers(1)
@@ -54,7 +58,7 @@ class PresenceJobTest {
     @ValueSource(ints = {1, 2, 4})
     void tellsTheSameAsTheDefinition(int parallelism) throws Exception {
         long seed = Long.getLong("presence.seed", System.nanoTime());
-        System.out.println("stories of presence as a job from seed " + seed);
+        LOG.info("stories of presence as a job from seed {}", seed);
         for (int index = 0; index < 5; index++) {
             Story story = new Story(seed + index);
             PresenceOptions options = options(

@@ -1,6 +1,7 @@
 package io.furrow.bench.journal;
 
 import java.io.IOException;
+import java.io.PrintStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -20,6 +21,7 @@ import java.util.stream.Stream;
  */
 public final class JournalComparison {
     private static final int RECORD = 1000;
+    private static final PrintStream OUT = System.out;
     private static final List<Integer> APPENDERS = List.of(1, 16, 64, 256);
 
     /** A journal whose append returns when the record is on the disk. */
@@ -40,8 +42,8 @@ public final class JournalComparison {
     public static void main(String... args) throws Exception {
         Path folder = Files.createDirectories(Path.of(args[0]));
         Duration each = Duration.ofSeconds(Long.parseLong(args[1]));
-        System.out.println("| journal | appenders | records/s | p50 ms | p99 ms |");
-        System.out.println("|---|---|---|---|---|");
+        OUT.println("| journal | appenders | records/s | p50 ms | p99 ms |");
+        OUT.println("|---|---|---|---|---|");
         for (int appenders : APPENDERS) {
             measure("own segment log", OwnJournal::new, folder, appenders, each);
             measure("Artemis journal, NIO", ArtemisJournal::new, folder, appenders, each);
@@ -56,7 +58,7 @@ public final class JournalComparison {
         try (Candidate journal = opening.open(folder)) {
             run(journal, appenders, each.dividedBy(2));
             long[] nanos = run(journal, appenders, each);
-            System.out.printf(
+            OUT.printf(
                     "| %s | %d | %,d | %.2f | %.2f |%n",
                     name,
                     appenders,

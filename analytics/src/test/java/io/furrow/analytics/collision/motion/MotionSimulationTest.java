@@ -6,6 +6,8 @@ import java.util.List;
 import java.util.Random;
 
 import org.junit.jupiter.api.Test;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.collision.Phase;
 import io.furrow.analytics.collision.PositionFix;
@@ -14,12 +16,13 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;
 
 class MotionSimulationTest {
+    private static final Logger LOG = LoggerFactory.getLogger(MotionSimulationTest.class);
     private static final int CASES = 600;
 
     @Test
     void agreesWithTheDefinitionInRandomWorlds() {
         long seed = System.nanoTime();
-        System.out.println("motion worlds from seed " + seed);
+        LOG.info("motion worlds from seed {}", seed);
         int predicted = 0;
         int crossed = 0;
         for (int i = 0; i < CASES; i++) {
