@@ -1,9 +1,6 @@
 package io.furrow.launcher;
 
-import java.io.IOException;
 import java.io.PrintWriter;
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
@@ -11,7 +8,6 @@ import java.util.List;
 import java.util.Properties;
 import java.util.concurrent.Callable;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -31,7 +27,6 @@ import io.furrow.bench.analytics.TopicMeasurement;
 import io.furrow.bench.ingest.IngestMeasurement.Cluster;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow bench analytics}. */
 @Command(
@@ -123,7 +118,7 @@ final class AnalyticsBench implements Callable<Integer> {
             description = "Show this text.")
     private boolean help;
 
-    private final ObjectNode json = JsonNodeFactory.instance.objectNode();
+    private AnalyticsFigures report;
 
     @Override
     public Integer call() throws Exception {
@@ -133,9 +128,7 @@ final class AnalyticsBench implements Callable<Integer> {
                         + " the collector: for what one alone does, run under taskset -c 0.%n",
                 Runtime.getRuntime().availableProcessors());
         boolean good = true;
-        if (plots != null) {
-            Files.createDirectories(plots);
-        }
+        report = AnalyticsFigures.to(out, plots);
         try (RunDirectory directory = RunDirectory.open(null)) {
             LogFile.writeTo(directory.resolve("furrow.log"));
             for (Part part : Part.values()) {
@@ -145,7 +138,7 @@ final class AnalyticsBench implements Callable<Integer> {
             }
         }
         if (output != null) {
-            Files.write(output, NgsiJson.write(json));
+            report.write(output);
         }
         return good ? 0 : 1;
     }
@@ -165,17 +158,17 @@ final class AnalyticsBench implements Callable<Integer> {
         List<CollisionRun> runs = new ArrayList<>();
         for (int parallelism : cores) {
             for (int each : devices) {
-                tell("from memory: " + each + " devices on " + parallelism);
+                report.tell("from memory: " + each + " devices on " + parallelism);
                 runs.add(measurement.run(
                         new CollisionPlan(each, parallelism, Duration.ofSeconds(warmUp), Duration.ofSeconds(seconds))));
             }
         }
-        CollisionReport report = new CollisionReport(runs);
-        Figures figures = report.figures();
-        add("memory", figures);
-        draw("memory-devices", figures.svg("devices", List.of("updates/s", "bare loop"), "cores"));
-        draw("memory-cores", figures.svg("cores", List.of("updates/s"), "devices"));
-        return report.agrees();
+        CollisionReport compared = new CollisionReport(runs);
+        Figures figures = compared.figures();
+        report.add("memory", figures);
+        report.draw("memory-devices", figures.svg("devices", List.of("updates/s", "bare loop"), "cores"));
+        report.draw("memory-cores", figures.svg("cores", List.of("updates/s"), "devices"));
+        return compared.agrees();
     }
 
     private boolean kafka(TopicMeasurement measurement) throws Exception {
@@ -183,13 +176,13 @@ final class AnalyticsBench implements Callable<Integer> {
                 new Figures("Collisions from NGSI entities in a topic: reading, three stages, topic of results");
         for (int parallelism : cores) {
             for (int each : devices) {
-                tell("from Kafka: " + each + " devices on " + parallelism);
+                report.tell("from Kafka: " + each + " devices on " + parallelism);
                 measurement.updates(each, parallelism, load.records, figures);
             }
         }
-        add("kafka", figures);
-        draw("kafka-devices", figures.svg("devices", List.of("updates/s", "bare loop"), "cores"));
-        draw("kafka-cores", figures.svg("cores", List.of("updates/s"), "devices"));
+        report.add("kafka", figures);
+        report.draw("kafka-devices", figures.svg("devices", List.of("updates/s", "bare loop"), "cores"));
+        report.draw("kafka-cores", figures.svg("cores", List.of("updates/s"), "devices"));
         return true;
     }
 
@@ -197,9 +190,9 @@ final class AnalyticsBench implements Callable<Integer> {
         Figures figures =
                 new Figures("Devices that report once a second, and the lag of the job's consumer in records");
         boolean good = true;
-        ObjectNode lags = json.putObject("heldLags");
+        ObjectNode lags = report.object("heldLags");
         for (double side : load.heldSides) {
-            tell("%,d devices at 1 Hz on %,.0f m".formatted(load.heldDevices, side));
+            report.tell("%,d devices at 1 Hz on %,.0f m".formatted(load.heldDevices, side));
             HeldRate held = measurement.held(new TopicMeasurement.Held(
                     load.heldDevices,
                     side,
@@ -210,10 +203,10 @@ final class AnalyticsBench implements Callable<Integer> {
             held.addTo(figures);
             String name = "held-%.0f".formatted(side);
             lags.putPOJO(name, held.lags());
-            draw(name, held.svg());
+            report.draw(name, held.svg());
             good &= held.isHeld();
         }
-        add("held", figures);
+        report.add("held", figures);
         return good;
     }
 
@@ -223,7 +216,7 @@ final class AnalyticsBench implements Callable<Integer> {
         for (int parallelism : cores) {
             for (int timeout : load.bufferTimeouts) {
                 for (int interval : load.watermarkIntervals) {
-                    tell("alarms on %d, buffers wait %d ms, watermarks %d ms"
+                    report.tell("alarms on %d, buffers wait %d ms, watermarks %d ms"
                             .formatted(parallelism, timeout, interval));
                     EagerMeasurement.run(
                             new EagerMeasurement.Plan(
@@ -236,7 +229,7 @@ final class AnalyticsBench implements Callable<Integer> {
                 }
             }
         }
-        add("eager", figures);
+        report.add("eager", figures);
         return true;
     }
 
@@ -250,15 +243,15 @@ final class AnalyticsBench implements Callable<Integer> {
                 "p99 ms", delays.getValueAtPercentile(99),
                 "max ms", delays.getMaxValue(),
                 "alarms", delays.getTotalCount());
-        add("eagerFromKafka", figures);
+        report.add("eagerFromKafka", figures);
         return true;
     }
 
     private boolean fields() throws Exception {
         Figures figures = new Figures("Joins with fields, from memory: " + load.fields + " fields of 50 vertices");
-        new FieldMeasurement(load.fields, 50, load.points, this::tell).run(cores, figures);
-        add("fields", figures);
-        draw("fields-cores", figures.svg("cores", List.of("points/s", "bare loop"), "join of"));
+        new FieldMeasurement(load.fields, 50, load.points, report::tell).run(cores, figures);
+        report.add("fields", figures);
+        report.draw("fields-cores", figures.svg("cores", List.of("points/s", "bare loop"), "join of"));
         return true;
     }
 
@@ -275,28 +268,11 @@ final class AnalyticsBench implements Callable<Integer> {
             return part.measure(new TopicMeasurement(
                     new Cluster(
                             client, (name, job) -> IngestBench.start(flink, name, job), data.resolve("checkpoints")),
-                    this::tell));
+                    report::tell));
         }
     }
 
     private static int most(List<Integer> numbers) {
         return numbers.stream().mapToInt(Integer::intValue).max().orElse(1);
-    }
-
-    private void tell(String line) {
-        PrintWriter out = spec.commandLine().getOut();
-        out.println("  " + line);
-        out.flush();
-    }
-
-    private void add(String name, Figures figures) {
-        figures.print(spec.commandLine().getOut());
-        json.set(name, figures.json());
-    }
-
-    private void draw(String name, String svg) throws IOException {
-        if (plots != null) {
-            Files.writeString(plots.resolve(name + ".svg"), svg, StandardCharsets.UTF_8);
-        }
     }
 }
