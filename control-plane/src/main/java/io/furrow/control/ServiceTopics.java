@@ -26,12 +26,12 @@ import io.furrow.model.topic.Topics;
  * The topics that the control plane reads and writes. Requests are kept for the broker's retention and stamped by the broker; what
  * is wanted and what is are compacted, one partition each, so that nothing overtakes.
  */
-final class ServiceTopics {
+public final class ServiceTopics {
     private static final long PATIENCE_SECONDS = 30;
     private static final String POLICY = "cleanup.policy";
 
     private static final List<String> REQUESTS =
-            List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER);
+            List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
     private static final List<String> COMPACTED = List.of(
             Topics.DOMAINS,
             Topics.MISSIONS,
@@ -40,7 +40,12 @@ final class ServiceTopics {
             Topics.REPLAYS,
             Topics.MISSIONS_STATUS,
             Topics.DEVICES_STATUS,
-            Topics.REPLAYS_STATUS);
+            Topics.DEVICES_HEALTH,
+            Topics.REPLAYS_STATUS,
+            Topics.ALARMS);
+    /** A year; whoever wants another time alters the topic, which then stays so. */
+    private static final Map<String, String> KEPT_LONG =
+            Map.of(POLICY, "delete", "retention.ms", Long.toString(TimeUnit.DAYS.toMillis(365)));
 
     private ServiceTopics() {}
 
@@ -50,11 +55,12 @@ final class ServiceTopics {
      *
      * @throws IOException if Kafka does not answer or refuses
      */
-    static void prepare(ControlSettings settings) throws IOException {
+    public static void prepare(ControlSettings settings) throws IOException {
         try (Admin admin = Admin.create(settings.client())) {
             List<NewTopic> wanted = new ArrayList<>();
             REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
             COMPACTED.forEach(name -> wanted.add(topic(name, settings, Map.of(POLICY, "compact"))));
+            wanted.add(topic(Topics.AUDIT, settings, KEPT_LONG));
             for (KafkaFuture<Void> made : admin.createTopics(wanted).values().values()) {
                 await(made, true);
             }

@@ -9,11 +9,13 @@ import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
 
+import io.furrow.control.audit.AuditEntry;
 import io.furrow.model.control.Command;
 import io.furrow.model.control.Received;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.Requests;
 import io.furrow.model.control.Response;
+import io.furrow.model.topic.Topics;
 
 /**
  * Gives every request one effect and one answer. The time is that of the control plane's clock, because commands are about now,
@@ -21,7 +23,7 @@ import io.furrow.model.control.Response;
  *
  * <p><b>State</b>: {@link AnsweredRequests}, and what the desk remembers. <b>Twice</b>: a request whose id was answered is passed
  * over. <b>Emits</b>: what the desk writes, then the answer on the request's topic, its key the request's id, else the
- * request's key; all in one transaction.
+ * request's key, and an entry on {@code service.audit}; all in one transaction.
  *
  * @param <C> commands of the manager
  */
@@ -81,10 +83,13 @@ public final class AnswerRequests<C extends Command> extends ContextualProcessor
         if (answered.has(requestId, now)) {
             return;
         }
-        byte[] response = answer.get().to(requestId).toBytes();
+        Response given = answer.get().to(requestId);
+        byte[] response = given.toBytes();
         answered.add(requestId, response, now);
         String ownKey = record.key() == null || record.key().isEmpty() ? null : record.key();
         outbox(context()).put(manager.topic(), requestId == null ? ownKey : requestId, response);
+        AuditEntry entry = AuditEntry.of(manager.topic(), record.value(), given, now);
+        outbox(context()).put(Topics.AUDIT, requestId == null ? ownKey : requestId, entry.toBytes());
     }
 
     private Response answer(C command, long now) {

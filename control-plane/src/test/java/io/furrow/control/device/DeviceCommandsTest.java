@@ -1,0 +1,96 @@
+package io.furrow.control.device;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.event.FiwareScope;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class DeviceCommandsTest {
+    private final List<String> heard = new ArrayList<>();
+    private HttpServer broker;
+    private int status = 204;
+    private String answer = "";
+
+    @BeforeEach
+    void start() throws IOException {
+        broker = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        broker.createContext("/", this::hear);
+        broker.start();
+    }
+
+    @AfterEach
+    void stop() {
+        broker.stop(0);
+    }
+
+    @Test
+    void updatesTheAttributeOfTheCommand() throws Exception {
+        commands().send("urn:ngsi-ld:Thermometer:m-1", "Thermometer", "restart", "now");
+
+        assertThat(heard)
+                .containsExactly(
+                        "PATCH /v2/entities/urn%3Angsi-ld%3AThermometer%3Am-1/attrs?type=Thermometer farm /north"
+                                + " {\"restart\":{\"type\":\"command\",\"value\":\"now\"}}");
+    }
+
+    @Test
+    void tellsARobotByItsAttributeCmd() throws Exception {
+        commands().send("urn:ngsi-ld:Robot:m-1", "Robot", "Stop", "");
+
+        assertThat(heard.get(0)).endsWith(" {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}}");
+    }
+
+    @Test
+    void saysWhatTheContextBrokerRefused() {
+        status = 404;
+        answer = "{\"error\":\"NotFound\",\"description\":\"The requested entity has not been found\"}";
+
+        assertThatThrownBy(() -> commands().send("urn:x", "Thermometer", "on", ""))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("refused 'on' for urn:x with 404: The requested entity has not been found");
+    }
+
+    @Test
+    void saysThatTheContextBrokerIsAway() {
+        DeviceCommands commands = commands();
+        broker.stop(0);
+
+        assertThatThrownBy(() -> commands.send("urn:x", "Thermometer", "on", ""))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("does not answer");
+    }
+
+    private DeviceCommands commands() {
+        return new DeviceCommands(
+                URI.create("http://127.0.0.1:" + broker.getAddress().getPort() + "/"),
+                new FiwareScope("farm", "/north"));
+    }
+
+    private void hear(HttpExchange exchange) throws IOException {
+        heard.add("%s %s %s %s %s"
+                .formatted(
+                        exchange.getRequestMethod(),
+                        exchange.getRequestURI(),
+                        exchange.getRequestHeaders().getFirst("Fiware-Service"),
+                        exchange.getRequestHeaders().getFirst("Fiware-Servicepath"),
+                        new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8)));
+        byte[] body = answer.getBytes(StandardCharsets.UTF_8);
+        exchange.sendResponseHeaders(status, body.length == 0 ? -1 : body.length);
+        exchange.getResponseBody().write(body);
+        exchange.close();
+    }
+}
