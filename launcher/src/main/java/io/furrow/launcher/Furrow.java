@@ -5,6 +5,11 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
 import io.furrow.flink.JobCommandLine;
+import io.furrow.launcher.control.AlarmCommand;
+import io.furrow.launcher.control.DeviceCommand;
+import io.furrow.launcher.control.DomainCommand;
+import io.furrow.launcher.control.ReplayCommand;
+import io.furrow.launcher.control.TemplateCommand;
 
 /** The command {@code ./furrow}. */
 @Command(
@@ -14,7 +19,12 @@ import io.furrow.flink.JobCommandLine;
         subcommands = {
             DemoCommand.class,
             UpCommand.class,
+            DomainCommand.class,
             MissionCommand.class,
+            TemplateCommand.class,
+            DeviceCommand.class,
+            AlarmCommand.class,
+            ReplayCommand.class,
             ImagesCommand.class,
             CatalogCommand.class,
             FieldsCommand.class,

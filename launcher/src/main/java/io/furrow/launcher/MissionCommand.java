@@ -22,29 +22,20 @@ import io.furrow.flink.FileSystemOptions;
 import io.furrow.ingest.mission.MissionArchive;
 import io.furrow.ingest.mission.MissionFiles;
 import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.launcher.control.MissionControl;
 
 /** {@code ./furrow mission}. */
 @Command(
         name = "mission",
-        description = "Lists, exports, imports and archives the missions that are kept in MongoDB.",
+        description =
+                "Creates, starts, follows and stops missions; exports, imports and archives what is kept of them in MongoDB.",
         synopsisSubcommandLabel = "COMMAND")
-final class MissionCommand {
+final class MissionCommand extends MissionControl {
     private static final String MISSION = "Name of the mission, as its entities or as 'mission list' have it.";
     private static final String FILES = ", on any file system of Flink: a path, file:, hdfs:, s3: …";
 
     @Spec
     private CommandSpec spec;
-
-    @Option(
-            names = "--mongo",
-            paramLabel = "URI",
-            scope = ScopeType.INHERIT,
-            defaultValue = "mongodb://127.0.0.1:27017",
-            description = "MongoDB. Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
-    private String mongo;
-
-    @Mixin
-    private final FileSystemOptions fileSystems = new FileSystemOptions();
 
     @Option(
             names = {"-h", "--help"},
@@ -53,14 +44,32 @@ final class MissionCommand {
             description = "Show this text.")
     private boolean help;
 
+    /** Where missions are kept. */
+    static final class Kept {
+        @Spec(Spec.Target.MIXEE)
+        private CommandSpec spec;
+
+        @Option(
+                names = "--mongo",
+                paramLabel = "URI",
+                defaultValue = "mongodb://127.0.0.1:27017",
+                description = "MongoDB. Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
+        private String mongo;
+
+        @Mixin
+        private final FileSystemOptions fileSystems = new FileSystemOptions();
+    }
+
     /** Something done with the missions of MongoDB. */
     private interface Work {
         void with(StoredMissions missions) throws IOException, InterruptedException;
     }
 
-    @Command(name = "list", description = "Prints each mission, how many events it holds and from when to when.")
-    int list() {
-        return run(missions -> {
+    @Command(
+            name = "kept",
+            description = "Prints each mission that is kept, how many events it holds and from when to when.")
+    int kept(@Mixin Kept kept) {
+        return run(kept, missions -> {
             for (StoredMissions.Summary mission : missions.all()) {
                 out().printf(
                                 "%-32s %,12d events  %s … %s%n",
@@ -75,13 +84,14 @@ final class MissionCommand {
                     "Writes all events of a mission in the order of their times, one JSON object a line. The same "
                             + "events are always the same bytes.")
     int export(
+            @Mixin Kept kept,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(
                             paramLabel = "FILE",
                             description =
                                     "Where to" + FILES + " Compressed where the name ends in .gz; - for the terminal.")
                     String file) {
-        return run(missions -> {
+        return run(kept, missions -> {
             known(missions, mission);
             if (file.equals("-")) {
                 OutputStream terminal = new java.io.BufferedOutputStream(System.out);
@@ -100,13 +110,14 @@ final class MissionCommand {
                     "Reads events into a mission. Those that it holds already stay once, so that a broken import can "
                             + "be repeated.")
     int importFrom(
+            @Mixin Kept kept,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
             @Parameters(
                             paramLabel = "FILE",
                             description = "A file, or a folder of an archive" + FILES
                                     + " Compressed where the name ends in .gz.")
                     String file) {
-        return run(missions -> {
+        return run(kept, missions -> {
             long count = MissionFiles.importFrom(missions, mission, new Path(file), told("imported"));
             out().printf("%,d events of %s are now in mission %s%n", count, file, mission);
         });
@@ -118,10 +129,11 @@ final class MissionCommand {
                     "Adds what an archive lacks of missions: one file per day and mission, and a further one for what "
                             + "comes later. Nothing in an archive is changed or removed.")
     int archive(
+            @Mixin Kept kept,
             @Parameters(paramLabel = "ROOT", description = "Folder of the archive" + FILES) String root,
             @Parameters(paramLabel = "MISSION", arity = "1..*", description = "Names of the missions.")
                     List<String> names) {
-        return run(missions -> {
+        return run(kept, missions -> {
             MissionArchive archive = new MissionArchive(missions, new Path(root));
             for (String mission : names) {
                 known(missions, mission);
@@ -133,19 +145,19 @@ final class MissionCommand {
         });
     }
 
-    private int run(Work work) {
-        fileSystems.initialize();
-        try (StoredMissions missions = StoredMissions.open(mongo)) {
+    private int run(Kept kept, Work work) {
+        kept.fileSystems.initialize();
+        try (StoredMissions missions = StoredMissions.open(kept.mongo)) {
             work.with(missions);
             out().flush();
             return 0;
         } catch (IllegalArgumentException e) {
             throw new ParameterException(
-                    spec.commandLine(),
-                    "%s. Check --mongo %s and the file's name.".formatted(e.getMessage(), mongo),
+                    kept.spec.commandLine(),
+                    "%s. Check --mongo %s and the file's name.".formatted(e.getMessage(), kept.mongo),
                     e);
         } catch (MongoException e) {
-            return failed("MongoDB at %s: %s. Check that it runs, and --mongo.".formatted(mongo, e.getMessage()));
+            return failed("MongoDB at %s: %s. Check that it runs, and --mongo.".formatted(kept.mongo, e.getMessage()));
         } catch (UncheckedIOException e) {
             return failed(e.getCause().getMessage());
         } catch (IOException e) {
@@ -159,7 +171,7 @@ final class MissionCommand {
     private static void known(StoredMissions missions, String mission) throws IOException {
         if (!missions.has(mission)) {
             throw new IOException(
-                    "No mission named %s is kept; ./furrow mission list shows those that are.".formatted(mission));
+                    "No mission named %s is kept; ./furrow mission kept shows those that are.".formatted(mission));
         }
     }
 

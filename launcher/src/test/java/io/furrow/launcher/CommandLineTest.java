@@ -33,7 +33,15 @@ class CommandLineTest {
         "bench load --help, --devices",
         "bench notifications --help, --new-connections",
         "bench sink --help, --stand-in",
-        "dead-letters refeed --help, --dry-run"
+        "dead-letters refeed --help, --dry-run",
+        "domain create --help, --area",
+        "mission --help, watch",
+        "mission start --help, --duration",
+        "mission export --help, --mongo",
+        "template import --help, FILE",
+        "device list --help, --mission",
+        "alarm mute --help, --for",
+        "replay start --help, --speed"
     })
     void explainsItself(String words, String mentioned) {
         assertThat(furrow.execute(words.split(" "))).isZero();

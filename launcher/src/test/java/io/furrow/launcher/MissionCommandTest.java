@@ -48,7 +48,7 @@ class MissionCommandTest {
                 .isZero();
         assertThat(run("export", "weeding", directory.resolve("out.ndjson").toString()))
                 .isZero();
-        assertThat(run("list")).isZero();
+        assertThat(run("kept")).isZero();
 
         assertThat(Files.readString(directory.resolve("out.ndjson"), StandardCharsets.UTF_8))
                 .isEqualTo(lines);
@@ -74,7 +74,7 @@ class MissionCommandTest {
     void saysThatAMissionIsNotKept() {
         assertThat(run("export", "weedin", directory.resolve("out").toString())).isNotZero();
 
-        assertThat(err.toString()).contains("No mission named weedin is kept", "./furrow mission list");
+        assertThat(err.toString()).contains("No mission named weedin is kept", "./furrow mission kept");
         assertThat(directory.resolve("out")).doesNotExist();
     }
 
@@ -82,7 +82,7 @@ class MissionCommandTest {
     void saysThatMongoIsAway() {
         mongo.close();
 
-        assertThat(run("list")).isNotZero();
+        assertThat(run("kept")).isNotZero();
 
         assertThat(err.toString()).contains("MongoDB at", "Check that it runs, and --mongo.");
     }
@@ -93,9 +93,10 @@ class MissionCommandTest {
         furrow.setErr(new PrintWriter(err, true));
         String[] all = new String[args.length + 3];
         all[0] = "mission";
-        all[1] = "--mongo";
-        all[2] = mongo.uri() + "/?serverSelectionTimeoutMS=1000";
-        System.arraycopy(args, 0, all, 3, args.length);
+        all[1] = args[0];
+        all[2] = "--mongo";
+        all[3] = mongo.uri() + "/?serverSelectionTimeoutMS=1000";
+        System.arraycopy(args, 1, all, 4, args.length - 1);
         return furrow.execute(all);
     }
 }

@@ -1,0 +1,129 @@
+package io.furrow.launcher.control;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.URLEncoder;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpRequest.BodyPublisher;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.UUID;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.MissingNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** The REST API of a control plane. A request that it cannot take yet is sent again, under the same key, so that it has one effect. */
+final class ControlApi {
+    private static final Duration PATIENCE = Duration.ofSeconds(40);
+    private static final int ATTEMPTS = 10;
+    private static final int NOT_READY = 503;
+    private static final int NO_TOKEN = 401;
+    private static final int AFTER_SECONDS = 1;
+
+    private final HttpClient http = HttpClient.newBuilder()
+            .version(HttpClient.Version.HTTP_1_1)
+            .connectTimeout(Duration.ofSeconds(5))
+            .build();
+    private final URI base;
+    private final String token;
+
+    /**
+     * @param base as in {@code http://127.0.0.1:8085}
+     * @param token null where none is asked for
+     */
+    ControlApi(URI base, String token) {
+        this.base = base;
+        this.token = token;
+    }
+
+    /** A name as a part of a path. */
+    static String part(String name) {
+        return "/" + URLEncoder.encode(name, StandardCharsets.UTF_8).replace("+", "%20");
+    }
+
+    /** @throws ControlPlaneException if it is away or refuses */
+    JsonNode get(String path) {
+        return send("GET", path, null);
+    }
+
+    /**
+     * @param body null for none
+     * @throws ControlPlaneException if it is away or refuses
+     */
+    JsonNode send(String method, String path, JsonNode body) {
+        HttpRequest request = request(method, path, body);
+        HttpResponse<byte[]> answer = ask(request);
+        for (int attempt = 1; answer.statusCode() == NOT_READY && attempt < ATTEMPTS; attempt++) {
+            sleep(answer.headers().firstValue("Retry-After").orElse(""));
+            answer = ask(request);
+        }
+        JsonNode json = read(answer.body());
+        if (answer.statusCode() / 100 == 2) {
+            return json;
+        }
+        String reason = json.path("reason").asText("it answers " + answer.statusCode());
+        if (answer.statusCode() == NO_TOKEN) {
+            throw new ControlPlaneException(
+                    "The control plane at %s asks who you are: %s. Name a file with your token with --token-file."
+                            .formatted(base, reason));
+        }
+        String code = json.path("error").asText();
+        throw new ControlPlaneException(code.isEmpty() ? reason : reason + " (" + code + ")");
+    }
+
+    private HttpRequest request(String method, String path, JsonNode body) {
+        BodyPublisher publisher =
+                body == null ? BodyPublishers.noBody() : BodyPublishers.ofByteArray(NgsiJson.write(body));
+        HttpRequest.Builder request = HttpRequest.newBuilder(
+                        URI.create(base.toString().replaceAll("/+$", "") + path))
+                .timeout(PATIENCE)
+                .header("Accept", "application/json")
+                .header("Idempotency-Key", UUID.randomUUID().toString())
+                .method(method, publisher);
+        if (body != null) {
+            request.header("Content-Type", "application/json");
+        }
+        if (token != null) {
+            request.header("Authorization", "Bearer " + token);
+        }
+        return request.build();
+    }
+
+    private HttpResponse<byte[]> ask(HttpRequest request) {
+        try {
+            return http.send(request, HttpResponse.BodyHandlers.ofByteArray());
+        } catch (IOException e) {
+            throw new ControlPlaneException(
+                    "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another."
+                            .formatted(base),
+                    e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new ControlPlaneException("interrupted while waiting for " + base, e);
+        }
+    }
+
+    private static void sleep(String seconds) {
+        try {
+            TimeUnit.SECONDS.sleep(seconds.matches("[0-9]{1,2}") ? Integer.parseInt(seconds) : AFTER_SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new ControlPlaneException("interrupted while waiting for the control plane", e);
+        }
+    }
+
+    private JsonNode read(byte[] body) {
+        try {
+            return body.length == 0 ? MissingNode.getInstance() : NgsiJson.read(body);
+        } catch (UnreadableException e) {
+            throw new ControlPlaneException(base + " answers what is no JSON: is it a control plane? Check --api.", e);
+        }
+    }
+}

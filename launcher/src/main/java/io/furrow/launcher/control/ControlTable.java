@@ -1,0 +1,96 @@
+package io.furrow.launcher.control;
+
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.core.JsonPointer;
+import com.fasterxml.jackson.databind.JsonNode;
+
+/** Objects as a table, each column as wide as its widest cell. */
+final class ControlTable {
+    private final String nothing;
+    private final List<Column> columns = new ArrayList<>();
+
+    private enum Kind {
+        TEXT,
+        TIME,
+        COUNT
+    }
+
+    private record Column(String title, List<JsonPointer> places, Kind kind) {}
+
+    /** @param nothing what is said where there is no row */
+    ControlTable(String nothing) {
+        this.nothing = nothing;
+    }
+
+    /** @param places JSON pointers; the first that has something is shown */
+    ControlTable text(String title, String... places) {
+        return column(title, Kind.TEXT, places);
+    }
+
+    /** A time, epoch ms or ISO 8601, shown to the second in UTC. */
+    ControlTable time(String title, String... places) {
+        return column(title, Kind.TIME, places);
+    }
+
+    /** How many members a list or an object has. */
+    ControlTable count(String title, String... places) {
+        return column(title, Kind.COUNT, places);
+    }
+
+    private ControlTable column(String title, Kind kind, String... places) {
+        columns.add(new Column(
+                title, java.util.Arrays.stream(places).map(JsonPointer::compile).toList(), kind));
+        return this;
+    }
+
+    /** Title and one line per object. */
+    List<String> lines(JsonNode rows) {
+        if (rows.isEmpty()) {
+            return List.of(nothing);
+        }
+        List<List<String>> cells = new ArrayList<>();
+        cells.add(columns.stream().map(Column::title).toList());
+        rows.forEach(row ->
+                cells.add(columns.stream().map(column -> cell(column, row)).toList()));
+        int[] widths = new int[columns.size()];
+        for (List<String> line : cells) {
+            for (int i = 0; i < widths.length; i++) {
+                widths[i] = Math.max(widths[i], line.get(i).length());
+            }
+        }
+        return cells.stream().map(line -> line(line, widths)).toList();
+    }
+
+    private static String line(List<String> cells, int[] widths) {
+        StringBuilder line = new StringBuilder();
+        for (int i = 0; i < widths.length; i++) {
+            line.append(cells.get(i)).append(" ".repeat(widths[i] - cells.get(i).length() + 2));
+        }
+        return line.toString().stripTrailing();
+    }
+
+    private static String cell(Column column, JsonNode row) {
+        for (JsonPointer place : column.places()) {
+            JsonNode value = row.at(place);
+            if (!value.isMissingNode() && !value.isNull()) {
+                return cell(column.kind(), value);
+            }
+        }
+        return "–";
+    }
+
+    private static String cell(Kind kind, JsonNode value) {
+        return switch (kind) {
+            case COUNT -> Integer.toString(value.size());
+            case TIME ->
+                (value.isIntegralNumber()
+                                ? Instant.ofEpochMilli(value.longValue()).toString()
+                                : value.asText())
+                        .replaceFirst("\\.\\d+Z$", "Z");
+            case TEXT -> value.isValueNode() ? value.asText() : value.toString();
+        };
+    }
+}
