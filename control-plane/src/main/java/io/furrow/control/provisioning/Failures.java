@@ -1,0 +1,64 @@
+package io.furrow.control.provisioning;
+
+import java.util.HashMap;
+import java.util.Map;
+
+import org.apache.kafka.clients.producer.Producer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Tells on {@code service.devices.status} of devices that could not be provisioned, once per wanted state of a device and not
+ * before the third attempt. It is tried further; once it is provisioned its host says that it runs.
+ */
+final class Failures {
+    static final int ATTEMPTS = 3;
+    private static final Logger LOG = LoggerFactory.getLogger(Failures.class);
+
+    private final WantedDevices wanted;
+    private final Producer<String, byte[]> producer;
+    private final Map<String, Count> counts = new HashMap<>();
+
+    private record Count(long sequence, int attempts) {}
+
+    Failures(WantedDevices wanted, Producer<String, byte[]> producer) {
+        this.wanted = wanted;
+        this.producer = producer;
+    }
+
+    void clear() {
+        counts.clear();
+    }
+
+    /** @param reasons by key; whatever is not among them is well */
+    void refused(Map<String, String> reasons) {
+        counts.keySet().retainAll(reasons.keySet());
+        reasons.forEach(this::count);
+    }
+
+    /** Of those that were wanted before nothing is said: they may well run. */
+    void away(String reason) {
+        wanted.all().keySet().stream().filter(wanted::isFresh).toList().forEach(key -> count(key, reason));
+    }
+
+    private void count(String key, String reason) {
+        WantedDevice device = wanted.all().get(key);
+        long sequence = device.version().sequence();
+        Count before = counts.get(key);
+        int attempts = before == null || before.sequence() != sequence ? 1 : before.attempts() + 1;
+        counts.put(key, new Count(sequence, attempts));
+        if (attempts == ATTEMPTS) {
+            DeviceStatus status = new DeviceStatus(sequence, DeviceStatus.State.FAILED, "not provisioned: " + reason);
+            producer.send(new ProducerRecord<>(Topics.DEVICES_STATUS, key, status.toBytes()), (sent, failure) -> {
+                if (failure != null) {
+                    LOG.warn("that device {} is not provisioned was not told", key, failure);
+                }
+            });
+        }
+    }
+}
