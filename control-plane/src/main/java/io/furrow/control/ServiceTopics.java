@@ -24,7 +24,8 @@ import io.furrow.model.topic.Topics;
 
 /**
  * The topics that the control plane reads and writes. Requests are kept for the broker's retention and stamped by the broker; what
- * is wanted and what is are compacted, one partition each, so that nothing overtakes.
+ * is wanted and what is are compacted, one partition each, so that nothing overtakes. Topics of data that are missing are made
+ * with the broker's number of partitions.
  */
 public final class ServiceTopics {
     private static final long PATIENCE_SECONDS = 30;
@@ -46,6 +47,10 @@ public final class ServiceTopics {
     /** A year; whoever wants another time alters the topic, which then stays so. */
     private static final Map<String, String> KEPT_LONG =
             Map.of(POLICY, "delete", "retention.ms", Long.toString(TimeUnit.DAYS.toMillis(365)));
+    /** Written by others, or read by others: made as jobs make them, never altered. */
+    private static final List<String> DATA = List.of(Topics.RAW, Topics.COLLISION, Topics.TEMPERATURE, Topics.CONTEXT);
+
+    private static final int MOST_BYTES = 16 * 1024 * 1024;
 
     private ServiceTopics() {}
 
@@ -61,6 +66,8 @@ public final class ServiceTopics {
             REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
             COMPACTED.forEach(name -> wanted.add(topic(name, settings, Map.of(POLICY, "compact"))));
             wanted.add(topic(Topics.AUDIT, settings, KEPT_LONG));
+            DATA.forEach(name ->
+                    wanted.add(topic(name, settings, Map.of("max.message.bytes", Integer.toString(MOST_BYTES)))));
             for (KafkaFuture<Void> made : admin.createTopics(wanted).values().values()) {
                 await(made, true);
             }
@@ -82,7 +89,8 @@ public final class ServiceTopics {
     private static NewTopic topic(String name, ControlSettings settings, Map<String, String> configs) {
         Optional<Short> replication =
                 settings.replicationFactor() < 0 ? Optional.empty() : Optional.of(settings.replicationFactor());
-        return new NewTopic(name, Optional.of(1), replication).configs(configs);
+        Optional<Integer> partitions = DATA.contains(name) ? Optional.empty() : Optional.of(1);
+        return new NewTopic(name, partitions, replication).configs(configs);
     }
 
     /** The time of the broker, because the control plane tells old requests from new ones by it. */

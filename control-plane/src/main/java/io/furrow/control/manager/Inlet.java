@@ -1,6 +1,7 @@
 package io.furrow.control.manager;
 
 import org.apache.kafka.common.serialization.Serdes;
+import org.apache.kafka.streams.AutoOffsetReset;
 import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.Consumed;
 import org.apache.kafka.streams.kstream.KStream;
@@ -28,7 +29,18 @@ public final class Inlet {
         return inLine(builder.stream(topic, from(name + "-in")), name);
     }
 
-    private static KStream<String, byte[]> inLine(KStream<String, byte[]> stream, String name) {
+    /**
+     * A topic that is observed, all in one line.
+     *
+     * @param start where to begin when it was never read
+     */
+    public static KStream<String, byte[]> observed(
+            StreamsBuilder builder, String topic, String name, AutoOffsetReset start) {
+        return inLine(builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
+    }
+
+    /** In the order in which they come, all on one instance at a time. */
+    public static KStream<String, byte[]> inLine(KStream<String, byte[]> stream, String name) {
         return stream.repartition(Repartitioned.with(Serdes.String(), Serdes.ByteArray())
                 .withName(name)
                 .withNumberOfPartitions(1));

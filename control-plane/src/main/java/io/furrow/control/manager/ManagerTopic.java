@@ -2,6 +2,7 @@ package io.furrow.control.manager;
 
 import java.util.function.Function;
 
+import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.Received;
@@ -22,6 +23,8 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Receiv
             new ManagerTopic<>("mission", Topics.MISSION_MANAGER, Requests::mission);
     public static final ManagerTopic<ReplayCommand> REPLAY =
             new ManagerTopic<>("replay", Topics.REPLAY_MANAGER, Requests::replay);
+    public static final ManagerTopic<AlarmCommand> ALARM =
+            new ManagerTopic<>("alarm", Topics.ALARM_MANAGER, Requests::alarm);
 
     Received<C> read(byte[] value) {
         return reader.apply(value);

@@ -3,7 +3,7 @@ package io.furrow.model.control;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** What a manager is asked to do. */
-public sealed interface Command permits DomainCommand, MissionCommand, ReplayCommand {
+public sealed interface Command permits DomainCommand, MissionCommand, ReplayCommand, AlarmCommand {
     /** The member {@code command}. */
     String verb();
 

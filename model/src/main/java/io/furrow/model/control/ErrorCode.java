@@ -32,7 +32,8 @@ public enum ErrorCode {
     /** Another mission that runs has the device. */
     DEVICE_TAKEN,
     UNKNOWN_REPLAY,
-    /** The replay is not in the state that the command needs. */
+    UNKNOWN_ALARM,
+    /** The replay or alarm is not in the state that the command needs. */
     WRONG_STATE;
 
     /** The name in lower case with hyphens, for instance {@code not-json}. */

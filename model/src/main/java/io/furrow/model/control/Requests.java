@@ -18,7 +18,7 @@ import io.furrow.model.topic.TopicName;
 public final class Requests {
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
     /** Members that an error answers with, so that a client without request ids knows what it is about. */
-    private static final List<String> SUBJECTS = List.of("domain", "mission", "replay");
+    private static final List<String> SUBJECTS = List.of("domain", "mission", "replay", "alarm");
 
     private Requests() {}
 
@@ -40,6 +40,11 @@ public final class Requests {
     /** A record of {@code service.replaymanager}; the value may be null. */
     public static Received<ReplayCommand> replay(byte[] value) {
         return read(value, ReplayCommand::read);
+    }
+
+    /** A record of {@code service.alarmmanager}; the value may be null. */
+    public static Received<AlarmCommand> alarm(byte[] value) {
+        return read(value, AlarmCommand::read);
     }
 
     /** @param requestId may be null */

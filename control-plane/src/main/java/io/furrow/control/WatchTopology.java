@@ -1,0 +1,44 @@
+package io.furrow.control;
+
+import java.time.Duration;
+
+import org.apache.kafka.streams.AutoOffsetReset;
+import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.Topology;
+import org.apache.kafka.streams.kstream.KStream;
+
+import io.furrow.control.alarm.AlarmManager;
+import io.furrow.control.alarm.AnalyticsAlarms;
+import io.furrow.control.health.HealthWatch;
+import io.furrow.control.manager.Inlet;
+import io.furrow.model.topic.Topics;
+
+/** How the farm is watched: health of devices, alarms, what the context broker knows of domains and missions. */
+final class WatchTopology {
+    /** What was found longer ago raises no alarm when the farm is watched for the first time. */
+    private static final AutoOffsetReset RECENT = AutoOffsetReset.byDuration(Duration.ofMinutes(10));
+
+    private WatchTopology() {}
+
+    /** @param remembered how long ids of requests are */
+    static Topology of(Duration remembered, WatchOptions options) {
+        StreamsBuilder builder = new StreamsBuilder();
+
+        AlarmManager.add(builder, remembered);
+
+        HealthWatch.add(builder, options.health());
+
+        AnalyticsAlarms.Types types = new AnalyticsAlarms.Types(HealthWatch::typeOf, HealthWatch.stores());
+        KStream<String, byte[]> collisions = observed(builder, Topics.COLLISION, "collisions");
+        AnalyticsAlarms.addEncounters(collisions, types, options.predictionHolds());
+
+        KStream<String, byte[]> temperatures = observed(builder, Topics.TEMPERATURE, "temperatures");
+        AnalyticsAlarms.addSensors(temperatures, types);
+
+        return builder.build();
+    }
+
+    private static KStream<String, byte[]> observed(StreamsBuilder builder, String topic, String name) {
+        return Inlet.observed(builder, topic, name, RECENT);
+    }
+}

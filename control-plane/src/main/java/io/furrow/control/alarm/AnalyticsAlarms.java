@@ -1,0 +1,71 @@
+package io.furrow.control.alarm;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.function.BiFunction;
+import java.util.function.Function;
+import java.util.stream.Stream;
+
+import org.apache.kafka.streams.kstream.KStream;
+import org.apache.kafka.streams.kstream.Named;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+
+import io.furrow.control.manager.ObserveRecords;
+import io.furrow.control.manager.ObserveRecords.Observer;
+import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Outgoing;
+import io.furrow.control.manager.RecordScope;
+import io.furrow.model.ngsi.Entity;
+
+/** Makes alarms of what analytics find. */
+public final class AnalyticsAlarms {
+    private AnalyticsAlarms() {}
+
+    /**
+     * How the types of devices are known: by tenant, service path and entity id.
+     *
+     * @param opening makes what knows them
+     * @param stores that it needs
+     */
+    public record Types(Function<ProcessorContext<?, ?>, Function<String, String>> opening, List<String> stores) {}
+
+    /** @param collisions the records of {@code data.collision}, in one line */
+    public static void addEncounters(KStream<String, byte[]> collisions, Types types, Duration predictionHolds) {
+        BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening = (context, outbox) -> {
+            WatchEncounters watch = new WatchEncounters(
+                    AlarmManager.desk(context, outbox), types.opening().apply(context), predictionHolds);
+            return (record, now) -> {
+                if (record.value() != null) {
+                    watch.take(Encounter.read(record.value(), RecordScope.of(record)), now);
+                }
+            };
+        };
+        send(collisions, opening, types, "encounters");
+    }
+
+    /** @param temperatures the records of {@code data.temperature}, in one line */
+    public static void addSensors(KStream<String, byte[]> temperatures, Types types) {
+        BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening = (context, outbox) -> {
+            WatchSensors watch = new WatchSensors(
+                    AlarmManager.desk(context, outbox), types.opening().apply(context));
+            return (record, now) -> {
+                FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
+                if (window != null) {
+                    watch.take(window, RecordScope.of(record), now);
+                }
+            };
+        };
+        send(temperatures, opening, types, "sensors");
+    }
+
+    private static void send(
+            KStream<String, byte[]> results,
+            BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening,
+            Types types,
+            String name) {
+        String[] stores = Stream.concat(AlarmManager.stores().stream(), types.stores().stream())
+                .toArray(String[]::new);
+        Outgoing.send(
+                results.process(() -> new ObserveRecords(opening), Named.as("watch-" + name), stores), name + "-out");
+    }
+}

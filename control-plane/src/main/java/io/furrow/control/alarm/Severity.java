@@ -1,0 +1,36 @@
+package io.furrow.control.alarm;
+
+import java.util.Locale;
+
+import com.fasterxml.jackson.annotation.JsonCreator;
+import com.fasterxml.jackson.annotation.JsonValue;
+
+import io.furrow.model.control.AlarmKind;
+
+/** How much an alarm matters, in the words of ITU-T X.733. */
+public enum Severity {
+    CRITICAL,
+    MAJOR,
+    MINOR,
+    WARNING;
+
+    static Severity of(AlarmKind kind) {
+        return switch (kind) {
+            case COLLISION -> CRITICAL;
+            case PREDICTED_ENCOUNTER -> MAJOR;
+            case SILENT_DEVICE -> MINOR;
+            case SUSPECT_SENSOR -> WARNING;
+        };
+    }
+
+    /** As records have it. */
+    @JsonValue
+    public String word() {
+        return name().toLowerCase(Locale.ROOT);
+    }
+
+    @JsonCreator
+    static Severity ofWord(String word) {
+        return valueOf(word.toUpperCase(Locale.ROOT));
+    }
+}

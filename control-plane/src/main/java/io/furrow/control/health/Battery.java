@@ -1,0 +1,39 @@
+package io.furrow.control.health;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * How full the battery of a device is: the attribute {@code battery}, percent as a number, or as FIROS writes it a
+ * sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1.
+ */
+final class Battery {
+    static final String ATTRIBUTE = "battery";
+
+    private static final String PERCENTAGE = "percentage";
+    private static final String QUOTE = "%27";
+    private static final double FULL = 100;
+
+    private Battery() {}
+
+    /** Null where the entity does not say, or says what is no charge. */
+    static Double percentOf(Entity entity) {
+        Double percent = entity.number(ATTRIBUTE).orElse(null);
+        if (percent == null) {
+            percent = entity.text(ATTRIBUTE).map(Battery::ofRobot).orElse(null);
+        }
+        return percent == null || percent < 0 || percent > FULL ? null : percent;
+    }
+
+    private static Double ofRobot(String text) {
+        try {
+            JsonNode state = NgsiJson.mapper().readTree(text.replace(QUOTE, "\""));
+            JsonNode charge = state == null ? null : state.path(PERCENTAGE);
+            return charge == null || !charge.isNumber() ? null : Double.valueOf(charge.doubleValue() * FULL);
+        } catch (com.fasterxml.jackson.core.JsonProcessingException e) {
+            return null; // a text that is no message of ROS tells nothing of a battery
+        }
+    }
+}

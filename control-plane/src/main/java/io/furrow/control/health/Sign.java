@@ -1,0 +1,14 @@
+package io.furrow.control.health;
+
+/**
+ * What those who read the reports of devices tell those who keep their health.
+ *
+ * @param id of the entity
+ * @param type of the entity
+ * @param silent whether nothing was heard for too long; false for a sign of life
+ * @param heard when it was last heard of, epoch ms, by the clock of the control plane
+ * @param reported event time of that, epoch ms
+ * @param battery in percent; null where it never said
+ * @param off whether it said that it is switched off
+ */
+record Sign(String id, String type, boolean silent, long heard, long reported, Double battery, boolean off) {}

@@ -1,0 +1,131 @@
+package io.furrow.model.control;
+
+import java.time.Duration;
+import java.util.Arrays;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** What the topic {@code service.alarmmanager} asks for. */
+public sealed interface AlarmCommand extends Command {
+    /** What is muted: one alarm, or all of a kind, those to come too. */
+    sealed interface Target {
+        void describe(ObjectNode request);
+    }
+
+    record OfAlarm(String alarm) implements Target {
+        @Override
+        public void describe(ObjectNode request) {
+            request.put(ALARM, alarm);
+        }
+    }
+
+    /** @param subject null for all subjects */
+    record OfKind(AlarmKind kind, String subject) implements Target {
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("kind", kind.code());
+            DeviceGroup.put(request, "subject", subject);
+        }
+    }
+
+    /**
+     * Somebody looks at it.
+     *
+     * @param user who; null where nobody says so
+     */
+    record Acknowledge(String alarm, String user) implements AlarmCommand {
+        @Override
+        public String verb() {
+            return "acknowledge";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put(ALARM, alarm);
+            DeviceGroup.put(request, USER, user);
+        }
+    }
+
+    /**
+     * It is over, whatever devices say.
+     *
+     * @param user who says so; null where nobody does
+     */
+    record Close(String alarm, String user) implements AlarmCommand {
+        @Override
+        public String verb() {
+            return "close";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put(ALARM, alarm);
+            DeviceGroup.put(request, USER, user);
+        }
+    }
+
+    /** Nobody is told of it for a while. */
+    record Mute(Target target, Duration time) implements AlarmCommand {
+        @Override
+        public String verb() {
+            return "mute";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            target.describe(request);
+            request.put("for", time.toString());
+        }
+    }
+
+    record Unmute(Target target) implements AlarmCommand {
+        @Override
+        public String verb() {
+            return "unmute";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            target.describe(request);
+        }
+    }
+
+    String ALARM = "alarm";
+    String USER = "user";
+
+    static AlarmCommand read(String verb, Members members) throws RefusedException {
+        return switch (verb == null ? "" : verb) {
+            case "acknowledge" -> new Acknowledge(members.name(ALARM), members.textOrNull(USER));
+            case "close" -> new Close(members.name(ALARM), members.textOrNull(USER));
+            case "mute" -> new Mute(target(members), time(members));
+            case "unmute" -> new Unmute(target(members));
+            default -> throw Requests.unknown(verb, "acknowledge, close, mute, unmute");
+        };
+    }
+
+    private static Target target(Members members) throws RefusedException {
+        if (members.has(ALARM)) {
+            return new OfAlarm(members.name(ALARM));
+        }
+        if (!members.has("kind")) {
+            throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'alarm' or 'kind'");
+        }
+        try {
+            return new OfKind(AlarmKind.of(members.text("kind")), members.textOrNull("subject"));
+        } catch (IllegalArgumentException e) {
+            String kinds =
+                    Arrays.stream(AlarmKind.values()).map(AlarmKind::code).collect(Collectors.joining(", "));
+            throw Members.wrong("kind", "one of " + kinds);
+        }
+    }
+
+    private static Duration time(Members members) throws RefusedException {
+        Duration time = members.durationOrNull("for");
+        if (time == null) {
+            throw new RefusedException(
+                    ErrorCode.MISSING_MEMBER, "the request needs a member 'for', a time such as PT1H");
+        }
+        return time;
+    }
+}
