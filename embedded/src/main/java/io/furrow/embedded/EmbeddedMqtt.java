@@ -8,11 +8,13 @@ import java.security.MessageDigest;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
+import java.util.Set;
 
 import io.moquette.broker.Server;
 import io.moquette.broker.config.MemoryConfig;
 import io.moquette.broker.security.IAuthenticator;
-import io.moquette.broker.security.PermitAllAuthorizatorPolicy;
+import io.moquette.broker.security.IAuthorizatorPolicy;
+import io.moquette.broker.subscriptions.Topic;
 
 /** An MQTT 3.1.1 broker in this JVM, on 127.0.0.1, that lets nobody in without a user and password. */
 public final class EmbeddedMqtt implements AutoCloseable {
@@ -21,6 +23,36 @@ public final class EmbeddedMqtt implements AutoCloseable {
 
     private final Server server;
     private final int port;
+
+    /** Users who come and go while the broker runs; asked at each connection, subscription and message. */
+    public interface Users {
+        boolean knows(String user, byte[] password);
+
+        boolean mayWrite(String user, String topic);
+
+        /** @param filter of a subscription, with wildcards or without */
+        boolean mayRead(String user, String filter);
+
+        /** Nobody. */
+        static Users none() {
+            return new Users() {
+                @Override
+                public boolean knows(String user, byte[] password) {
+                    return false;
+                }
+
+                @Override
+                public boolean mayWrite(String user, String topic) {
+                    return false;
+                }
+
+                @Override
+                public boolean mayRead(String user, String filter) {
+                    return false;
+                }
+            };
+        }
+    }
 
     private EmbeddedMqtt(Server server, int port) {
         this.server = server;
@@ -37,6 +69,15 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param passwords of each user
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords) {
+        return start(port, passwords, Users.none());
+    }
+
+    /**
+     * @param port 0 for a free one
+     * @param passwords of each user who may do everything
+     * @param others who may do what they may
+     */
+    public static EmbeddedMqtt start(int port, Map<String, String> passwords, Users others) {
         // Found here because Moquette itself learns its port only some time after its start.
         int bound = FreePort.orFree(port);
         Properties properties = new Properties();
@@ -48,12 +89,17 @@ public final class EmbeddedMqtt implements AutoCloseable {
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
         properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));
-        IAuthenticator authenticator = (clientId, user, password) ->
-                user != null && password != null && matches(passwords.get(user), password);
+        IAuthenticator authenticator = (clientId, user, password) -> user != null
+                && password != null
+                && (matches(passwords.get(user), password) || others.knows(user, password));
         Server server = new Server();
         try {
             server.startServer(
-                    new MemoryConfig(properties), List.of(), null, authenticator, new PermitAllAuthorizatorPolicy());
+                    new MemoryConfig(properties),
+                    List.of(),
+                    null,
+                    authenticator,
+                    new Rights(passwords.keySet(), others));
         } catch (IOException e) {
             throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + bound, e);
         }
@@ -72,5 +118,18 @@ public final class EmbeddedMqtt implements AutoCloseable {
 
     private static boolean matches(String expected, byte[] password) {
         return expected != null && MessageDigest.isEqual(expected.getBytes(StandardCharsets.UTF_8), password);
+    }
+
+    /** Whoever has a password of the start may do everything. */
+    private record Rights(Set<String> trusted, Users others) implements IAuthorizatorPolicy {
+        @Override
+        public boolean canWrite(Topic topic, String user, String client) {
+            return trusted.contains(user) || others.mayWrite(user, topic.toString());
+        }
+
+        @Override
+        public boolean canRead(Topic topic, String user, String client) {
+            return trusted.contains(user) || others.mayRead(user, topic.toString());
+        }
     }
 }

@@ -103,11 +103,11 @@ final class DeviceRegistry {
                 .toList();
     }
 
-    /** The device behind a topic; one that is new registers itself when its API key is known. */
+    /** The device behind a topic; one that is new registers itself when the group of its API key lets it. */
     synchronized Optional<Device> behind(String apikey, String deviceId) throws NgsiError {
         Device known = byTopic.get(new Topic(apikey, deviceId));
         ServiceGroup group = groups.get(apikey);
-        if (known != null || group == null) {
+        if (known != null || group == null || !group.takesUnprovisioned()) {
             return Optional.ofNullable(known);
         }
         Device device = Device.unprovisioned(group, deviceId);

@@ -26,4 +26,9 @@ record ServiceGroup(
                 DeviceMapping.read(json),
                 json.deepCopy());
     }
+
+    /** Whether a device that is not provisioned becomes one with its first measure. */
+    boolean takesUnprovisioned() {
+        return json.path("autoprovision").asBoolean(true);
+    }
 }

@@ -101,6 +101,19 @@ class IotAgentTest {
     }
 
     @Test
+    void takesAnUnknownDeviceOnlyWhereItsGroupLetsIt() throws MqttException {
+        agent.post("/iot/services", """
+                {"services": [{"apikey": "k2", "resource": "/iot/json", "entity_type": "Probe", "autoprovision": false}]}""");
+
+        publish("/k2/stranger/attrs", "{\"temp\": 1}");
+        publish("/k1/newcomer/attrs", "{\"temp\": 2}");
+
+        awaitValue("/v2/entities/Probe:newcomer", "temp", "2");
+        assertThat(broker.get("/v2/entities/Probe:stranger").status()).isEqualTo(404);
+        assertThat(standIn.counters().measuresRefused()).isEqualTo(1);
+    }
+
+    @Test
     void keepsTheTimeInstantThatADeviceGives() throws MqttException {
         publish("/k1/t1/attrs", "{\"temp\": 1, \"TimeInstant\": \"2026-11-21T01:00:00Z\"}");
 
