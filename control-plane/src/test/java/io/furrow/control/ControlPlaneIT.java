@@ -33,6 +33,7 @@ import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.control.Response;
 import io.furrow.model.topic.Topics;
@@ -67,7 +68,7 @@ class ControlPlaneIT {
 
     @Test
     void givesEachOfAHundredRequestsOneEffectAndOneAnswerThoughItIsKilledAmongThem() throws Exception {
-        Process first = run("first");
+        Process first = run("first", 0);
         try (KafkaProducer<String, byte[]> producer = producer()) {
             for (int i = 0; i < REQUESTS; i++) {
                 create(producer, i);
@@ -83,7 +84,7 @@ class ControlPlaneIT {
                 }
             }
             producer.flush();
-            run("second"); // knows nothing but what is in Kafka
+            run("second", 0); // knows nothing but what is in Kafka
             await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
 
             // Whatever was answered twice would be answered by then.
@@ -101,6 +102,37 @@ class ControlPlaneIT {
         assertThat(answers.stream().filter(answer -> answer.status().equals("created")))
                 .hasSize(REQUESTS);
         assertThat(records(Topics.DOMAINS)).hasSize(REQUESTS);
+    }
+
+    /** Domains are one task and replays another: whichever of two instances is killed, it had one of them. */
+    @Test
+    void takesOverFromAnInstanceThatIsKilledWithRequestsUnderWay() throws Exception {
+        Process first = run("first", 1);
+        run("second", 1);
+        try (KafkaProducer<String, byte[]> producer = producer()) {
+            for (int i = 0; i < REQUESTS / 2; i++) {
+                create(producer, i);
+                replay(producer, i);
+                if (i == ANSWERED_BEFORE_THE_KILL / 2) {
+                    producer.flush();
+                    await().atMost(PATIENCE).until(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
+                } else if (i == SENT_BEFORE_THE_KILL / 2) {
+                    producer.flush();
+                    first.destroyForcibly().waitFor();
+                }
+            }
+            producer.flush();
+            await().atMost(PATIENCE).until(() -> answers().size() >= REQUESTS);
+        }
+
+        Set<String> ids = new HashSet<>();
+        answers().forEach(answer -> ids.add(answer.requestId().orElseThrow()));
+        assertThat(answers())
+                .hasSize(REQUESTS)
+                .allMatch(answer -> answer.status().equals("created"));
+        assertThat(ids).hasSize(REQUESTS);
+        assertThat(records(Topics.DOMAINS)).hasSize(REQUESTS / 2);
+        assertThat(records(Topics.REPLAYS)).hasSize(REQUESTS / 2);
     }
 
     @Test
@@ -176,10 +208,10 @@ class ControlPlaneIT {
                 .withStandbyReplicas(1));
     }
 
-    private Process run(String name) throws Exception {
+    private Process run(String name, int standbyReplicas) throws Exception {
         Path state = directory.resolve(name);
         Files.createDirectories(state);
-        Process process = ControlPlaneProcess.start(kafka.bootstrapServers(), state);
+        Process process = ControlPlaneProcess.start(kafka.bootstrapServers(), state, standbyReplicas);
         processes.add(process);
         return process;
     }
@@ -189,12 +221,23 @@ class ControlPlaneIT {
         producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, Requests.write("r-" + number, command)));
     }
 
+    private static void replay(KafkaProducer<String, byte[]> producer, int number) {
+        ReplayCommand command = new ReplayCommand.Start("m", null, null, 1, false, List.of());
+        producer.send(new ProducerRecord<>(Topics.REPLAY_MANAGER, Requests.write("p-" + number, command)));
+    }
+
     private static void send(KafkaProducer<String, byte[]> producer, String requestId, DomainCommand command) {
         producer.send(new ProducerRecord<>(Topics.DOMAIN_MANAGER, 0, null, null, Requests.write(requestId, command)));
     }
 
     private KafkaProducer<String, byte[]> producer() {
         return new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+    }
+
+    private List<Response> answers() throws Exception {
+        List<Response> all = new ArrayList<>(answers(Topics.DOMAIN_MANAGER));
+        all.addAll(answers(Topics.REPLAY_MANAGER));
+        return all;
     }
 
     private List<Response> answers(String topic) throws Exception {

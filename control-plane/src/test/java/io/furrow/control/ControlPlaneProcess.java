@@ -11,7 +11,8 @@ public final class ControlPlaneProcess {
 
     /** Runs until it is killed. */
     public static void main(String[] args) throws Exception {
-        ControlPlane plane = ControlPlane.start(settings(args[0], args[1]));
+        ControlPlane plane =
+                ControlPlane.start(settings(args[0], args[1]).withStandbyReplicas(Integer.parseInt(args[2])));
         Thread.currentThread().join();
         plane.close();
     }
@@ -23,7 +24,7 @@ public final class ControlPlaneProcess {
         return ControlSettings.of(client);
     }
 
-    static Process start(String bootstrapServers, Path directory) throws IOException {
+    static Process start(String bootstrapServers, Path directory, int standbyReplicas) throws IOException {
         String java = Path.of(System.getProperty("java.home"), "bin", "java").toString();
         return new ProcessBuilder(
                         java,
@@ -32,7 +33,8 @@ public final class ControlPlaneProcess {
                         System.getProperty("java.class.path"),
                         ControlPlaneProcess.class.getName(),
                         bootstrapServers,
-                        directory.toString())
+                        directory.toString(),
+                        Integer.toString(standbyReplicas))
                 .redirectErrorStream(true)
                 .redirectOutput(new File(directory + ".log"))
                 .start();
