@@ -29,6 +29,7 @@ import io.furrow.model.topic.Topics;
  */
 public final class ServiceTopics {
     private static final long PATIENCE_SECONDS = 30;
+    private static final long LOOK_MILLIS = 50;
     private static final String POLICY = "cleanup.policy";
 
     private static final List<String> REQUESTS =
@@ -75,6 +76,7 @@ public final class ServiceTopics {
             REQUESTS.forEach(name -> set(policies, name, requestConfigs()));
             COMPACTED.forEach(name -> set(policies, name, Map.of(POLICY, "compact")));
             await(admin.incrementalAlterConfigs(policies).all(), false);
+            awaitKnown(admin, wanted.stream().map(NewTopic::name).toList());
         } catch (KafkaException | ExecutionException | TimeoutException e) {
             throw new IOException(
                     "The topics service.* cannot be prepared at %s (%s). Check the address, and that the user may create and alter them."
@@ -83,6 +85,21 @@ public final class ServiceTopics {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new IOException("interrupted while the topics service.* were prepared", e);
+        }
+    }
+
+    /** A broker learns of a topic some time after it was made, and who reads before that finds none. */
+    private static void awaitKnown(Admin admin, List<String> names)
+            throws ExecutionException, InterruptedException, TimeoutException {
+        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(PATIENCE_SECONDS);
+        while (!admin.listTopics()
+                .names()
+                .get(PATIENCE_SECONDS, TimeUnit.SECONDS)
+                .containsAll(names)) {
+            if (System.nanoTime() > end) {
+                throw new TimeoutException("the broker does not know of all topics that were made");
+            }
+            TimeUnit.MILLISECONDS.sleep(LOOK_MILLIS);
         }
     }
 
