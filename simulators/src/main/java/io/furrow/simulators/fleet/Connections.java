@@ -3,127 +3,224 @@ package io.furrow.simulators.fleet;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
-import java.util.LinkedHashMap;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
-import java.util.function.BiConsumer;
+import java.util.Objects;
+import java.util.Optional;
+import java.util.Queue;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ConcurrentLinkedQueue;
+import java.util.function.ToLongFunction;
+import java.util.function.UnaryOperator;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.simulators.mqtt.Line;
 import io.furrow.simulators.mqtt.MqttAccess;
-import io.furrow.simulators.scenario.Farm;
-import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 
 /**
- * The MQTT connections of a farm: of up to {@value #MOST_OWN} devices one each, of more one per mission, a gateway. The topics
- * are those of the device either way.
+ * The MQTT connections of a farm: devices have one each while that makes no more than so many; of those beyond each mission has
+ * one, a gateway. The topics are those of the device either way. One thread uses them, but {@link #count}.
  */
 final class Connections implements AutoCloseable {
     static final int MOST_OWN = 500;
 
-    private final String apiKey;
-    private final Map<String, Line> lines = new LinkedHashMap<>();
-    private final List<Line> all = new ArrayList<>();
+    private static final int OWN_KEPT = 20_000;
+    private static final long OWN_BYTES = 2L << 20;
+    private static final int GATEWAY_KEPT = 400_000;
+    private static final long GATEWAY_BYTES = 128L << 20;
 
-    private Connections(String apiKey) {
-        this.apiKey = apiKey;
-    }
+    private final FleetAccess access;
+    private final UnaryOperator<String> apiKeys;
+    private final int mostOwn;
+    private final Map<String, Way> ways = new HashMap<>();
+    private final Map<String, String> topics = new HashMap<>();
+    private final Map<String, Way> gateways = new HashMap<>();
+    private final Set<Way> all = ConcurrentHashMap.newKeySet();
+    private final Queue<Command> commands = new ConcurrentLinkedQueue<>();
+
+    /** What came over MQTT for a device. */
+    record Command(Way way, String device, byte[] payload) {}
 
     /**
-     * Opens them.
-     *
+     * @param apiKeys of missions, first part of their topics
      * @param mostOwn how many devices have a connection of their own
-     * @param heard is given device and payload of each command
-     * @throws IOException if the broker is away or refuses; nothing is left open then
      */
-    static Connections open(Farm farm, FleetAccess access, int mostOwn, BiConsumer<String, byte[]> heard)
-            throws IOException {
-        Connections connections = new Connections(farm.apiKey());
-        boolean open = false;
-        try {
-            List<Identity> devices = farm.devices().stream()
-                    .filter(device -> !(device instanceof SimulatedDevice.Robot))
-                    .map(SimulatedDevice::identity)
-                    .toList();
-            if (devices.size() <= mostOwn) {
-                for (Identity device : devices) {
-                    connections.line(access, access.logins().device(device), device.id(), List.of(device), heard);
-                }
-            } else {
-                Map<String, List<Identity>> missions = new LinkedHashMap<>();
-                devices.forEach(device -> missions.computeIfAbsent(device.mission(), name -> new ArrayList<>())
-                        .add(device));
-                for (Map.Entry<String, List<Identity>> each : missions.entrySet()) {
-                    connections.line(
-                            access,
-                            access.logins().gateway(each.getKey()),
-                            "gateway-" + each.getKey(),
-                            each.getValue(),
-                            heard);
-                }
+    Connections(FleetAccess access, UnaryOperator<String> apiKeys, int mostOwn) {
+        this.access = access;
+        this.apiKeys = apiKeys;
+        this.mostOwn = mostOwn;
+    }
+
+    /** A connection, or what is to become one, and whose it is. */
+    final class Way {
+        private final Line.Plan plan;
+        private final String mission;
+        private final boolean gateway;
+        private final Set<String> devices = new LinkedHashSet<>();
+        private Line line;
+        private boolean ended;
+
+        private Way(Line.Plan plan, String mission, boolean gateway) {
+            this.plan = plan;
+            this.mission = mission;
+            this.gateway = gateway;
+        }
+
+        /**
+         * Opens it, on any thread.
+         *
+         * @throws IOException if the broker is away or refuses
+         */
+        void open() throws IOException {
+            Line opened = Line.open(access.mqtt(), plan, this::heard);
+            if (!keep(opened)) {
+                opened.close();
             }
-            open = true;
-            return connections;
-        } finally {
-            if (!open) {
-                connections.close();
-            }
+        }
+
+        private void heard(String topic, byte[] payload) {
+            String[] parts = topic.split("/");
+            commands.add(new Command(this, parts[parts.length - 2], payload));
+        }
+
+        private synchronized boolean keep(Line opened) {
+            line = ended ? null : opened;
+            return !ended;
+        }
+
+        /** Whether nobody needs it any more. */
+        synchronized boolean isEnded() {
+            return ended;
+        }
+
+        synchronized boolean isOpen() {
+            return line != null;
+        }
+
+        synchronized Optional<Line> line() {
+            return Optional.ofNullable(line);
+        }
+
+        /** No line of it is kept from now on; answers the one that was. */
+        private synchronized Optional<Line> end() {
+            ended = true;
+            Optional<Line> last = Optional.ofNullable(line);
+            line = null;
+            return last;
+        }
+
+        /** The devices that speak over it. */
+        List<String> devices() {
+            return List.copyOf(devices);
         }
     }
 
-    private void line(
-            FleetAccess access,
-            MqttAccess.Login login,
-            String name,
-            List<Identity> devices,
-            BiConsumer<String, byte[]> heard)
-            throws IOException {
-        Map<String, String> byTopic = new LinkedHashMap<>();
-        devices.forEach(device -> byTopic.put(topic(device.id(), "cmd"), device.id()));
-        Line line = Line.open(
-                access.mqtt(),
-                login,
-                name,
-                byTopic.keySet(),
-                (topic, payload) -> heard.accept(byTopic.get(topic), payload));
-        all.add(line);
-        devices.forEach(device -> lines.put(device.id(), line));
+    /**
+     * Takes devices in, all with connections of their own or all with gateways.
+     *
+     * @return what is to be opened for them
+     */
+    Collection<Way> add(Collection<Identity> devices) {
+        long own = all.stream().filter(way -> !way.gateway).count();
+        boolean many = own + devices.size() > mostOwn;
+        Set<Way> fresh = new LinkedHashSet<>();
+        for (Identity device : devices) {
+            String mission = device.mission();
+            String key = "/" + apiKeys.apply(mission) + "/";
+            Way way = gateways.get(mission);
+            if (way == null && many) {
+                way = new Way(gateway(mission, key), mission, true);
+                gateways.put(mission, way);
+                fresh.add(way);
+            } else if (way == null) {
+                way = new Way(own(device, key), mission, false);
+                fresh.add(way);
+            }
+            way.devices.add(device.id());
+            ways.put(device.id(), way);
+            topics.put(device.id(), key + device.id() + "/");
+        }
+        all.addAll(fresh);
+        return fresh;
     }
 
-    /** @param end {@code attrs} or {@code cmdexe} */
+    private Line.Plan own(Identity device, String key) {
+        MqttAccess.Login login = access.logins().device(device);
+        return new Line.Plan(login, device.id(), List.of(key + device.id() + "/cmd"), OWN_KEPT, OWN_BYTES);
+    }
+
+    private Line.Plan gateway(String mission, String key) {
+        MqttAccess.Login login = access.logins().gateway(mission);
+        return new Line.Plan(login, "gateway-" + mission, List.of(key + "+/cmd"), GATEWAY_KEPT, GATEWAY_BYTES);
+    }
+
+    /** The connection of a device, open or not. */
+    Optional<Way> of(String device) {
+        return Optional.ofNullable(ways.get(device));
+    }
+
+    /** Lets a device go; answers the line that nobody uses any more, which is to be closed. */
+    Optional<Line> remove(String device) {
+        Way way = ways.remove(device);
+        topics.remove(device);
+        if (way == null || !way.devices.remove(device) || !way.devices.isEmpty()) {
+            return Optional.empty();
+        }
+        all.remove(way);
+        gateways.remove(way.mission, way);
+        return way.end();
+    }
+
+    /** The next command for one of the devices; empty where there is none now. */
+    Optional<Command> command() {
+        for (Command next = commands.poll(); next != null; next = commands.poll()) {
+            if (ways.get(next.device()) == next.way()) {
+                return Optional.of(next);
+            }
+        }
+        return Optional.empty();
+    }
+
+    /** Says something for a device that has a connection. @param end {@code attrs} or {@code cmdexe} */
     void send(String device, String end, ObjectNode json) {
-        lines.get(device).send(topic(device, end), json.toString().getBytes(StandardCharsets.UTF_8));
+        byte[] payload = json.toString().getBytes(StandardCharsets.UTF_8);
+        of(device).flatMap(Way::line).ifPresent(line -> line.send(topics.get(device) + end, payload));
     }
 
     /** Sends what waits and opens again what is broken. */
     void push() {
-        all.forEach(Line::push);
+        lines().forEach(Line::push);
     }
 
     int count() {
-        return all.size();
+        return (int) all.stream().filter(Way::isOpen).count();
     }
 
-    long acknowledged() {
-        return all.stream().mapToLong(Line::acknowledged).sum();
+    FarmFleet.Tally tally() {
+        return new FarmFleet.Tally(sum(Line::acknowledged), sum(Line::open), sum(Line::dropped));
     }
 
-    long unacknowledged() {
-        return all.stream().mapToLong(Line::open).sum();
+    private long sum(ToLongFunction<Line> count) {
+        return lines().stream().mapToLong(count).sum();
     }
 
-    long dropped() {
-        return all.stream().mapToLong(Line::dropped).sum();
+    private List<Line> lines() {
+        List<Line> lines = new ArrayList<>();
+        all.forEach(way -> way.line().ifPresent(lines::add));
+        return lines;
     }
 
     @Override
     public void close() {
-        all.parallelStream().forEach(Line::close);
-    }
-
-    private String topic(String device, String end) {
-        return "/" + apiKey + "/" + device + "/" + end;
+        Set<Line> lines = new HashSet<>();
+        all.forEach(way -> way.end().ifPresent(lines::add));
+        lines.parallelStream().filter(Objects::nonNull).forEach(Line::close);
     }
 }

@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.Collection;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -13,49 +14,51 @@ import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.LongAdder;
 import java.util.concurrent.locks.LockSupport;
+import java.util.function.UnaryOperator;
 
-import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.simulators.device.IotAgent;
-import io.furrow.simulators.robot.Command;
 import io.furrow.simulators.scenario.Farm;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 
 /**
- * A farm at work: provisioned, connected and reporting until closed. One thread runs all devices; it never waits for an answer. A
- * measure is of the time at which it was due, though it may be sent a little later.
+ * A farm at work: connected and reporting until closed, its devices all there from the start or coming and going. One thread
+ * runs all devices; it never waits for an answer. A measure is of the time at which it was due, though it may be sent a little
+ * later.
  */
 public final class FarmFleet implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(FarmFleet.class);
-    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final Duration LOOK = Duration.ofMillis(10);
-    private static final Duration ASK = Duration.ofMillis(500);
 
     private final Clock clock;
-    private final Map<String, SimulatedDevice> devices = new HashMap<>();
-    private final Map<String, Robot> robotsByEntity = new HashMap<>();
-    private final Scene scene;
+    private final Scene scene = new Scene();
     private final Timetable timetable = new Timetable();
-    private final Queue<Heard> heard = new ConcurrentLinkedQueue<>();
-    private final RobotLink robots;
+    private final Queue<Runnable> changes = new ConcurrentLinkedQueue<>();
+    private final Connections connections;
+    private final LineOpener opener = new LineOpener();
+    private final LineOpener.Outcome openings = new Openings();
+    private final Map<String, Member> joining = new HashMap<>();
+    private final FleetEvents events;
+    private final Robots robots;
+    private final Commands commands;
     private final LongAdder reports = new LongAdder();
     private final Thread thread = new Thread(this::run, "simulated-farm");
-    private Connections connections;
-    private Instant asked = Instant.MIN;
     private volatile Tally tally = new Tally(0, 0, 0);
     private volatile long steps;
     private volatile boolean draining;
     private volatile boolean closed;
 
-    /** A command that came over MQTT. */
-    private record Heard(String device, byte[] payload) {}
+    /**
+     * A device that joins a fleet.
+     *
+     * @param scope of its entity
+     * @param since when it set out on its way
+     */
+    public record Member(SimulatedDevice device, FiwareScope scope, Instant since) {}
 
     /**
      * What became of the measures at QoS 1.
@@ -66,19 +69,12 @@ public final class FarmFleet implements AutoCloseable {
      */
     public record Tally(long acknowledged, long open, long dropped) {}
 
-    private FarmFleet(Farm farm, FleetAccess access, Clock clock) {
+    private FarmFleet(FleetAccess access, Connections connections, FleetEvents events, Clock clock) {
         this.clock = clock;
-        Instant start = clock.instant();
-        this.scene = new Scene(start);
-        this.robots = new RobotLink(access.fiware());
-        for (SimulatedDevice device : farm.devices()) {
-            devices.put(device.id(), device);
-            scene.add(device, start);
-            timetable.add(device, start);
-            if (device instanceof Robot robot) {
-                robotsByEntity.put(device.identity().entity(), robot);
-            }
-        }
+        this.connections = connections;
+        this.events = events;
+        this.robots = new Robots(access.fiware(), scene, events);
+        this.commands = new Commands(scene, connections, this::send);
         thread.setDaemon(true);
     }
 
@@ -95,11 +91,59 @@ public final class FarmFleet implements AutoCloseable {
 
     /** The same of devices that are provisioned. */
     static FarmFleet start(Farm farm, FleetAccess access, int mostOwn, Clock clock) throws IOException {
-        FarmFleet fleet = new FarmFleet(farm, access, clock);
-        fleet.connections = Connections.open(
-                farm, access, mostOwn, (device, payload) -> fleet.heard.add(new Heard(device, payload)));
+        Connections connections = new Connections(access, mission -> farm.apiKey(), mostOwn);
+        FarmFleet fleet = new FarmFleet(access, connections, FleetEvents.NONE, clock);
+        FiwareScope scope = Robots.scope(access.fiware());
+        Instant start = clock.instant();
+        boolean open = false;
+        try {
+            List<SimulatedDevice> devices = farm.devices();
+            for (Connections.Way way : connections.add(identities(devices))) {
+                way.open();
+            }
+            devices.forEach(device -> fleet.admit(new Member(device, scope, start), start));
+            fleet.thread.start();
+            open = true;
+            return fleet;
+        } finally {
+            if (!open) {
+                fleet.close();
+            }
+        }
+    }
+
+    /**
+     * A fleet whose devices come and go. They are provisioned by somebody else: a refused connection is tried again for as long
+     * as the device is wanted.
+     *
+     * @param apiKeys of missions, first part of the MQTT topics of their devices
+     */
+    public static FarmFleet open(FleetAccess access, UnaryOperator<String> apiKeys, FleetEvents events) {
+        return open(access, new Connections(access, apiKeys, Connections.MOST_OWN), events);
+    }
+
+    static FarmFleet open(FleetAccess access, Connections connections, FleetEvents events) {
+        FarmFleet fleet = new FarmFleet(access, connections, events, Clock.systemUTC());
         fleet.thread.start();
         return fleet;
+    }
+
+    /** Lets devices of one mission join, none of which is there; each reports once it is connected, and from then on. */
+    public void add(Collection<Member> members) {
+        List<Member> joining = List.copyOf(members);
+        changes.add(() -> join(joining));
+    }
+
+    /** Takes a device away; what it has not sent yet is not sent. Nothing happens where it is not there. */
+    public void remove(String device) {
+        changes.add(() -> {
+            joining.remove(device);
+            timetable.remove(device);
+            scene.remove(device);
+            robots.remove(device);
+            commands.remove(device);
+            connections.remove(device).ifPresent(opener::close);
+        });
     }
 
     /** How many reports have been made since the start. */
@@ -146,6 +190,7 @@ public final class FarmFleet implements AutoCloseable {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
+        opener.close();
         connections.close();
     }
 
@@ -167,64 +212,90 @@ public final class FarmFleet implements AutoCloseable {
     }
 
     private void step() {
-        for (Heard order = heard.poll(); order != null; order = heard.poll()) {
-            obey(order, clock.instant());
+        for (Runnable change = changes.poll(); change != null; change = changes.poll()) {
+            change.run();
         }
-        robots.orders().forEach(order -> obey(order, clock.instant()));
         Instant now = clock.instant();
+        commands.obey(now);
+        robots.obey(now);
         for (Optional<Timetable.Due> due = draining ? Optional.empty() : timetable.take(now);
                 due.isPresent() && !closed && !draining;
                 due = timetable.take(now)) {
             scene.report(due.get().device(), due.get().time()).ifPresent(this::send);
         }
         connections.push();
-        tally = new Tally(connections.acknowledged(), connections.unacknowledged(), connections.dropped());
+        tally = connections.tally();
         steps = steps + 1;
-        if (Duration.between(asked, now).compareTo(ASK) >= 0) {
-            asked = now;
-            robots.ask(List.copyOf(robotsByEntity.keySet()));
+        robots.ask(now);
+    }
+
+    private void join(List<Member> members) {
+        Instant now = clock.instant();
+        Collection<Connections.Way> fresh =
+                connections.add(identities(members.stream().map(Member::device).toList()));
+        for (Member member : members) {
+            String id = member.device().id();
+            joining.put(id, member);
+            if (member.device() instanceof Robot) {
+                begin(id, now);
+            } else if (connections.of(id).orElseThrow().isOpen()) {
+                begin(id, now);
+                events.up(id);
+            }
+        }
+        fresh.forEach(way -> opener.open(way, openings));
+    }
+
+    /** Lets a device that has a connection say its first word at once. */
+    private void begin(String id, Instant now) {
+        Member member = joining.remove(id);
+        if (member != null) {
+            admit(member, now);
+            scene.report(member.device(), now).ifPresent(this::send);
+        }
+    }
+
+    private void admit(Member member, Instant now) {
+        SimulatedDevice device = member.device();
+        scene.add(device, member.since(), now);
+        timetable.add(device, now);
+        commands.add(device);
+        if (device instanceof Robot robot) {
+            robots.add(robot, member.scope());
         }
     }
 
     private void send(Report report) {
         reports.increment();
         if (report instanceof Report.Update update) {
-            robots.update(update.entity());
+            robots.send(update);
         } else if (report instanceof Report.Measures measures) {
             connections.send(measures.device(), "attrs", measures.json());
         }
     }
 
-    private void obey(Heard order, Instant now) {
-        SimulatedDevice device = devices.get(order.device());
-        try {
-            JsonNode json = NgsiJson.read(order.payload());
-            ObjectNode results = NODES.objectNode();
-            for (var names = json.fieldNames(); names.hasNext(); ) {
-                String command = names.next();
-                boolean known = Registrations.COMMANDS.contains(command);
-                results.put(command, known ? "ok" : "unknown command");
-                if (known) {
-                    scene.switchTo(device, command.equals("on"), now).ifPresent(this::send);
-                }
-            }
-            connections.send(order.device(), "cmdexe", results);
-        } catch (UnreadableException e) {
-            LOG.warn("{} got a command that is no JSON: {}", order.device(), e.getMessage());
-        }
+    private static List<SimulatedDevice.Identity> identities(Collection<SimulatedDevice> devices) {
+        return devices.stream()
+                .filter(device -> !(device instanceof Robot))
+                .map(SimulatedDevice::identity)
+                .toList();
     }
 
-    private void obey(RobotLink.Order order, Instant now) {
-        Robot robot = robotsByEntity.get(order.entity());
-        Optional<Command> command = Command.of(order.word());
-        if (robot == null) {
-            return;
+    /** What becomes of connections, told on threads of the opener. */
+    private final class Openings implements LineOpener.Outcome {
+        @Override
+        public void opened(Connections.Way way) {
+            changes.add(() -> way.devices().forEach(id -> {
+                if (joining.containsKey(id)) {
+                    begin(id, clock.instant());
+                    events.up(id);
+                }
+            }));
         }
-        command.ifPresent(known -> scene.tell(robot, known, now));
-        // Without the word itself: the context broker refuses some signs in texts.
-        robots.answer(
-                order.entity(),
-                command.isPresent(),
-                command.map(Command::toString).orElse("no such command: use Running, Stop or Resume"));
+
+        @Override
+        public void failed(Connections.Way way, int attempts, String reason) {
+            changes.add(() -> way.devices().forEach(id -> events.failed(id, attempts, reason)));
+        }
     }
 }

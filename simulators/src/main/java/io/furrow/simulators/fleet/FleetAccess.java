@@ -1,5 +1,6 @@
 package io.furrow.simulators.fleet;
 
+import io.furrow.model.device.FarmSecret;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.SimulatedDevice;
@@ -29,6 +30,25 @@ public record FleetAccess(FleetSettings fiware, MqttAccess mqtt, Logins logins) 
                 @Override
                 public MqttAccess.Login gateway(String mission) {
                     return login;
+                }
+            };
+        }
+
+        /** As the control plane provisions them. */
+        static Logins of(FarmSecret secret) {
+            return new Logins() {
+                @Override
+                public MqttAccess.Login device(SimulatedDevice.Identity device) {
+                    return login(secret.device(device.mission(), device.id()));
+                }
+
+                @Override
+                public MqttAccess.Login gateway(String mission) {
+                    return login(secret.gateway(mission));
+                }
+
+                private MqttAccess.Login login(FarmSecret.Login login) {
+                    return new MqttAccess.Login(login.user(), login.password());
                 }
             };
         }

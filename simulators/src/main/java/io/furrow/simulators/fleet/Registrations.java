@@ -12,7 +12,7 @@ import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
 
 /** What the IoT Agent is told of a farm's devices; robots are none of its. */
 final class Registrations {
-    static final List<String> COMMANDS = List.of("on", "off");
+    static final List<String> COMMANDS = List.of("on", "off", "restart");
 
     private Registrations() {}
 
@@ -30,6 +30,7 @@ final class Registrations {
         } else {
             // The context broker refuses the = of base64 in ordinary text.
             attributes.add(new Registration.Attribute("img", "Image", "TextUnrestricted"));
+            ((SimulatedDevice.Camera) device).battery().forEach(quantity -> attributes.add(quantity.attribute()));
         }
         attributes.add(new Registration.Attribute("stat", "Status", "Boolean"));
         attributes.add(new Registration.Attribute("time", "Time", "Integer"));

@@ -3,14 +3,13 @@ package io.furrow.simulators.fleet;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
-import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Queue;
-import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.concurrent.atomic.AtomicBoolean;
+import java.util.concurrent.atomic.AtomicReference;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -38,48 +37,79 @@ final class RobotLink {
 
     private final FleetSettings settings;
     private final FiwareHttp http;
-    private final Set<String> busy = ConcurrentHashMap.newKeySet();
-    /** Whose {@code cmd} has been emptied. */
-    private final Set<String> listening = ConcurrentHashMap.newKeySet();
-
-    private final Map<String, ObjectNode> results = new ConcurrentHashMap<>();
-    private final Map<String, String> last = new HashMap<>();
+    private final FleetEvents events;
+    private final Map<String, Known> robots = new ConcurrentHashMap<>();
     private final Queue<Order> orders = new ConcurrentLinkedQueue<>();
     private final AtomicBoolean asking = new AtomicBoolean();
     private volatile boolean away;
 
-    /** What {@code cmd} of an entity holds. */
-    record Order(String entity, String word) {}
+    /** What {@code cmd} of a robot's entity holds. */
+    record Order(String device, String entity, String word) {}
 
-    RobotLink(FleetSettings settings) {
+    /** What is known of a robot. */
+    private static final class Known {
+        private final String device;
+        private final AtomicBoolean busy = new AtomicBoolean();
+        private final AtomicReference<ObjectNode> result = new AtomicReference<>(NODES.objectNode());
+        /** Whether its {@code cmd} has been emptied. */
+        private volatile boolean listening;
+
+        private volatile int attempts;
+        private String last;
+
+        Known(String device) {
+            this.device = device;
+        }
+    }
+
+    RobotLink(FleetSettings settings, FleetEvents events) {
         this.settings = settings;
         this.http = new FiwareHttp(settings);
+        this.events = events;
+    }
+
+    /** Takes a robot in, whose {@code cmd} is yet to be emptied. */
+    void add(String device, String entity) {
+        robots.put(entity, new Known(device));
+    }
+
+    void remove(String entity) {
+        robots.remove(entity);
     }
 
     /** Writes an entity without waiting for the outcome. */
     void update(Entity entity) {
-        String id = entity.id();
-        if (!busy.add(id)) {
+        Known robot = robots.get(entity.id());
+        if (robot == null || !robot.busy.compareAndSet(false, true)) {
             return;
         }
+        ObjectNode result = robot.result.get();
         ObjectNode more =
-                results.getOrDefault(id, listening.contains(id) ? NODES.objectNode() : attribute("cmd", "String", ""));
+                robot.listening ? result : attribute("cmd", "String", "").setAll(result);
         ObjectNode body = NODES.objectNode().put("actionType", "append");
         body.putArray("entities").add(entity.json().deepCopy().<ObjectNode>setAll(more));
         http.postAsync(settings.contextBroker(), "/v2/op/update", body).whenComplete((answer, failure) -> {
-            if (failure == null && answer.statusCode() / 100 == 2) {
-                listening.add(id);
-                results.remove(id, more);
+            boolean arrived = failure == null && answer.statusCode() / 100 == 2;
+            String reason = arrived ? "" : reason(answer, failure);
+            if (arrived) {
+                robot.result.compareAndSet(result, NODES.objectNode());
+                if (!robot.listening) {
+                    robot.listening = true;
+                    events.up(robot.device);
+                }
+            } else if (!robot.listening) {
+                robot.attempts++;
+                events.failed(robot.device, robot.attempts, reason);
             }
-            busy.remove(id);
-            note(answer, failure);
+            robot.busy.set(false);
+            note(arrived, reason);
         });
     }
 
     /** What became of a command: goes with the robot's next update as {@code cmd_status} and {@code cmd_info}. */
     void answer(String entity, boolean obeyed, String sentence) {
         ObjectNode result = attribute("cmd_status", "commandStatus", obeyed ? "OK" : "ERROR");
-        results.put(entity, result.setAll(attribute("cmd_info", "commandResult", sentence)));
+        robots.get(entity).result.set(result.setAll(attribute("cmd_info", "commandResult", sentence)));
     }
 
     private static ObjectNode attribute(String name, String type, String value) {
@@ -89,8 +119,13 @@ final class RobotLink {
     }
 
     /** Asks for the commands of robots without waiting for the answer; while one question is open it asks no other. */
-    void ask(List<String> robots) {
-        List<String> entities = robots.stream().filter(listening::contains).toList();
+    void ask() {
+        List<String> entities = new ArrayList<>();
+        robots.forEach((entity, robot) -> {
+            if (robot.listening) {
+                entities.add(entity);
+            }
+        });
         if (entities.isEmpty() || !asking.compareAndSet(false, true)) {
             return;
         }
@@ -120,8 +155,9 @@ final class RobotLink {
         try {
             for (JsonNode entity : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8))) {
                 String word = entity.path("cmd").path("value").asText("");
-                if (!word.isBlank()) {
-                    orders.add(new Order(entity.path("id").asText(), word));
+                Known robot = robots.get(entity.path("id").asText());
+                if (!word.isBlank() && robot != null) {
+                    orders.add(new Order(robot.device, entity.path("id").asText(), word));
                 }
             }
         } catch (UnreadableException e) {
@@ -133,18 +169,25 @@ final class RobotLink {
     List<Order> orders() {
         List<Order> fresh = new ArrayList<>();
         for (Order order = orders.poll(); order != null; order = orders.poll()) {
-            if (!order.word().equals(last.put(order.entity(), order.word()))) {
+            Known robot = robots.get(order.entity());
+            if (robot != null && !order.word().equals(robot.last)) {
+                robot.last = order.word();
                 fresh.add(order);
             }
         }
         return fresh;
     }
 
+    private String reason(HttpResponse<String> answer, Throwable failure) {
+        return failure == null
+                ? "the context broker %s answers %d: %s"
+                        .formatted(settings.contextBroker(), answer.statusCode(), answer.body())
+                : "no answer from the context broker %s: is it running?".formatted(settings.contextBroker());
+    }
+
     /** Says once that updates do not arrive, and once that they do again. */
-    private void note(HttpResponse<String> answer, Throwable failure) {
-        boolean arrived = failure == null && answer.statusCode() / 100 == 2;
+    private void note(boolean arrived, String reason) {
         if (!arrived && !away) {
-            String reason = failure == null ? answer.statusCode() + " " + answer.body() : failure.toString();
             LOG.warn("{} does not take what robots report: {}", settings.contextBroker(), reason);
         } else if (arrived && away) {
             LOG.info("{} takes what robots report again", settings.contextBroker());

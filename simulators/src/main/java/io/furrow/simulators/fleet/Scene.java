@@ -38,21 +38,20 @@ final class Scene {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final double NANOS = 1e9;
 
-    private final Instant start;
+    private final Map<String, Instant> starts = new HashMap<>();
     private final Map<String, Robot> robots = new HashMap<>();
     private final Map<String, RobotState> states = new HashMap<>();
     private final Map<String, Position> places = new HashMap<>();
     private final Set<String> off = new HashSet<>();
+    private final Map<String, Instant> restarting = new HashMap<>();
 
-    Scene(Instant start) {
-        this.start = start;
-    }
-
-    /** A device that is new here, switched on; a robot sets out at that time. */
-    void add(SimulatedDevice device, Instant now) {
+    /** A device that is new here, switched on, and has been on its way since a time. */
+    void add(SimulatedDevice device, Instant since, Instant now) {
+        starts.put(device.id(), since);
         if (device instanceof Robot robot) {
             robots.put(robot.id(), robot);
-            keep(robot, RobotState.starting(now, robot.driven()));
+            double driven = Math.max(0, Duration.between(since, now).toNanos() / NANOS);
+            keep(robot, RobotState.starting(now, robot.driven() + driven));
         }
     }
 
@@ -61,18 +60,31 @@ final class Scene {
         states.remove(device);
         places.remove(device);
         off.remove(device);
+        starts.remove(device);
+        restarting.remove(device);
     }
 
-    /** What a device says at a time; nothing where it is off or silent. */
+    /** What a device says at a time; nothing where it is off, restarts or is silent. */
     Optional<Report> report(SimulatedDevice device, Instant now) {
         if (device instanceof Robot robot) {
             RobotState state = advance(robot, now);
-            return off.contains(robot.id()) ? Optional.empty() : Optional.of(update(robot, state));
+            return isDown(robot.id(), now) ? Optional.empty() : Optional.of(update(robot, state));
         }
-        if (off.contains(device.id())) {
+        if (isDown(device.id(), now)) {
             return Optional.empty();
         }
         return device instanceof Sensor sensor ? measures(sensor, now) : picture((Camera) device, now);
+    }
+
+    private boolean isDown(String device, Instant now) {
+        Instant until = restarting.get(device);
+        return off.contains(device) || until != null && now.isBefore(until);
+    }
+
+    /** Lets a device say nothing until a time; then it is switched on. */
+    void restart(String device, Instant until) {
+        off.remove(device);
+        restarting.put(device, until);
     }
 
     /** Switches a device on or off; the last word of one that is switched off says so, or its status would stay true. */
@@ -102,9 +114,10 @@ final class Scene {
         places.put(robot.id(), robot.model().pose(state).place());
     }
 
-    private Way.Pose pose(Place place, Instant now) {
+    private Way.Pose pose(String device, Place place, Instant now) {
         if (place.carrier() == null) {
-            return place.way().at(Math.max(0, Duration.between(start, now).toNanos() / NANOS));
+            return place.way()
+                    .at(Math.max(0, Duration.between(starts.get(device), now).toNanos() / NANOS));
         }
         Robot carrier = robots.get(place.carrier());
         return carrier.model().pose(advance(carrier, now));
@@ -112,16 +125,11 @@ final class Scene {
 
     private Optional<Report> measures(Sensor sensor, Instant now) {
         ObjectNode json = NODES.objectNode();
-        for (SimulatedDevice.Quantity quantity : sensor.quantities()) {
-            OptionalDouble value = quantity.signal().at(now);
-            if (value.isPresent()) {
-                json.put(quantity.attribute().objectId(), value.getAsDouble());
-            }
-        }
+        shown(sensor.quantities(), json, now);
         if (json.isEmpty() || gone(sensor.place())) {
             return Optional.empty();
         }
-        Position place = pose(sensor.place(), now).place();
+        Position place = pose(sensor.id(), sensor.place(), now).place();
         return Optional.of(new Report.Measures(sensor.id(), located(json, place, sensor.place(), now)));
     }
 
@@ -129,7 +137,7 @@ final class Scene {
         if (camera.silent().stream().anyMatch(span -> span.holds(now)) || gone(camera.place())) {
             return Optional.empty();
         }
-        Way.Pose pose = pose(camera.place(), now);
+        Way.Pose pose = pose(camera.id(), camera.place(), now);
         double heading = camera.heading() == null ? pose.heading() : camera.heading();
         List<View.Thing> about = new ArrayList<>();
         places.forEach((robot, place) -> {
@@ -141,7 +149,17 @@ final class Scene {
         View view =
                 new View(camera.id(), now, pose.place(), heading, camera.place().where(), about);
         ObjectNode json = NODES.objectNode().put("img", Base64.getEncoder().encodeToString(FieldPicture.png(view)));
+        shown(camera.battery(), json, now);
         return Optional.of(new Report.Measures(camera.id(), located(json, pose.place(), camera.place(), now)));
+    }
+
+    private static void shown(List<SimulatedDevice.Quantity> quantities, ObjectNode json, Instant now) {
+        for (SimulatedDevice.Quantity quantity : quantities) {
+            OptionalDouble value = quantity.signal().at(now);
+            if (value.isPresent()) {
+                json.put(quantity.attribute().objectId(), value.getAsDouble());
+            }
+        }
     }
 
     /** Whether the robot that carries it is no longer there. */

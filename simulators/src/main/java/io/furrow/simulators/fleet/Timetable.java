@@ -5,7 +5,7 @@ import java.time.Instant;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.Optional;
-import java.util.PriorityQueue;
+import java.util.TreeSet;
 
 import io.furrow.simulators.scenario.SimulatedDevice;
 
@@ -19,7 +19,7 @@ final class Timetable {
     /** The golden ratio's part after the point: multiples of it are spread evenly, however many there are. */
     private static final double SPREAD = 0.6180339887498949;
 
-    private final PriorityQueue<Due> queue = new PriorityQueue<>();
+    private final TreeSet<Due> queue = new TreeSet<>();
     private final Map<String, Due> next = new HashMap<>();
     private long added;
 
@@ -49,15 +49,15 @@ final class Timetable {
 
     /** When the next report is due; empty where there is no device. */
     Optional<Instant> next() {
-        return Optional.ofNullable(queue.peek()).map(Due::time);
+        return queue.isEmpty() ? Optional.empty() : Optional.of(queue.first().time());
     }
 
     /** Takes the next report that is due by a time. */
     Optional<Due> take(Instant now) {
-        if (queue.isEmpty() || queue.peek().time().isAfter(now)) {
+        if (queue.isEmpty() || queue.first().time().isAfter(now)) {
             return Optional.empty();
         }
-        Due due = queue.poll();
+        Due due = queue.pollFirst();
         Duration period = due.device().period();
         Instant following = due.time().plus(period);
         Duration behind = Duration.between(following, now);

@@ -33,7 +33,6 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Line.class);
     private static final int CONNECT_SECONDS = 10;
     private static final int INFLIGHT = 1000;
-    private static final int KEPT = 20_000;
     private static final int COMMAND_QOS = 1;
     private static final int TOPICS_PER_SUBSCRIPTION = 100;
     private static final long CLOSE_MS = 100;
@@ -42,16 +41,30 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
     private final MqttAccess access;
     private final MqttAccess.Login login;
     private final MqttAsyncClient client;
-    private final Outbox outbox = new Outbox(KEPT);
+    private final Outbox outbox;
     private final Queue<Long> acknowledgements = new ConcurrentLinkedQueue<>();
     private final BiConsumer<String, byte[]> heard;
-    private volatile String[] topics = {};
+    private final String[] topics;
     private volatile boolean closed;
     private long lastAttempt = System.nanoTime();
 
-    private Line(MqttAccess access, MqttAccess.Login login, MqttAsyncClient client, BiConsumer<String, byte[]> heard) {
+    /**
+     * What a line is for.
+     *
+     * @param login as whom to connect
+     * @param name start of the client id; its end is random, so that two fleets do not evict each other
+     * @param topics to listen to, again after each break
+     * @param keptMessages how many may wait for the broker, at QoS 1
+     * @param keptBytes of the memory that they may take, about
+     */
+    public record Plan(
+            MqttAccess.Login login, String name, Collection<String> topics, int keptMessages, long keptBytes) {}
+
+    private Line(MqttAccess access, Plan plan, MqttAsyncClient client, BiConsumer<String, byte[]> heard) {
         this.access = access;
-        this.login = login;
+        this.login = plan.login();
+        this.outbox = new Outbox(plan.keptMessages(), plan.keptBytes());
+        this.topics = plan.topics().toArray(String[]::new);
         this.client = client;
         this.heard = heard;
     }
@@ -59,31 +72,22 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
     /**
      * Connects.
      *
-     * @param name start of the client id; its end is random, so that two fleets do not evict each other
-     * @param topics to listen to, again after each break
      * @param heard is given topic and payload of what comes, on a thread of the client
      * @throws IOException naming broker and user, if the broker is away or refuses
      */
-    public static Line open(
-            MqttAccess access,
-            MqttAccess.Login login,
-            String name,
-            Collection<String> topics,
-            BiConsumer<String, byte[]> heard)
-            throws IOException {
-        String id = name + "-" + UUID.randomUUID().toString().substring(0, 8);
+    public static Line open(MqttAccess access, Plan plan, BiConsumer<String, byte[]> heard) throws IOException {
+        String id = plan.name() + "-" + UUID.randomUUID().toString().substring(0, 8);
         boolean open = false;
         Line line = null;
         try {
             MqttAsyncClient client = new MqttAsyncClient(access.broker().toString(), id, new MemoryPersistence());
-            line = new Line(access, login, client, heard);
-            line.topics = topics.toArray(String[]::new);
+            line = new Line(access, plan, client, heard);
             client.setCallback(line);
             client.connect(line.options()).waitForCompletion();
             open = true;
             return line;
         } catch (MqttException e) {
-            throw new IOException(refusal(access, login, e), e);
+            throw new IOException(refusal(access, plan.login(), e), e);
         } finally {
             if (!open && line != null) {
                 line.close();
@@ -131,7 +135,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
         return outbox.open();
     }
 
-    /** Messages that were given up because more than {@value #KEPT} waited. */
+    /** Messages that were given up because too many waited. */
     public long dropped() {
         return outbox.dropped();
     }

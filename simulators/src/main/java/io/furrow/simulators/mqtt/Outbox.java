@@ -6,27 +6,42 @@ import java.util.TreeMap;
 
 /**
  * Messages until the broker has acknowledged them: waiting to be sent, in order, or under way. What was under way when the
- * connection broke waits again, before what is newer. When too many wait the oldest is dropped and counted.
+ * connection broke waits again, before what is newer. When too many wait, or what waits is too large, the oldest are dropped and
+ * counted.
  */
 final class Outbox {
+    private static final int BYTES_BESIDES = 250;
+
     private final int most;
+    private final long mostBytes;
     private final TreeMap<Long, Message> waiting = new TreeMap<>();
     private final Map<Long, Message> underWay = new HashMap<>();
     private long number;
     private long acknowledged;
     private long dropped;
+    private long bytes;
 
-    record Message(String topic, byte[] payload) {}
+    record Message(String topic, byte[] payload) {
+        /** What it takes of the memory, about. */
+        long bytes() {
+            return payload.length + topic.length() + BYTES_BESIDES;
+        }
+    }
 
-    /** @param most messages that may wait */
-    Outbox(int most) {
+    /**
+     * @param most messages that may wait
+     * @param mostBytes that they may take while waiting or under way, about
+     */
+    Outbox(int most, long mostBytes) {
         this.most = most;
+        this.mostBytes = mostBytes;
     }
 
     void add(Message message) {
         waiting.put(number++, message);
-        if (waiting.size() > most) {
-            waiting.pollFirstEntry();
+        bytes += message.bytes();
+        while (waiting.size() > most || bytes > mostBytes && waiting.size() > 1) {
+            bytes -= waiting.pollFirstEntry().getValue().bytes();
             dropped++;
         }
     }
@@ -42,8 +57,13 @@ final class Outbox {
 
     /** The acknowledgement may come late, when the message waits again. */
     void acknowledged(long sent) {
-        if (underWay.remove(sent) != null || waiting.remove(sent) != null) {
+        Message message = underWay.remove(sent);
+        if (message == null) {
+            message = waiting.remove(sent);
+        }
+        if (message != null) {
             acknowledged++;
+            bytes -= message.bytes();
         }
     }
 

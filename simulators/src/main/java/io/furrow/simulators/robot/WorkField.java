@@ -1,9 +1,12 @@
 package io.furrow.simulators.robot;
 
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.locationtech.jts.geom.Coordinate;
 import org.locationtech.jts.geom.GeometryFactory;
 import org.locationtech.jts.geom.LinearRing;
@@ -59,6 +62,25 @@ public record WorkField(String id, LocalPlane plane, Polygon area) {
                             validity.getValidationError().getMessage()));
         }
         return new WorkField(id, plane, area);
+    }
+
+    /**
+     * A field from the geometry of a Polygon or MultiPolygon; of the latter the largest part.
+     *
+     * @throws IllegalArgumentException as {@link #of}
+     */
+    public static WorkField largestOf(String id, JsonNode geometry) {
+        boolean many = geometry.path("type").asText().equals("MultiPolygon");
+        List<WorkField> parts = new ArrayList<>();
+        for (JsonNode part : many ? geometry.path("coordinates") : List.of(geometry.path("coordinates"))) {
+            ObjectNode feature = JsonNodeFactory.instance.objectNode();
+            feature.put("type", "Feature").put("id", id);
+            feature.putObject("geometry").put("type", "Polygon").set("coordinates", part);
+            parts.add(of(feature));
+        }
+        return parts.stream()
+                .max(Comparator.comparingDouble(part -> part.area().getArea()))
+                .orElseThrow(() -> new IllegalArgumentException("field '%s' has no part".formatted(id)));
     }
 
     /** Whether a place in metres is inside or on the edge. */

@@ -115,7 +115,8 @@ final class FarmReader {
                     camera.period(),
                     found(camera.place(), device, group),
                     camera.heading(),
-                    camera.silent());
+                    camera.silent(),
+                    camera.battery());
         }
         return device;
     }

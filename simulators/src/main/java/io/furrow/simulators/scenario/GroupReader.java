@@ -3,6 +3,7 @@ package io.furrow.simulators.scenario;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.OptionalDouble;
 
 import io.furrow.simulators.device.Registration;
 import io.furrow.simulators.robot.Interruptions;
@@ -11,6 +12,7 @@ import io.furrow.simulators.robot.Way;
 import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 import io.furrow.simulators.scenario.SimulatedDevice.Place;
 import io.furrow.simulators.scenario.SimulatedDevice.Quantity;
+import io.furrow.simulators.signal.Curves;
 import io.furrow.simulators.signal.Draw;
 import io.furrow.simulators.signal.Signal;
 import io.furrow.simulators.signal.Span;
@@ -21,6 +23,8 @@ final class GroupReader {
     private static final long MOST_DEVICES = 100_000;
     private static final double COLDEST = -60;
     private static final double HOTTEST = 60;
+    private static final double MOST = 1e9;
+    private static final Duration WANDERS = Duration.ofMinutes(10);
 
     private final PlaceReader places;
     private final FaultReader faults;
@@ -47,6 +51,13 @@ final class GroupReader {
         return devices;
     }
 
+    /** The one device that an entry is about which does not say itself whose it is. */
+    SimulatedDevice single(Members entry, Identity identity, long number) throws UnusableScenarioException {
+        SimulatedDevice device = device(entry, identity, number);
+        entry.end();
+        return device;
+    }
+
     private SimulatedDevice device(Members group, Identity identity, long number) throws UnusableScenarioException {
         Duration period = group.duration("period");
         if (period.isZero()) {
@@ -58,21 +69,46 @@ final class GroupReader {
             case "WeatherStation" -> sensor(group, identity, number, station(weather(group, own)));
             case "Camera" -> camera(group, identity, number);
             case "Robot" -> robot(group, identity, period, own);
-            default ->
-                throw group.refused(
-                        "type",
-                        "'%s' is no type of device; use Thermometer, WeatherStation, Camera or Robot"
-                                .formatted(identity.type()));
+            default -> other(group, identity, number, own);
         };
+    }
+
+    /** A type of the farm's own: it says what it measures. */
+    private SimulatedDevice other(Members group, Identity identity, long number, long own)
+            throws UnusableScenarioException {
+        if (!group.has("attributes")) {
+            throw group.refused(
+                    "type",
+                    "'%s' is no type of device; use Thermometer, WeatherStation, Camera or Robot"
+                            .formatted(identity.type()));
+        }
+        List<Quantity> quantities = new ArrayList<>();
+        for (Members attribute : group.objects("attributes")) {
+            String name = attribute.text("name");
+            double low = attribute.number("low", -MOST, MOST, 0);
+            double high = attribute.number("high", low, MOST, low + 100);
+            Signal middle = time -> OptionalDouble.of((low + high) / 2);
+            Signal signal = middle.plus(Curves.wandering((high - low) / 2, WANDERS, Draw.seed(own, name)));
+            String type = attribute.text("type", "Float");
+            quantities.add(new Quantity(
+                    new Registration.Attribute(attribute.text("object_id", name), name, type), signal.rounded(2)));
+            attribute.end();
+        }
+        if (quantities.isEmpty()) {
+            throw group.refused("attributes", "must name at least one attribute");
+        }
+        return sensor(group, identity, number, quantities);
     }
 
     private SimulatedDevice sensor(Members group, Identity identity, long number, List<Quantity> sound)
             throws UnusableScenarioException {
         long own = Draw.seed(seed, identity.mission() + "/" + identity.id());
+        List<Quantity> all = new ArrayList<>(sound);
+        all.addAll(battery(group, own));
         List<String> names =
-                sound.stream().map(quantity -> quantity.attribute().name()).toList();
+                all.stream().map(quantity -> quantity.attribute().name()).toList();
         List<FaultReader.Wrong> wrongs = faults.faults(group, number, own, names);
-        List<Quantity> shown = sound.stream()
+        List<Quantity> shown = all.stream()
                 .map(quantity -> new Quantity(quantity.attribute(), faulty(quantity, wrongs)))
                 .toList();
         return new SimulatedDevice.Sensor(identity, group.duration("period"), place(group, number, own), shown);
@@ -85,7 +121,17 @@ final class GroupReader {
                 .map(wrong -> wrong.fault().during())
                 .toList();
         return new SimulatedDevice.Camera(
-                identity, group.duration("period"), place(group, number, own), heading, silent);
+                identity, group.duration("period"), place(group, number, own), heading, silent, battery(group, own));
+    }
+
+    /** The charge of its battery, where it says how long one lasts. */
+    private static List<Quantity> battery(Members group, long own) throws UnusableScenarioException {
+        if (!group.has("battery")) {
+            return List.of();
+        }
+        Duration life = atLeastAMillisecond(group, "battery");
+        return List.of(quantity(
+                "bat", "battery", Curves.charge(life, Draw.seed(own, "battery")).rounded(3)));
     }
 
     private SimulatedDevice robot(Members group, Identity identity, Duration period, long own)

@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.Collectors;
 
 import org.locationtech.jts.geom.Coordinate;
 import org.locationtech.jts.geom.Envelope;
@@ -17,6 +18,7 @@ import io.furrow.simulators.signal.Draw;
 final class PlaceReader {
     private static final double MOST_SPEED = 50;
     private static final int TRIES = 10_000;
+    private static final int MOST_NAMED = 20;
 
     private final Map<String, WorkField> fields;
 
@@ -110,8 +112,10 @@ final class PlaceReader {
         if (field == null) {
             throw device.refused(
                     name,
-                    "there is no field '%s' in this file; there are: %s"
-                            .formatted(device.text(name), String.join(", ", fields.keySet())));
+                    "there is no field '%s'; there are: %s"
+                            .formatted(
+                                    device.text(name),
+                                    fields.keySet().stream().limit(MOST_NAMED).collect(Collectors.joining(", "))));
         }
         return field;
     }

@@ -48,8 +48,10 @@ public sealed interface SimulatedDevice {
      *
      * @param heading where it looks, degrees clockwise from north; null for where its carrier, or its way, goes
      * @param silent when it takes no pictures
+     * @param battery what else it tells, the charge of its battery; empty where it tells none
      */
-    record Camera(Identity identity, Duration period, Place place, Double heading, List<Span> silent)
+    record Camera(
+            Identity identity, Duration period, Place place, Double heading, List<Span> silent, List<Quantity> battery)
             implements SimulatedDevice {}
 
     /**

@@ -6,7 +6,8 @@ import java.io.IOException;
 public final class UnusableScenarioException extends IOException {
     private static final long serialVersionUID = 1L;
 
-    UnusableScenarioException(String where, String sentence) {
+    /** @param where the member that is wrong */
+    public UnusableScenarioException(String where, String sentence) {
         super(where + ": " + sentence);
     }
 }

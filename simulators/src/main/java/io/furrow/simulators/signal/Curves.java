@@ -8,6 +8,7 @@ import java.util.OptionalDouble;
 /** The forms that what sensors measure is put together from. */
 public final class Curves {
     private static final int WARMEST_HOUR = 15;
+    private static final double LEAST_CHARGE = 0.2;
 
     private Curves() {}
 
@@ -38,6 +39,15 @@ public final class Curves {
             double after = 2 * Draw.of(seed, number + 1).nextDouble() - 1;
             double weight = (1 - Math.cos(Math.PI * share)) / 2;
             return OptionalDouble.of(width * (before + weight * (after - before)));
+        };
+    }
+
+    /** The charge of a battery, 1 to 0.2, that falls evenly and is changed after {@code life}; another phase for each seed. */
+    public static Signal charge(Duration life, long seed) {
+        double phase = Draw.of(seed, 0).nextDouble();
+        return time -> {
+            double lives = time.toEpochMilli() / (double) life.toMillis() + phase;
+            return OptionalDouble.of(1 - (1 - LEAST_CHARGE) * (lives - Math.floor(lives)));
         };
     }
 

@@ -124,8 +124,8 @@ class SceneTest {
     }
 
     private Scene scene() {
-        Scene made = new Scene(START);
-        farm.devices().forEach(device -> made.add(device, START));
+        Scene made = new Scene();
+        farm.devices().forEach(device -> made.add(device, START, START));
         return made;
     }
 

@@ -13,12 +13,14 @@ import org.junit.jupiter.params.provider.ValueSource;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class OutboxTest {
+    private static final long MUCH = 1_000_000;
+
     /** A connection that breaks at any time, before and after the broker got what was sent; the last one holds. */
     @ParameterizedTest
     @ValueSource(longs = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10})
     void bringsEveryMessageInOrderHoweverOftenTheConnectionBreaks(long seed) {
         SplittableRandom random = new SplittableRandom(seed);
-        Outbox outbox = new Outbox(1000);
+        Outbox outbox = new Outbox(1000, MUCH);
         List<Integer> arrived = new ArrayList<>();
         List<Long> onTheirWayBack = new ArrayList<>();
         int added = 0;
@@ -54,7 +56,7 @@ class OutboxTest {
 
     @Test
     void dropsTheOldestWhenTooManyWait() {
-        Outbox outbox = new Outbox(3);
+        Outbox outbox = new Outbox(3, MUCH);
         for (int i = 0; i < 5; i++) {
             outbox.add(message(i));
         }
@@ -66,7 +68,7 @@ class OutboxTest {
 
     @Test
     void countsAnAcknowledgementOnce() {
-        Outbox outbox = new Outbox(3);
+        Outbox outbox = new Outbox(3, MUCH);
         outbox.add(message(0));
         outbox.sent(0);
         outbox.broken();

@@ -1,0 +1,88 @@
+package io.furrow.simulators.fleet;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Optional;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.robot.Command;
+import io.furrow.simulators.scenario.SimulatedDevice.Robot;
+
+/** The robots of a fleet: to which context broker's tenant each reports, and what they are told there. */
+final class Robots {
+    private static final Duration ASK = Duration.ofMillis(500);
+
+    private final FleetSettings settings;
+    private final Scene scene;
+    private final FleetEvents events;
+    private final Map<FiwareScope, RobotLink> links = new HashMap<>();
+    private final Map<String, Robot> robots = new HashMap<>();
+    private final Map<String, RobotLink> linkOf = new HashMap<>();
+    private Instant asked = Instant.MIN;
+
+    Robots(FleetSettings settings, Scene scene, FleetEvents events) {
+        this.settings = settings;
+        this.scene = scene;
+        this.events = events;
+    }
+
+    /** That of the settings. */
+    static FiwareScope scope(FleetSettings settings) {
+        return FiwareScope.of(settings.fiwareService(), settings.servicePath());
+    }
+
+    void add(Robot robot, FiwareScope scope) {
+        RobotLink link = links.computeIfAbsent(scope, this::link);
+        link.add(robot.id(), robot.identity().entity());
+        robots.put(robot.id(), robot);
+        linkOf.put(robot.id(), link);
+    }
+
+    private RobotLink link(FiwareScope scope) {
+        return new RobotLink(
+                new FleetSettings(
+                        settings.contextBroker(), null, null, null, null, scope.service(), scope.servicePath()),
+                events);
+    }
+
+    void remove(String device) {
+        Robot robot = robots.remove(device);
+        if (robot != null) {
+            linkOf.remove(device).remove(robot.identity().entity());
+        }
+    }
+
+    void send(Report.Update update) {
+        RobotLink link = linkOf.get(update.device());
+        if (link != null) {
+            link.update(update.entity());
+        }
+    }
+
+    /** Lets robots do what they were told since the last time. */
+    void obey(Instant now) {
+        links.values().forEach(link -> link.orders().forEach(order -> obey(link, order, now)));
+    }
+
+    private void obey(RobotLink link, RobotLink.Order order, Instant now) {
+        Robot robot = robots.get(order.device());
+        Optional<Command> command = Command.of(order.word());
+        command.ifPresent(known -> scene.tell(robot, known, now));
+        // Without the word itself: the context broker refuses some signs in texts.
+        link.answer(
+                order.entity(),
+                command.isPresent(),
+                command.map(Command::toString).orElse("no such command: use Running, Stop or Resume"));
+    }
+
+    /** Asks for commands, twice a second. */
+    void ask(Instant now) {
+        if (Duration.between(asked, now).compareTo(ASK) >= 0) {
+            asked = now;
+            links.values().forEach(RobotLink::ask);
+        }
+    }
+}

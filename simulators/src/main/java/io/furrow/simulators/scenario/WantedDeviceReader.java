@@ -1,0 +1,159 @@
+package io.furrow.simulators.scenario;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Map;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.device.WantedDevice;
+import io.furrow.simulators.robot.WorkField;
+import io.furrow.simulators.scenario.SimulatedDevice.Identity;
+
+/**
+ * Makes a simulated device of a wanted one: {@code area}, {@code path}, {@code speed}, {@code faults} of its settings, and what a
+ * scenario file says of a device besides as {@code parameters}. The same record and seed always make the same device.
+ */
+public final class WantedDeviceReader {
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+    private static final Duration PERIOD = Duration.ofSeconds(5);
+    private static final Map<String, Duration> PERIODS =
+            Map.of("Robot", Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
+    private static final String ROBOT = "Robot";
+    private static final List<String> NO_PARAMETERS = List.of(
+            "type", "id", "entity", "count", "period", "area", "at", "route", "path", "speed", "faults", "carriedBy");
+    private static final Pattern NUMBERED = Pattern.compile(".*-(\\d{1,9})");
+
+    private final PlaceReader places;
+    private final long seed;
+
+    /** @param fields by id */
+    public WantedDeviceReader(Map<String, WorkField> fields, long seed) {
+        this.places = new PlaceReader(fields);
+        this.seed = seed;
+    }
+
+    /**
+     * The device. Times of its faults and its way count from when it is wanted.
+     *
+     * @throws UnusableScenarioException naming the setting, what is wrong with it and what to do
+     */
+    public SimulatedDevice read(WantedDevice wanted) throws UnusableScenarioException {
+        Identity identity = new Identity(
+                wanted.device(),
+                wanted.version().id(),
+                wanted.type(),
+                wanted.version().domain(),
+                wanted.version().mission());
+        ObjectNode entry = parameters(wanted.settings());
+        Duration period = wanted.period() == null ? PERIODS.getOrDefault(wanted.type(), PERIOD) : wanted.period();
+        entry.put("period", period.toString());
+        if (wanted.settings().has("faults")) {
+            entry.set("faults", wanted.settings().get("faults"));
+        }
+        PlaceReader where = place(wanted, entry);
+        FaultReader faults =
+                new FaultReader(Instant.ofEpochMilli(wanted.version().from()));
+        return new GroupReader(where, faults, seed).single(Members.of(entry, ""), identity, number(identity.entity()));
+    }
+
+    private static ObjectNode parameters(ObjectNode settings) throws UnusableScenarioException {
+        ObjectNode entry = NODES.objectNode();
+        if (settings.get("parameters") instanceof ObjectNode parameters) {
+            for (String name : NO_PARAMETERS) {
+                if (parameters.has(name)) {
+                    throw new UnusableScenarioException(
+                            "parameters." + name, "is no parameter; say it of the device itself");
+                }
+            }
+            entry.setAll(parameters.deepCopy());
+        }
+        return entry;
+    }
+
+    /** Puts where the device is into its entry, and answers who knows the fields that are named there. */
+    private PlaceReader place(WantedDevice wanted, ObjectNode entry) throws UnusableScenarioException {
+        ObjectNode settings = wanted.settings();
+        String carrier = wanted.version().carriedBy();
+        boolean robot = wanted.type().equals(ROBOT);
+        if (robot && carrier != null) {
+            throw new UnusableScenarioException("carriedBy", "a robot goes by itself; leave it out");
+        }
+        if (carrier != null) {
+            entry.put("carriedBy", deviceOf(carrier));
+            return places;
+        }
+        if (settings.has("path")) {
+            entry.set("route", route(settings.get("path")));
+            if (settings.has("speed")) {
+                entry.set("speed", settings.get("speed"));
+            }
+            return places;
+        }
+        if (!settings.has("area")) {
+            throw new UnusableScenarioException(
+                    "area",
+                    robot
+                            ? "is missing; a robot needs an area, which it works row by row, or a path"
+                            : "is missing; say where it is with one of area, path or carriedBy");
+        }
+        return area(settings, entry, robot);
+    }
+
+    private PlaceReader area(ObjectNode settings, ObjectNode entry, boolean robot) throws UnusableScenarioException {
+        JsonNode area = settings.get("area");
+        String field = area.isObject() ? "area" : area.asText();
+        if (robot) {
+            if (!entry.path("rows").isObject()) {
+                entry.putObject("rows");
+            }
+            ((ObjectNode) entry.get("rows")).put("field", field);
+            if (settings.has("speed")) {
+                entry.set("speed", settings.get("speed"));
+            }
+        } else {
+            entry.put("area", field);
+        }
+        return area.isObject() ? new PlaceReader(Map.of(field, drawn((ObjectNode) area))) : places;
+    }
+
+    private static WorkField drawn(ObjectNode area) throws UnusableScenarioException {
+        try {
+            return WorkField.largestOf("area", area);
+        } catch (IllegalArgumentException e) {
+            UnusableScenarioException refused = new UnusableScenarioException("area", e.getMessage());
+            refused.initCause(e);
+            throw refused;
+        }
+    }
+
+    private static ArrayNode route(JsonNode path) throws UnusableScenarioException {
+        if (path.isEmpty()) {
+            throw new UnusableScenarioException("path", "has no point; give at least one [longitude, latitude]");
+        }
+        ArrayNode route = NODES.arrayNode();
+        for (JsonNode point : path) {
+            ObjectNode place = route.addObject();
+            place.set("longitude", point.path(0));
+            place.set("latitude", point.path(1));
+        }
+        return route;
+    }
+
+    /** The id that the control plane gives the device of an entity. */
+    private static String deviceOf(String entity) {
+        return entity.replace("+", "%2B");
+    }
+
+    /** Which of its type on its mission it is, which is how ids end. */
+    private static long number(String entity) {
+        Matcher numbered = NUMBERED.matcher(entity);
+        return numbered.matches() ? Long.parseLong(numbered.group(1)) : 1;
+    }
+}

@@ -1,0 +1,191 @@
+package io.furrow.simulators.host;
+
+import java.nio.file.Path;
+import java.util.List;
+
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.model.topic.Topics;
+import io.furrow.simulators.device.Listener;
+
+import static io.furrow.simulators.host.HostBench.entity;
+import static io.furrow.simulators.host.HostBench.topic;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** A host against a real Kafka and MQTT broker; each test has a mission of its own. */
+class DeviceHostIT {
+    private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
+
+    @TempDir
+    private static Path directory;
+
+    private static HostBench bench;
+    private DeviceHost host;
+    private Listener listener;
+
+    @BeforeAll
+    static void startBench() throws Exception {
+        bench = new HostBench(directory);
+    }
+
+    @AfterAll
+    static void stopBench() {
+        bench.close();
+    }
+
+    @BeforeEach
+    void start() throws Exception {
+        listener = bench.listener();
+        host = DeviceHost.start(bench.settings());
+    }
+
+    @AfterEach
+    void stop() {
+        host.close();
+        listener.close();
+    }
+
+    @Test
+    void runsWhatIsWantedFromWhenTheBrokerKnowsIt() throws Exception {
+        String device = entity("Thermometer", "late", 1);
+        long sequence = bench.want("late", device, true, YARD);
+        await().untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
+            assertThat(status.state()).isEqualTo(State.FAILED);
+            assertThat(status.reason()).contains("refuses user 'late.urn%3Angsi-ld%3AThermometer%3Alate-1'");
+        }));
+
+        bench.admit("late", device);
+
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() ->
+                assertThat(listener.heard(topic("late", device, "attrs"))).hasSizeGreaterThan(3));
+    }
+
+    @Test
+    void stopsWhatIsNoLongerWantedAndForgetsWhatIsDeleted() throws Exception {
+        String stopped = run("end", 1);
+        String deleted = run("end", 2);
+        String goesOn = run("end", 3);
+
+        long sequence = bench.want("end", stopped, false, YARD);
+        bench.delete(deleted);
+
+        await().untilAsserted(() ->
+                assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
+        await().untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
+        await().until(() -> host.fleet().connections() == 1);
+        int before = heard("end", stopped) + heard("end", deleted);
+        int other = heard("end", goesOn);
+        await().until(() -> heard("end", goesOn) > other + 10);
+        assertThat(heard("end", stopped) + heard("end", deleted)).isEqualTo(before);
+        bench.delete(goesOn);
+    }
+
+    @Test
+    void goesOnAfterARestartAndTakesBackWhatIsGone() throws Exception {
+        String device = run("again", 1);
+        String gone = run("again", 2);
+        host.close();
+        bench.delete(gone);
+        long sequence = bench.want("again", device, true, "{\"path\": [[-3.5, 40.31]]}");
+
+        host = DeviceHost.start(bench.settings());
+
+        await().untilAsserted(() ->
+                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
+        await().until(() -> listener.heard(topic("again", device, "attrs")).stream()
+                .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
+        bench.delete(device);
+    }
+
+    @Test
+    void saysWhichSettingIsWrongAndTriesAgainWhenTheFieldComes() throws Exception {
+        String device = entity("Thermometer", "field", 1);
+        bench.admit("field", device);
+        bench.want("field", device, true, "{\"area\": \"orchard\"}");
+        await().untilAsserted(() -> assertThat(bench.status(device))
+                .hasValueSatisfying(
+                        status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
+
+        bench.put(Topics.FIELDS, "orchard@2020-01-01T00:00:00.000Z", """
+                {"type": "Feature", "id": "orchard", "properties": {"validFrom": "2020-01-01T00:00:00Z"}, "geometry": {"type": "Polygon",
+                 "coordinates": [[[-3.5, 40.3], [-3.49, 40.3], [-3.49, 40.31], [-3.5, 40.3]]]}}
+                """);
+
+        await().untilAsserted(() ->
+                assertThat(bench.status(device).map(DeviceStatus::state)).contains(State.RUNNING));
+        bench.delete(device);
+    }
+
+    @Test
+    void carriesADeviceOnARobotThatComesLater() throws Exception {
+        String robot = entity("Robot", "carry", 1);
+        String camera = entity("Camera", "carry", 1);
+        bench.admit("carry", camera);
+        bench.want(
+                "carry",
+                camera,
+                true,
+                "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
+        await().untilAsserted(
+                        () -> assertThat(bench.status(camera).orElseThrow().reason())
+                                .isEqualTo("carriedBy: '" + robot + "' is no robot that runs here"));
+
+        bench.want("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
+
+        await().untilAsserted(() -> {
+            assertThat(bench.status(robot).map(DeviceStatus::state)).contains(State.RUNNING);
+            assertThat(bench.status(camera).map(DeviceStatus::state)).contains(State.RUNNING);
+            assertThat(listener.heard(topic("carry", camera, "attrs"))).last().satisfies(json -> {
+                assertThat(json.path("lat").doubleValue()).isGreaterThan(40.31);
+                assertThat(json.path("bat").doubleValue()).isBetween(0.2, 1d);
+            });
+        });
+        bench.delete(camera);
+        bench.delete(robot);
+    }
+
+    @Test
+    void restartsADeviceAndSaysWhenItIsBack() throws Exception {
+        String device = run("restart", 1);
+        listener.say(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
+
+        await().untilAsserted(() -> assertThat(listener.heard(topic("restart", device, "cmdexe")))
+                .singleElement()
+                .hasToString("{\"restart\":\"ok\"}"));
+        List<Long> times = listener.heard(topic("restart", device, "attrs")).stream()
+                .map(json -> json.path("time").longValue())
+                .toList();
+        long longest = 0;
+        for (int i = 1; i < times.size(); i++) {
+            longest = Math.max(longest, times.get(i) - times.get(i - 1));
+        }
+        assertThat(longest).as("ms without a measure, by the device's clock").isGreaterThanOrEqualTo(1900);
+        bench.delete(device);
+    }
+
+    private String run(String mission, int number) throws Exception {
+        String device = entity("Thermometer", mission, number);
+        bench.admit(mission, device);
+        long sequence = bench.want(mission, device, true, YARD);
+        await().untilAsserted(() -> {
+            assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null));
+            assertThat(heard(mission, device)).isPositive();
+        });
+        return device;
+    }
+
+    private int heard(String mission, String device) {
+        return listener.heard(topic(mission, device, "attrs")).size();
+    }
+}
