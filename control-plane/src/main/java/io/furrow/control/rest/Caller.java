@@ -1,0 +1,33 @@
+package io.furrow.control.rest;
+
+import java.util.UUID;
+import java.util.regex.Pattern;
+
+import jakarta.ws.rs.container.ContainerRequestContext;
+
+/**
+ * Who asks, and under which id.
+ *
+ * @param user for the audit
+ * @param requestId of the header {@value #KEY}, else a new one
+ */
+record Caller(String user, String requestId) {
+    static final String KEY = "Idempotency-Key";
+    /** As user, where no token is asked for. */
+    static final String ANYBODY = "rest";
+
+    private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
+
+    static Caller of(ContainerRequestContext request) {
+        String key = request.getHeaderString(KEY);
+        if (key != null && !REQUEST_ID.matcher(key).matches()) {
+            throw new ProblemException(
+                    400, "wrong-header", KEY + " must be 1 to 200 printable ASCII signs without blanks");
+        }
+        return new Caller(user(request), key == null ? UUID.randomUUID().toString() : key);
+    }
+
+    static String user(ContainerRequestContext request) {
+        return request.getProperty(BearerTokens.USER) instanceof String name ? name : ANYBODY;
+    }
+}

@@ -1,0 +1,85 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.util.concurrent.CompletionStage;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.Consumes;
+import jakarta.ws.rs.DELETE;
+import jakarta.ws.rs.GET;
+import jakarta.ws.rs.PATCH;
+import jakarta.ws.rs.POST;
+import jakarta.ws.rs.Path;
+import jakarta.ws.rs.PathParam;
+import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.QueryParam;
+import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.core.Context;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.topic.Topics;
+
+/** {@code /api/domains}. */
+@Path("/api/domains")
+@Consumes(MediaType.APPLICATION_JSON)
+@Produces(MediaType.APPLICATION_JSON)
+public final class DomainsResource {
+    private static final String DOMAIN = "domain";
+
+    private final ServiceView view;
+    private final Managers managers;
+
+    DomainsResource(ServiceView view, Managers managers) {
+        this.view = view;
+        this.managers = managers;
+    }
+
+    @GET
+    public Response list() {
+        return Replies.ok(view.all(Topics.DOMAINS).stream());
+    }
+
+    @POST
+    public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
+            throws IOException {
+        return ask("create", Body.read(body), request)
+                .thenApply(answer -> Replies.created(answer, "/api/domains", DOMAIN));
+    }
+
+    @GET
+    @Path("{domain}")
+    public Response get(@PathParam(DOMAIN) String domain) {
+        return Replies.ok(view.find(Topics.DOMAINS, domain)
+                .orElseThrow(() ->
+                        new ProblemException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '%s'".formatted(domain))));
+    }
+
+    @PATCH
+    @Path("{domain}")
+    public CompletionStage<Response> change(
+            @Context ContainerRequestContext request, @PathParam(DOMAIN) String domain, InputStream body)
+            throws IOException {
+        return ask("change", Body.read(body).put(DOMAIN, domain), request).thenApply(answer -> Replies.of(answer, 200));
+    }
+
+    /** @param force whether missions that run in it are stopped */
+    @DELETE
+    @Path("{domain}")
+    public CompletionStage<Response> delete(
+            @Context ContainerRequestContext request,
+            @PathParam(DOMAIN) String domain,
+            @QueryParam("force") boolean force) {
+        ObjectNode members = JsonNodeFactory.instance.objectNode();
+        return ask("delete", members.put(DOMAIN, domain).put("force", force), request)
+                .thenApply(answer -> Replies.of(answer, 200));
+    }
+
+    private CompletionStage<io.furrow.model.control.Response> ask(
+            String command, ObjectNode members, ContainerRequestContext request) {
+        return managers.ask(new Managers.Question(Topics.DOMAIN_MANAGER, command, members), Caller.of(request));
+    }
+}

@@ -1,0 +1,104 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.util.concurrent.CompletionStage;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.Consumes;
+import jakarta.ws.rs.DELETE;
+import jakarta.ws.rs.GET;
+import jakarta.ws.rs.POST;
+import jakarta.ws.rs.Path;
+import jakarta.ws.rs.PathParam;
+import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.QueryParam;
+import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.core.Context;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.topic.Topics;
+
+/** {@code /api/missions}. */
+@Path("/api/missions")
+@Consumes(MediaType.APPLICATION_JSON)
+@Produces(MediaType.APPLICATION_JSON)
+public final class MissionsResource {
+    private static final String MISSION = "mission";
+
+    private final ServiceView view;
+    private final Managers managers;
+
+    MissionsResource(ServiceView view, Managers managers) {
+        this.view = view;
+        this.managers = managers;
+    }
+
+    /** Without their devices. @param domain null for all */
+    @GET
+    public Response list(@QueryParam("domain") String domain) {
+        return Replies.ok(view.all(Topics.MISSIONS).stream()
+                .filter(mission ->
+                        domain == null || domain.equals(mission.path("domain").textValue()))
+                .map(mission -> withStatus(mission).without("devices")));
+    }
+
+    @POST
+    public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
+            throws IOException {
+        return ask("create", Body.read(body), request)
+                .thenApply(answer -> Replies.created(answer, "/api/missions", MISSION));
+    }
+
+    @GET
+    @Path("{mission}")
+    public Response get(@PathParam(MISSION) String mission) {
+        return Replies.ok(withStatus(view.find(Topics.MISSIONS, mission)
+                .orElseThrow(() -> new ProblemException(
+                        ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission)))));
+    }
+
+    @DELETE
+    @Path("{mission}")
+    public CompletionStage<Response> delete(
+            @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
+        return ask("delete", named(mission), request).thenApply(answer -> Replies.of(answer, 200));
+    }
+
+    /** Makes it where there is none. */
+    @POST
+    @Path("{mission}/start")
+    public CompletionStage<Response> start(
+            @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
+            throws IOException {
+        return ask("start", Body.read(body).put(MISSION, mission), request)
+                .thenApply(answer -> Replies.of(answer, 200));
+    }
+
+    @POST
+    @Path("{mission}/stop")
+    public CompletionStage<Response> stop(
+            @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
+        return ask("stop", named(mission), request).thenApply(answer -> Replies.of(answer, 200));
+    }
+
+    /** The mission as it is wanted, and how far it is. */
+    private ObjectNode withStatus(ObjectNode wanted) {
+        ObjectNode json = wanted.deepCopy();
+        view.find(Topics.MISSIONS_STATUS, wanted.path(MISSION).asText())
+                .ifPresent(status -> json.set("status", status));
+        return json;
+    }
+
+    private static ObjectNode named(String mission) {
+        return JsonNodeFactory.instance.objectNode().put(MISSION, mission);
+    }
+
+    private CompletionStage<io.furrow.model.control.Response> ask(
+            String command, ObjectNode members, ContainerRequestContext request) {
+        return managers.ask(new Managers.Question(Topics.MISSION_MANAGER, command, members), Caller.of(request));
+    }
+}

@@ -1,0 +1,216 @@
+package io.furrow.control.rest;
+
+import java.time.Duration;
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Queue;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.consumer.Consumer;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.WakeupException;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.control.Response;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Follows the topics of the control plane, what is committed on them, with a consumer of no group: so each instance sees all. An
+ * answer is handed on when the view has come as far as the topics were when it was read: what it tells of can be seen then.
+ */
+final class ServiceReader implements AutoCloseable {
+    static final List<String> MANAGERS =
+            List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
+
+    private static final Logger LOG = LoggerFactory.getLogger(ServiceReader.class);
+    private static final Duration POLL = Duration.ofMillis(100);
+    private static final long PAUSE_MS = 1000;
+    private static final long PATIENCE_SECONDS = 10;
+
+    private final Properties settings = new Properties();
+    private final Duration remembered;
+    private final ServiceView view;
+    private final Answers answers;
+    private final CountDownLatch closing = new CountDownLatch(1);
+    private final Thread thread = new Thread(this::follow, "control-plane-view");
+    private volatile Consumer<String, byte[]> consumer;
+
+    /** Answers that wait until the view is as far as they are. */
+    private record Held(Map<Answers.Key, Response> answers, Map<TopicPartition, Long> ends) {}
+
+    /** @param remembered how far back answers are read at the start */
+    ServiceReader(Properties client, Duration remembered, ServiceView view, Answers answers) {
+        this.settings.putAll(client);
+        this.settings.put("isolation.level", "read_committed");
+        this.settings.put("enable.auto.commit", "false");
+        this.settings.put("auto.offset.reset", "earliest");
+        this.settings.put("allow.auto.create.topics", "false");
+        this.settings.remove("group.id");
+        this.remembered = remembered;
+        this.view = view;
+        this.answers = answers;
+    }
+
+    void start() {
+        view.clear();
+        thread.setDaemon(true);
+        thread.start();
+    }
+
+    private void follow() {
+        while (closing.getCount() > 0) {
+            try (Consumer<String, byte[]> fresh =
+                    new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+                consumer = fresh;
+                view.clear();
+                read(fresh);
+            } catch (WakeupException e) { // to look whether it is closed
+                LOG.debug("the view of the control plane's topics was woken up", e);
+            } catch (KafkaException e) {
+                LOG.warn("the view of the control plane's topics failed and begins anew", e);
+                pause();
+            }
+        }
+    }
+
+    private void pause() {
+        try {
+            closing.await(PAUSE_MS, TimeUnit.MILLISECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            closing.countDown();
+        }
+    }
+
+    private void read(Consumer<String, byte[]> from) {
+        List<TopicPartition> viewed = partitions(from, ServiceView.TOPICS);
+        List<TopicPartition> all = begin(from, viewed);
+        Map<TopicPartition, Long> ends = from.endOffsets(all);
+        Queue<Held> held = new ArrayDeque<>();
+        while (closing.getCount() > 0) {
+            Map<Answers.Key, Response> fresh = take(from.poll(POLL));
+            if (!view.isComplete() && reached(from, ends)) {
+                view.complete();
+                LOG.info("the view of the control plane's topics is complete");
+            }
+            if (!fresh.isEmpty()) {
+                held.add(new Held(fresh, from.endOffsets(viewed)));
+            }
+            while (!held.isEmpty() && reached(from, held.peek().ends())) {
+                held.remove().answers().forEach(answers::release);
+            }
+        }
+    }
+
+    /** What is held whole from its beginning, the rest from as far back as it counts. */
+    private List<TopicPartition> begin(Consumer<String, byte[]> from, List<TopicPartition> viewed) {
+        List<TopicPartition> managers = partitions(from, MANAGERS);
+        List<TopicPartition> audit = partitions(from, List.of(Topics.AUDIT));
+        List<TopicPartition> all = new ArrayList<>(viewed);
+        all.addAll(managers);
+        all.addAll(audit);
+        from.assign(all);
+        from.seekToBeginning(viewed);
+
+        Map<TopicPartition, Long> since = new HashMap<>();
+        managers.forEach(each -> since.put(each, System.currentTimeMillis() - remembered.toMillis()));
+        Map<TopicPartition, OffsetAndTimestamp> found = from.offsetsForTimes(since);
+        Map<TopicPartition, Long> ends = from.endOffsets(all);
+        Map<TopicPartition, Long> beginnings = from.beginningOffsets(audit);
+        for (TopicPartition each : managers) {
+            from.seek(
+                    each,
+                    found.get(each) == null ? ends.get(each) : found.get(each).offset());
+        }
+        for (TopicPartition each : audit) { // every transaction has a marker, which has an offset too
+            from.seek(each, Math.max(beginnings.get(each), ends.get(each) - 2L * ServiceView.AUDITED));
+        }
+        return all;
+    }
+
+    private static List<TopicPartition> partitions(Consumer<String, byte[]> consumer, List<String> topics) {
+        List<TopicPartition> partitions = new ArrayList<>();
+        for (String topic : topics) {
+            consumer.partitionsFor(topic).forEach(each -> partitions.add(new TopicPartition(topic, each.partition())));
+        }
+        return partitions;
+    }
+
+    private static boolean reached(Consumer<String, byte[]> consumer, Map<TopicPartition, Long> ends) {
+        return ends.entrySet().stream().allMatch(end -> consumer.position(end.getKey()) >= end.getValue());
+    }
+
+    /** Answers the answers among them that somebody waits for. */
+    private Map<Answers.Key, Response> take(ConsumerRecords<String, byte[]> records) {
+        Map<Answers.Key, Response> fresh = new HashMap<>();
+        for (ConsumerRecord<String, byte[]> record : records) {
+            if (MANAGERS.contains(record.topic())) {
+                takeAnswer(record, fresh);
+            } else {
+                takeValue(record);
+            }
+        }
+        return fresh;
+    }
+
+    private void takeAnswer(ConsumerRecord<String, byte[]> record, Map<Answers.Key, Response> fresh) {
+        Response answer;
+        try {
+            answer = Response.read(record.value() == null ? new byte[0] : record.value());
+        } catch (UnreadableException e) { // a request, or what somebody else wrote there
+            return;
+        }
+        answer.requestId().ifPresent(id -> {
+            Answers.Key key = new Answers.Key(record.topic(), id);
+            answers.remember(key, record.value());
+            if (answers.isAwaited(key)) {
+                fresh.put(key, answer);
+            }
+        });
+    }
+
+    private void takeValue(ConsumerRecord<String, byte[]> record) {
+        try {
+            ObjectNode value = record.value() != null && NgsiJson.read(record.value()) instanceof ObjectNode object
+                    ? object
+                    : null;
+            if (!record.topic().equals(Topics.AUDIT)) {
+                view.put(record.topic(), record.key() == null ? "" : record.key(), value);
+            } else if (value != null) {
+                view.audit(value);
+            }
+        } catch (UnreadableException e) { // managers and hosts write nothing of the kind
+            LOG.debug("{}-{}@{} is no JSON", record.topic(), record.partition(), record.offset(), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        closing.countDown();
+        Consumer<String, byte[]> current = consumer;
+        if (current != null) {
+            current.wakeup();
+        }
+        try {
+            thread.join(TimeUnit.SECONDS.toMillis(PATIENCE_SECONDS));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

@@ -1,0 +1,95 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.util.Comparator;
+import java.util.Optional;
+import java.util.concurrent.CompletionStage;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.Consumes;
+import jakarta.ws.rs.DELETE;
+import jakarta.ws.rs.GET;
+import jakarta.ws.rs.POST;
+import jakarta.ws.rs.Path;
+import jakarta.ws.rs.PathParam;
+import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.core.Context;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.topic.Topics;
+
+/** {@code /api/templates}; what it gives of one can be given to it again. */
+@Path("/api/templates")
+@Consumes(MediaType.APPLICATION_JSON)
+@Produces(MediaType.APPLICATION_JSON)
+public final class TemplatesResource {
+    private static final String TEMPLATE = "template";
+    private static final String VERSION = "version";
+    private static final Pattern NAME = Pattern.compile("([^@]+)(?:@([1-9][0-9]{0,8}))?");
+
+    private final ServiceView view;
+    private final Managers managers;
+
+    TemplatesResource(ServiceView view, Managers managers) {
+        this.view = view;
+        this.managers = managers;
+    }
+
+    /** All versions. */
+    @GET
+    public Response list() {
+        return Replies.ok(view.all(Topics.TEMPLATES).stream());
+    }
+
+    /** Keeps the next version. */
+    @POST
+    public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
+            throws IOException {
+        return ask("save-template", Body.read(body), request)
+                .thenApply(answer -> Replies.created(answer, "/api/templates", TEMPLATE));
+    }
+
+    /** @param name {@code <name>} for the newest, or {@code <name>@<version>} */
+    @GET
+    @Path("{template}")
+    public Response get(@PathParam(TEMPLATE) String name) {
+        Optional<ObjectNode> template = name.contains("@")
+                ? view.find(Topics.TEMPLATES, name)
+                : view.all(Topics.TEMPLATES).stream()
+                        .filter(each -> name.equals(each.path(TEMPLATE).textValue()))
+                        .max(Comparator.comparingInt(each -> each.path(VERSION).asInt()));
+        return Replies.ok(template.orElseThrow(() -> unknown(name)));
+    }
+
+    /** @param name {@code <name>} for all versions, or {@code <name>@<version>} */
+    @DELETE
+    @Path("{template}")
+    public CompletionStage<Response> delete(
+            @Context ContainerRequestContext request, @PathParam(TEMPLATE) String name) {
+        Matcher parts = NAME.matcher(name);
+        if (!parts.matches()) {
+            throw unknown(name);
+        }
+        ObjectNode members = JsonNodeFactory.instance.objectNode().put(TEMPLATE, parts.group(1));
+        if (parts.group(2) != null) {
+            members.put(VERSION, Integer.parseInt(parts.group(2)));
+        }
+        return ask("delete-template", members, request).thenApply(answer -> Replies.of(answer, 200));
+    }
+
+    private static ProblemException unknown(String name) {
+        return new ProblemException(ErrorCode.UNKNOWN_TEMPLATE, "there is no template '%s'".formatted(name));
+    }
+
+    private CompletionStage<io.furrow.model.control.Response> ask(
+            String command, ObjectNode members, ContainerRequestContext request) {
+        return managers.ask(new Managers.Question(Topics.MISSION_MANAGER, command, members), Caller.of(request));
+    }
+}

@@ -1,0 +1,83 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.net.Socket;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/** Asks the API, and holds each answer against its description. */
+final class ApiClient {
+    /** What any client has asked for. */
+    static final Set<String> ASKED = ConcurrentHashMap.newKeySet();
+
+    private final HttpClient http =
+            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
+    private final OpenApiDocument description = OpenApiDocument.read();
+    private final URI base;
+    private final String token;
+
+    /** @param token null for none */
+    ApiClient(URI base, String token) throws IOException {
+        this.base = base;
+        this.token = token;
+    }
+
+    HttpResponse<byte[]> send(String method, String path, String body) throws Exception {
+        return send(method, path, body, true);
+    }
+
+    HttpResponse<byte[]> send(String method, String path, String body, boolean described) throws Exception {
+        return send(request(method, path, body), described);
+    }
+
+    HttpResponse<byte[]> send(String method, String path, String body, String header, String value) throws Exception {
+        return send(request(method, path, body).setHeader(header, value), true);
+    }
+
+    private HttpRequest.Builder request(String method, String path, String body) {
+        HttpRequest.Builder request = HttpRequest.newBuilder(URI.create(base + path))
+                .method(
+                        method,
+                        body == null ? HttpRequest.BodyPublishers.noBody() : HttpRequest.BodyPublishers.ofString(body));
+        if (body != null) {
+            request.header("Content-Type", "application/json");
+        }
+        if (token != null) {
+            request.header("Authorization", "Bearer " + token);
+        }
+        return request;
+    }
+
+    private HttpResponse<byte[]> send(HttpRequest.Builder builder, boolean described) throws Exception {
+        HttpRequest request = builder.build();
+        HttpResponse<byte[]> answer = http.send(request, HttpResponse.BodyHandlers.ofByteArray());
+        if (described) {
+            ASKED.add(description.check(request.method(), request.uri().getPath(), answer.statusCode(), answer.body()));
+        }
+        return answer;
+    }
+
+    JsonNode json(HttpResponse<byte[]> answer) throws Exception {
+        return NgsiJson.read(answer.body());
+    }
+
+    /** The status of a GET of a path that no client would send so. */
+    int raw(String path) throws IOException {
+        try (Socket socket = new Socket(base.getHost(), base.getPort())) {
+            String request =
+                    "GET %s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n".formatted(path, base.getAuthority());
+            socket.getOutputStream().write(request.getBytes(StandardCharsets.US_ASCII));
+            String answer = new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            return Integer.parseInt(answer.split(" ")[1]);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeSet;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.networknt.schema.JsonSchemaFactory;
+import com.networknt.schema.SpecVersion;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** The description of the API, and whether an answer is as it says: no member more, none less, each of its type. */
+final class OpenApiDocument {
+    private static final Set<String> METHODS = Set.of("get", "post", "patch", "put", "delete");
+
+    private final ObjectNode json;
+
+    private OpenApiDocument(ObjectNode json) {
+        this.json = json;
+    }
+
+    static OpenApiDocument read() throws IOException {
+        try (InputStream in = RestApi.class.getResourceAsStream("openapi.json")) {
+            return new OpenApiDocument((ObjectNode) NgsiJson.mapper().readTree(in.readAllBytes()));
+        }
+    }
+
+    ObjectNode json() {
+        return json;
+    }
+
+    /** For instance {@code GET /api/domains}. */
+    Set<String> operations() {
+        Set<String> operations = new TreeSet<>();
+        for (Map.Entry<String, JsonNode> path : json.path("paths").properties()) {
+            path.getValue().fieldNames().forEachRemaining(method -> {
+                if (METHODS.contains(method)) {
+                    operations.add(method.toUpperCase(java.util.Locale.ROOT) + " " + path.getKey());
+                }
+            });
+        }
+        return operations;
+    }
+
+    /** Fails where the answer to a request is not described, or not as it is described. Answers its operation. */
+    String check(String method, String path, int status, byte[] body) throws Exception {
+        String template = json.path("paths").properties().stream()
+                .map(Map.Entry::getKey)
+                .filter(each -> path.matches(each.replaceAll("\\{[a-z]+}", "[^/]+")))
+                .min(java.util.Comparator.comparingInt((String each) -> each.split("\\{", -1).length))
+                .orElseThrow(() -> new AssertionError(path + " is not described"));
+        JsonNode answer = resolved(json.path("paths")
+                .path(template)
+                .path(method.toLowerCase(java.util.Locale.ROOT))
+                .path("responses")
+                .path(Integer.toString(status)));
+        assertThat(answer.isMissingNode())
+                .as("%s %s with %d is not described", method, template, status)
+                .isFalse();
+        JsonNode schema = answer.path("content").path("application/json").path("schema");
+        if (!schema.isMissingNode()) {
+            ObjectNode root = schema.deepCopy();
+            root.set("components", json.path("components").deepCopy());
+            close(root);
+            assertThat(JsonSchemaFactory.getInstance(SpecVersion.VersionFlag.V202012)
+                            .getSchema(root)
+                            .validate(NgsiJson.read(body)))
+                    .as("%s %s: %s", method, path, new String(body, java.nio.charset.StandardCharsets.UTF_8))
+                    .isEmpty();
+        }
+        return method + " " + template;
+    }
+
+    private JsonNode resolved(JsonNode node) {
+        return node.has("$ref") ? json.at(node.path("$ref").asText().substring(1)) : node;
+    }
+
+    /** Lets objects have no other members than those that are described. */
+    private static void close(JsonNode schema) {
+        if (schema instanceof ObjectNode object
+                && object.path("properties").isObject()
+                && !object.has("additionalProperties")) {
+            object.put("additionalProperties", false);
+        }
+        schema.forEach(OpenApiDocument::close);
+    }
+}

@@ -1,0 +1,46 @@
+package io.furrow.control.rest;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+
+/** Takes or refuses updates, and tells of the last. */
+final class StubContextBroker implements AutoCloseable {
+    private final HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+    private volatile String last = "";
+    private volatile int status = 204;
+
+    StubContextBroker() throws IOException {
+        server.createContext("/", this::take);
+        server.start();
+    }
+
+    URI uri() {
+        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+    }
+
+    String last() {
+        return last;
+    }
+
+    void refuse(int newStatus) {
+        status = newStatus;
+    }
+
+    private void take(HttpExchange exchange) throws IOException {
+        String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
+        last = exchange.getRequestURI() + " " + body;
+        exchange.sendResponseHeaders(status, -1);
+        exchange.close();
+    }
+
+    @Override
+    public void close() {
+        server.stop(0);
+    }
+}
