@@ -44,7 +44,8 @@ public final class Furrow {
         System.exit(exitCode);
     }
 
-    static CommandLine commandLine() {
+    /** The command with all that it has. */
+    public static CommandLine commandLine() {
         return JobCommandLine.of(new Furrow()).setExecutionExceptionHandler((failure, command, parsed) -> {
             if (failure instanceof SuiteNotStartedException refused) {
                 command.getErr().println(refused.getMessage());

@@ -40,7 +40,8 @@ public final class AlarmCommand {
                         .text("SUBJECT", "/subject")
                         .text("SEVERITY", "/severity")
                         .text("STATE", "/state")
-                        .time("SINCE", "/opened", "/since"));
+                        .time("RAISED", "/raised")
+                        .text("TEXT", "/text"));
     }
 
     @Command(name = "acknowledge", description = "Says that somebody looks after an alarm.")

@@ -1,0 +1,169 @@
+package io.furrow.launcher.control;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+
+import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlSettings;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.launcher.Furrow;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ControlCommandsIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+
+    @TempDir
+    static Path directory;
+
+    private static EmbeddedKafka kafka;
+    private static ControlPlane plane;
+    private static RestApi api;
+
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    @BeforeAll
+    static void start() throws Exception {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        ControlSettings settings = ControlSettings.of(client);
+        plane = ControlPlane.start(settings);
+        Path tokens = Files.writeString(directory.resolve("tokens"), "ann a-token-of-some-length\n");
+        api = RestApi.start(settings, RestSettings.on(0).withTokens(tokens), plane::state);
+        Files.writeString(directory.resolve("token"), "a-token-of-some-length\n");
+    }
+
+    @AfterAll
+    static void stop() {
+        api.close();
+        plane.close();
+        kafka.close();
+    }
+
+    @Test
+    void createsChangesListsAndDeletesDomains() throws Exception {
+        Path area = Files.writeString(
+                directory.resolve("area.json"),
+                "{\"type\":\"Polygon\",\"coordinates\":[[[-3.49,40.31],[-3.48,40.31],[-3.48,40.32],[-3.49,40.31]]]}");
+
+        assertThat(run("domain", "create", "north", "--name", "North", "--area", area.toString()))
+                .contains("created", "domain north", "data.north.realtime");
+        run("domain", "change", "north", "--description", "Behind the hill", "--fields", "f-1,f-2");
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(run("domain", "list")).containsPattern("north +North +Behind the hill +2 "));
+        assertThat(json("domain", "show", "north").at("/area/type").asText()).isEqualTo("Polygon");
+        assertThat(refused("domain", "create", "north")).contains("north", "domain-exists");
+        assertThat(run("domain", "delete", "north")).contains("deleted: domain north");
+        assertThat(refused("domain", "delete", "north")).contains("there is no domain 'north'", "unknown-domain");
+    }
+
+    @Test
+    void takesAMissionThroughItsLifeAndFollowsIt() throws Exception {
+        Path devices = Files.writeString(directory.resolve("devices.json"), "[\"urn:ngsi-ld:Robot:7\"]");
+        run("domain", "create", "farm");
+
+        assertThat(run("mission", "create", "weeding", "--domain", "farm", "--devices", devices.toString()))
+                .contains("created: mission weeding");
+        await().atMost(PATIENCE)
+                .untilAsserted(
+                        () -> assertThat(run("mission", "list", "--domain", "farm")).containsPattern("weeding +farm +– +created"));
+        run("mission", "start", "weeding");
+        assertThat(run("mission", "watch", "weeding", "--until", "running")).contains("running", "0/0 devices");
+        assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");
+        assertThat(refused("mission", "start", "weeding")).contains("mission-running");
+        run("mission", "stop", "weeding");
+        assertThat(run("mission", "watch", "weeding")).contains("stopped");
+        assertThat(run("mission", "delete", "weeding")).contains("deleted: mission weeding");
+        assertThat(refused("mission", "stop", "weeding")).contains("there is no mission 'weeding'", "unknown-mission");
+        assertThat(refused("mission", "create", "m.1", "--domain", "farm")).contains("illegal-name");
+    }
+
+    @Test
+    void carriesATemplateOutAndBackIn() throws Exception {
+        Path file = directory.resolve("template.json");
+        await().atMost(PATIENCE).untilAsserted(() -> assertThat(run("template", "list")).contains("thesis-demo"));
+
+        run("template", "export", "thesis-demo", file.toString());
+        assertThat(NgsiJson.read(Files.readAllBytes(file)).path("devices")).isNotEmpty();
+        assertThat(run("template", "import", file.toString())).contains("created: template thesis-demo, version 2");
+        assertThat(run("template", "delete", "thesis-demo@2")).contains("deleted: template thesis-demo");
+        assertThat(refused("template", "export", "nosuch")).contains("unknown-template");
+    }
+
+    @Test
+    void asksForReplaysAndSteersThem() throws Exception {
+        String replay = json("replay", "start", "weeding", "--speed", "10", "--loop").path("replay").asText();
+
+        assertThat(replay).matches("weeding\\.[0-9a-f]{8}");
+        assertThat(run("replay", "pause", replay)).contains("paused");
+        assertThat(run("replay", "step", replay, "5")).contains("paused");
+        assertThat(run("replay", "speed", replay, "max")).contains(replay);
+        assertThat(run("replay", "resume", replay)).contains("running");
+        assertThat(refused("replay", "speed", replay, "fast")).contains("speed", "wrong-member");
+        assertThat(run("replay", "stop", replay)).contains("deleted: replay " + replay);
+    }
+
+    @Test
+    void saysWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
+        CommandLine furrow = furrow();
+
+        assertThat(furrow.execute("domain", "list", "--api", api.uri().toString())).isNotZero();
+        assertThat(furrow.execute("domain", "list", "--api", "http://127.0.0.1:1")).isNotZero();
+        assertThat(furrow.execute("domain", "list", "--token-file", "nosuch")).isNotZero();
+
+        assertThat(err.toString().lines().toList())
+                .satisfiesExactly(
+                        line -> assertThat(line).contains("asks who you are", "--token-file"),
+                        line -> assertThat(line).contains("No control plane answers at http://127.0.0.1:1", "--api"),
+                        line -> assertThat(line).contains("--token-file nosuch cannot be read"),
+                        line -> assertThat(line).startsWith("See: furrow domain list --help"));
+    }
+
+    private JsonNode json(String... words) throws Exception {
+        List<String> all = new ArrayList<>(List.of(words));
+        all.addAll(List.of("--output", "json"));
+        return NgsiJson.read(run(all.toArray(new String[0])).getBytes(java.nio.charset.StandardCharsets.UTF_8));
+    }
+
+    private String run(String... words) {
+        out.getBuffer().setLength(0);
+        assertThat(furrow().execute(withAccess(words))).as("%s", err).isZero();
+        return out.toString();
+    }
+
+    private String refused(String... words) {
+        err.getBuffer().setLength(0);
+        assertThat(furrow().execute(withAccess(words))).as("%s", out).isNotZero();
+        return err.toString();
+    }
+
+    private static String[] withAccess(String... words) {
+        List<String> all = new ArrayList<>(List.of(words));
+        all.addAll(List.of(
+                "--api", api.uri().toString(), "--token-file", directory.resolve("token").toString()));
+        return all.toArray(new String[0]);
+    }
+
+    private CommandLine furrow() {
+        return Furrow.commandLine().setOut(new PrintWriter(out, true)).setErr(new PrintWriter(err, true));
+    }
+}
