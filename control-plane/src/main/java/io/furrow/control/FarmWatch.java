@@ -28,8 +28,11 @@ public final class FarmWatch implements AutoCloseable {
         ServiceTopics.prepare(settings);
         Properties properties = settings.streams();
         properties.put(StreamsConfig.APPLICATION_ID_CONFIG, APPLICATION);
-        return new FarmWatch(
-                StreamsApplication.start("farm watch", WatchTopology.of(settings.remembered(), options), properties));
+        return new FarmWatch(StreamsApplication.start(
+                "farm watch",
+                WatchTopology.of(
+                        settings.remembered(), options, settings.missions().scope()),
+                properties));
     }
 
     /** Whether it watches: it runs, and has its state, not being about to rebuild or to hand it over. */

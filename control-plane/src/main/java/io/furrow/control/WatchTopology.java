@@ -9,8 +9,10 @@ import org.apache.kafka.streams.kstream.KStream;
 
 import io.furrow.control.alarm.AlarmManager;
 import io.furrow.control.alarm.AnalyticsAlarms;
+import io.furrow.control.context.ContextWatch;
 import io.furrow.control.health.HealthWatch;
 import io.furrow.control.manager.Inlet;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
 /** How the farm is watched: health of devices, alarms, what the context broker knows of domains and missions. */
@@ -20,8 +22,11 @@ final class WatchTopology {
 
     private WatchTopology() {}
 
-    /** @param remembered how long ids of requests are */
-    static Topology of(Duration remembered, WatchOptions options) {
+    /**
+     * @param remembered how long ids of requests are
+     * @param scope of the entities of domains and missions
+     */
+    static Topology of(Duration remembered, WatchOptions options, FiwareScope scope) {
         StreamsBuilder builder = new StreamsBuilder();
 
         AlarmManager.add(builder, remembered);
@@ -34,6 +39,8 @@ final class WatchTopology {
 
         KStream<String, byte[]> temperatures = observed(builder, Topics.TEMPERATURE, "temperatures");
         AnalyticsAlarms.addSensors(temperatures, types);
+
+        ContextWatch.add(builder, new ContextWatch.Results(collisions, temperatures), scope);
 
         return builder.build();
     }

@@ -1,9 +1,12 @@
 package io.furrow.control.mission;
 
+import java.util.List;
+
 import com.fasterxml.jackson.databind.node.ArrayNode;
 
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.MissionDevices;
+import io.furrow.model.event.FiwareScope;
 
 /**
  * What is wanted of a mission: remembered, and a record of {@code service.missions} under its name.
@@ -30,6 +33,13 @@ public record Mission(
 
     MissionDevices groups() {
         return MissionDevices.of(devices);
+    }
+
+    /** Ids of the entities of all its devices, in the order of its groups. */
+    public List<String> deviceIds() {
+        return Roster.of(this, FiwareScope.DEFAULT, 0).stream()
+                .map(device -> device.version().id())
+                .toList();
     }
 
     /** The same with other devices. */

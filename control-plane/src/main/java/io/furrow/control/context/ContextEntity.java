@@ -1,0 +1,103 @@
+package io.furrow.control.context;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.TreeSet;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.NullNode;
+import com.fasterxml.jackson.databind.node.TextNode;
+
+import io.furrow.control.domain.Domain;
+import io.furrow.control.mission.Mission;
+import io.furrow.control.mission.MissionStatus;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+
+/**
+ * Domains and missions as entities, {@code urn:ngsi-ld:Domain:<name>} and {@code urn:ngsi-ld:Mission:<name>}. An entity always has
+ * all of its attributes, null where there is nothing to say, so that no older value stands beside a newer one.
+ */
+final class ContextEntity {
+    private static final String DOMAIN = "Domain";
+    private static final String MISSION = "Mission";
+    /** The context broker refuses quotes and brackets in texts of other types. */
+    private static final String FREE_TEXT = "TextUnrestricted";
+
+    private ContextEntity() {}
+
+    static String domainId(String domain) {
+        return "urn:ngsi-ld:Domain:" + domain;
+    }
+
+    static String missionId(String mission) {
+        return "urn:ngsi-ld:Mission:" + mission;
+    }
+
+    /**
+     * @param missions names of those that there are in it
+     * @param fields what is known of its fields
+     */
+    static EntityBuilder of(Domain domain, List<String> missions, List<FieldState> fields) {
+        EntityBuilder entity = Entity.builder(domainId(domain.domain()), DOMAIN);
+        freeText(entity, "name", domain.name() == null ? domain.domain() : domain.name());
+        freeText(entity, "description", domain.description());
+        entity.texts("fields", domain.fields() == null ? List.of() : domain.fields())
+                .texts("missions", missions);
+        number(
+                entity,
+                "averageTemperature",
+                fields.stream()
+                        .filter(field -> field.average() != null)
+                        .mapToDouble(FieldState::average)
+                        .average()
+                        .stream()
+                        .boxed()
+                        .findFirst()
+                        .orElse(null));
+        TreeSet<String> suspects = new TreeSet<>();
+        fields.forEach(field -> suspects.addAll(field.suspects()));
+        return entity.texts("suspects", suspects)
+                .integer("created", domain.created())
+                .integer("changed", domain.changed());
+    }
+
+    /** @param status null where it is not known yet */
+    static EntityBuilder of(Mission mission, MissionStatus status, MissionTally tally) {
+        EntityBuilder entity = Entity.builder(missionId(mission.mission()), MISSION)
+                .text("name", mission.mission())
+                .text("domain", mission.domain())
+                .text("status", status == null ? "created" : status.state().word())
+                .number("progress", status == null ? 0 : progress(status));
+        List<String> missing = new ArrayList<>();
+        if (status != null) {
+            status.missing().forEach(device -> missing.add(device.id()));
+        }
+        entity.texts("devices", mission.deviceIds()).texts("missing", missing);
+        freeText(entity, "reason", status == null ? null : status.reason());
+        freeText(entity, "template", mission.template());
+        time(entity, "start", mission.start());
+        time(entity, "end", status == null ? null : status.ends());
+        entity.integer("collisions", tally.collisions())
+                .integer("openEncounters", tally.open().size());
+        number(entity, "minDistance", tally.minDistance());
+        return entity;
+    }
+
+    /** Share of its devices that are as wanted; 1 where it has none. */
+    private static double progress(MissionStatus status) {
+        return status.devices() == 0 ? 1 : (double) status.confirmed() / status.devices();
+    }
+
+    private static void freeText(EntityBuilder entity, String name, String value) {
+        entity.attribute(name, FREE_TEXT, value == null ? NullNode.instance : TextNode.valueOf(value));
+    }
+
+    private static void number(EntityBuilder entity, String name, Double value) {
+        entity.attribute(name, "Float", JsonNodeFactory.instance.numberNode(value));
+    }
+
+    private static void time(EntityBuilder entity, String name, Long value) {
+        entity.attribute(name, "Integer", JsonNodeFactory.instance.numberNode(value));
+    }
+}
