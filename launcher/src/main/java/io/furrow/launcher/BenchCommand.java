@@ -29,7 +29,8 @@ import io.furrow.simulators.load.LoadPlan;
             SinkBench.class,
             ImageBench.class,
             IngestBench.class,
-            AnalyticsBench.class
+            AnalyticsBench.class,
+            ControlBench.class
         })
 final class BenchCommand {
     private static final String DOMAIN = "bench";

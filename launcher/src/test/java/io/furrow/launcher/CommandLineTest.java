@@ -33,6 +33,7 @@ class CommandLineTest {
         "bench load --help, --devices",
         "bench notifications --help, --new-connections",
         "bench sink --help, --stand-in",
+        "bench control --help, --outstanding",
         "dead-letters refeed --help, --dry-run",
         "domain create --help, --area",
         "mission --help, watch",

@@ -1,0 +1,87 @@
+package io.furrow.bench.control;
+
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.Semaphore;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.LongAdder;
+import java.util.concurrent.locks.LockSupport;
+
+import org.HdrHistogram.ConcurrentHistogram;
+import org.HdrHistogram.Histogram;
+
+/** Puts requests to the managers, numbered through over all loads, and waits for the answer to each. */
+public final class ControlMeasurement {
+    private static final long LAST_ANSWER_SECONDS = 60;
+
+    private final ControlClient client;
+    private final String run;
+    private long next;
+
+    /** @param run makes the ids of this run's requests its own */
+    public ControlMeasurement(ControlClient client, String run) {
+        this.client = client;
+        this.run = run;
+    }
+
+    /** What the loads of one measurement come to. */
+    private static final class Tally {
+        final Histogram delays = new ConcurrentHistogram(3);
+        final LongAdder answered = new LongAdder();
+        final LongAdder unexpected = new LongAdder();
+        volatile long lastAnswer;
+
+        void answered(boolean expected, long due) {
+            long now = System.nanoTime();
+            delays.recordValue(Math.max(0, TimeUnit.NANOSECONDS.toMicros(now - due)));
+            answered.increment();
+            lastAnswer = now;
+            if (!expected) {
+                unexpected.increment();
+            }
+        }
+    }
+
+    /** Sends a load and waits for its answers. */
+    public ControlReport run(ControlLoadPlan plan) throws InterruptedException {
+        Tally tally = new Tally();
+        Semaphore free = new Semaphore(plan.outstanding());
+        long repeatsBefore = client.repeats();
+        long begin = System.nanoTime();
+        long end = begin + plan.duration().toNanos();
+        long sent = 0;
+        for (long due = begin; due < end && System.nanoTime() < end; sent++) {
+            free.acquire();
+            due = plan.rate() == 0 ? System.nanoTime() : begin + sent * TimeUnit.SECONDS.toNanos(1) / plan.rate();
+            sleepUntil(due);
+            ask(tally, free, due);
+        }
+        boolean all = free.tryAcquire(plan.outstanding(), LAST_ANSWER_SECONDS, TimeUnit.SECONDS);
+        double seconds = ((all ? tally.lastAnswer : System.nanoTime()) - begin) / 1e9;
+        return new ControlReport(
+                sent,
+                tally.answered.sum(),
+                tally.unexpected.sum(),
+                client.repeats() - repeatsBefore,
+                seconds,
+                tally.delays);
+    }
+
+    private void ask(Tally tally, Semaphore free, long due) {
+        long number = next++;
+        ControlRequest request = ControlRequest.of(number);
+        CompletableFuture<String> answer = client.ask(request, run + "-" + number);
+        answer.whenComplete((status, failure) -> {
+            if (failure == null) {
+                tally.answered(request.expected().equals(status), due);
+                free.release();
+            }
+        });
+    }
+
+    private static void sleepUntil(long nanos) {
+        long left = nanos - System.nanoTime();
+        if (left > 0) {
+            LockSupport.parkNanos(left);
+        }
+    }
+}

@@ -1,0 +1,64 @@
+package io.furrow.bench.control;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.topic.Topics;
+
+/**
+ * The n-th request of a load: by turns a change of a domain, and a step of a mission without devices, which is
+ * started, stopped and deleted, so that no manager has more and more to remember but ids. At most {@value #OUTSTANDING} may wait for
+ * their answer, so that the steps of a mission stay in order.
+ *
+ * @param topic of the manager
+ * @param method of HTTP
+ * @param path in the REST API
+ * @param expected status of the answer
+ */
+public record ControlRequest(
+        String topic, String command, ObjectNode members, String method, String path, String expected) {
+    /** Domains that have to be there, {@code bench-0} and so on. */
+    public static final int DOMAINS = 10;
+
+    public static final int OUTSTANDING = 2000;
+
+    /** So many missions are started, then stopped, then deleted: each step is asked for long after the one before. */
+    private static final int MISSIONS = 2000;
+
+    private static final int STEPS = 3;
+
+    static ControlRequest of(long number) {
+        ObjectNode members = JsonNodeFactory.instance.objectNode();
+        String domain = "bench-" + number % DOMAINS;
+        if (number % 2 == 0) {
+            members.put("domain", domain).put("description", "as of request " + number);
+            return new ControlRequest(
+                    Topics.DOMAIN_MANAGER, "change", members, "PATCH", "/api/domains/" + domain, "changed");
+        }
+        long turn = number / 2;
+        long step = turn / MISSIONS;
+        String mission = "bench-" + (step / STEPS * MISSIONS + turn % MISSIONS);
+        members.put("mission", mission);
+        String path = "/api/missions/" + mission;
+        return switch ((int) (step % STEPS)) {
+            case 0 ->
+                new ControlRequest(
+                        Topics.MISSION_MANAGER,
+                        "start",
+                        members.put("domain", "bench-0"),
+                        "POST",
+                        path + "/start",
+                        "created");
+            case 1 -> new ControlRequest(Topics.MISSION_MANAGER, "stop", members, "POST", path + "/stop", "deleted");
+            default -> new ControlRequest(Topics.MISSION_MANAGER, "delete", members, "DELETE", path, "deleted");
+        };
+    }
+
+    /** What the record of the request holds. */
+    ObjectNode record(String requestId) {
+        return members.deepCopy()
+                .put("type", "request")
+                .put("requestId", requestId)
+                .put("command", command);
+    }
+}

@@ -1,0 +1,50 @@
+package io.furrow.bench.control;
+
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.util.concurrent.CompletableFuture;
+
+import io.furrow.model.control.Response;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Asks over the REST API, where an answer cannot come twice. */
+public final class RestControlClient implements ControlClient {
+    private final HttpClient http =
+            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
+    private final URI api;
+
+    public RestControlClient(URI api) {
+        this.api = api;
+    }
+
+    @Override
+    public CompletableFuture<String> ask(ControlRequest request, String id) {
+        HttpRequest asked = HttpRequest.newBuilder(URI.create(api + request.path()))
+                .header("Content-Type", "application/json")
+                .header("Idempotency-Key", id)
+                .method(request.method(), HttpRequest.BodyPublishers.ofByteArray(NgsiJson.write(request.members())))
+                .build();
+        return http.sendAsync(asked, HttpResponse.BodyHandlers.ofByteArray()).thenApply(RestControlClient::status);
+    }
+
+    private static String status(HttpResponse<byte[]> answer) {
+        try {
+            return Response.read(answer.body()).status();
+        } catch (UnreadableException e) {
+            return "no answer of a manager, but " + answer.statusCode();
+        }
+    }
+
+    @Override
+    public long repeats() {
+        return 0;
+    }
+
+    @Override
+    public void close() {
+        // The client has nothing that its threads, which end by themselves, do not hold.
+    }
+}
