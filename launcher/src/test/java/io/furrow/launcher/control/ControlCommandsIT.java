@@ -69,7 +69,8 @@ class ControlCommandsIT {
                 .contains("created", "domain north", "data.north.realtime");
         run("domain", "change", "north", "--description", "Behind the hill", "--fields", "f-1,f-2");
         await().atMost(PATIENCE)
-                .untilAsserted(() -> assertThat(run("domain", "list")).containsPattern("north +North +Behind the hill +2 "));
+                .untilAsserted(
+                        () -> assertThat(run("domain", "list")).containsPattern("north +North +Behind the hill +2 "));
         assertThat(json("domain", "show", "north").at("/area/type").asText()).isEqualTo("Polygon");
         assertThat(refused("domain", "create", "north")).contains("north", "domain-exists");
         assertThat(run("domain", "delete", "north")).contains("deleted: domain north");
@@ -84,8 +85,8 @@ class ControlCommandsIT {
         assertThat(run("mission", "create", "weeding", "--domain", "farm", "--devices", devices.toString()))
                 .contains("created: mission weeding");
         await().atMost(PATIENCE)
-                .untilAsserted(
-                        () -> assertThat(run("mission", "list", "--domain", "farm")).containsPattern("weeding +farm +– +created"));
+                .untilAsserted(() -> assertThat(run("mission", "list", "--domain", "farm"))
+                        .containsPattern("weeding +farm +– +created"));
         run("mission", "start", "weeding");
         assertThat(run("mission", "watch", "weeding", "--until", "running")).contains("running", "0/0 devices");
         assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");
@@ -100,7 +101,8 @@ class ControlCommandsIT {
     @Test
     void carriesATemplateOutAndBackIn() throws Exception {
         Path file = directory.resolve("template.json");
-        await().atMost(PATIENCE).untilAsserted(() -> assertThat(run("template", "list")).contains("thesis-demo"));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(run("template", "list")).contains("thesis-demo"));
 
         run("template", "export", "thesis-demo", file.toString());
         assertThat(NgsiJson.read(Files.readAllBytes(file)).path("devices")).isNotEmpty();
@@ -111,7 +113,9 @@ class ControlCommandsIT {
 
     @Test
     void asksForReplaysAndSteersThem() throws Exception {
-        String replay = json("replay", "start", "weeding", "--speed", "10", "--loop").path("replay").asText();
+        String replay = json("replay", "start", "weeding", "--speed", "10", "--loop")
+                .path("replay")
+                .asText();
 
         assertThat(replay).matches("weeding\\.[0-9a-f]{8}");
         assertThat(run("replay", "pause", replay)).contains("paused");
@@ -126,8 +130,10 @@ class ControlCommandsIT {
     void saysWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
         CommandLine furrow = furrow();
 
-        assertThat(furrow.execute("domain", "list", "--api", api.uri().toString())).isNotZero();
-        assertThat(furrow.execute("domain", "list", "--api", "http://127.0.0.1:1")).isNotZero();
+        assertThat(furrow.execute("domain", "list", "--api", api.uri().toString()))
+                .isNotZero();
+        assertThat(furrow.execute("domain", "list", "--api", "http://127.0.0.1:1"))
+                .isNotZero();
         assertThat(furrow.execute("domain", "list", "--token-file", "nosuch")).isNotZero();
 
         assertThat(err.toString().lines().toList())
@@ -159,7 +165,10 @@ class ControlCommandsIT {
     private static String[] withAccess(String... words) {
         List<String> all = new ArrayList<>(List.of(words));
         all.addAll(List.of(
-                "--api", api.uri().toString(), "--token-file", directory.resolve("token").toString()));
+                "--api",
+                api.uri().toString(),
+                "--token-file",
+                directory.resolve("token").toString()));
         return all.toArray(new String[0]);
     }
 
