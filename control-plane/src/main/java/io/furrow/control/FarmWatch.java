@@ -5,6 +5,8 @@ import java.util.Properties;
 
 import org.apache.kafka.streams.StreamsConfig;
 
+import io.furrow.control.alarm.AlarmActions;
+
 /**
  * Watches the farm in this JVM: health of devices, alarms, the entities of domains and missions. It is an application of its
  * own, so that managers answer whatever devices report. Several instances share the work as those of {@link ControlPlane} do.
@@ -14,9 +16,11 @@ public final class FarmWatch implements AutoCloseable {
     static final String APPLICATION = "furrow-farm-watch";
 
     private final StreamsApplication application;
+    private final AlarmActions actions;
 
-    private FarmWatch(StreamsApplication application) {
+    private FarmWatch(StreamsApplication application, AlarmActions actions) {
         this.application = application;
+        this.actions = actions;
     }
 
     /**
@@ -28,11 +32,12 @@ public final class FarmWatch implements AutoCloseable {
         ServiceTopics.prepare(settings);
         Properties properties = settings.streams();
         properties.put(StreamsConfig.APPLICATION_ID_CONFIG, APPLICATION);
-        return new FarmWatch(StreamsApplication.start(
+        StreamsApplication application = StreamsApplication.start(
                 "farm watch",
                 WatchTopology.of(
                         settings.remembered(), options, settings.missions().scope()),
-                properties));
+                properties);
+        return new FarmWatch(application, AlarmActions.start(settings.client(), options.webhook(), options.stop()));
     }
 
     /** Whether it watches: it runs, and has its state, not being about to rebuild or to hand it over. */
@@ -48,6 +53,7 @@ public final class FarmWatch implements AutoCloseable {
     /** Finishes what it is at and leaves; another instance takes over at once. */
     @Override
     public void close() {
+        actions.close();
         application.close();
     }
 }

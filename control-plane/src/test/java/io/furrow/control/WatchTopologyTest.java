@@ -38,7 +38,7 @@ class WatchTopologyTest {
 
         JsonNode health = farm.newest(Topics.DEVICES_HEALTH);
         assertThat(health.path("lastSeen").asLong()).isEqualTo(farm.now().toEpochMilli());
-        assertThat(health.path("battery").asDouble()).isEqualTo(81.5);
+        assertThat(health.path("battery").asDouble()).isEqualTo(0.815);
         assertThat(health.path("silent").asBoolean(true)).isFalse();
         assertThat(health.path("mission").asText()).isEqualTo("m");
     }

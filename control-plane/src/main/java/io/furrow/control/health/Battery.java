@@ -6,32 +6,35 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * How full the battery of a device is: the attribute {@code battery}, percent as a number, or as FIROS writes it a
- * sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1.
+ * How full the battery of a device is, 0 to 1: the attribute {@code battery}, a number (above 1 it is percent), or as FIROS
+ * writes it a sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1.
  */
 final class Battery {
     static final String ATTRIBUTE = "battery";
 
     private static final String PERCENTAGE = "percentage";
     private static final String QUOTE = "%27";
-    private static final double FULL = 100;
+    private static final double PERCENT = 100;
 
     private Battery() {}
 
     /** Null where the entity does not say, or says what is no charge. */
-    static Double percentOf(Entity entity) {
-        Double percent = entity.number(ATTRIBUTE).orElse(null);
-        if (percent == null) {
-            percent = entity.text(ATTRIBUTE).map(Battery::ofRobot).orElse(null);
+    static Double chargeOf(Entity entity) {
+        Double said = entity.number(ATTRIBUTE).orElse(null);
+        if (said == null) {
+            said = entity.text(ATTRIBUTE).map(Battery::ofRobot).orElse(null);
         }
-        return percent == null || percent < 0 || percent > FULL ? null : percent;
+        if (said == null || said < 0 || said > PERCENT) {
+            return null;
+        }
+        return said > 1 ? said / PERCENT : said;
     }
 
     private static Double ofRobot(String text) {
         try {
             JsonNode state = NgsiJson.mapper().readTree(text.replace(QUOTE, "\""));
             JsonNode charge = state == null ? null : state.path(PERCENTAGE);
-            return charge == null || !charge.isNumber() ? null : Double.valueOf(charge.doubleValue() * FULL);
+            return charge == null || !charge.isNumber() ? null : Double.valueOf(charge.doubleValue());
         } catch (com.fasterxml.jackson.core.JsonProcessingException e) {
             return null; // a text that is no message of ROS tells nothing of a battery
         }

@@ -17,7 +17,7 @@ import io.furrow.model.event.FiwareScope;
  * @param since when it became silent or was heard of again, epoch ms
  * @param lastSeen event time of its newest report, epoch ms; null where there was none
  * @param heard when that came in, epoch ms, some 30 s behind at most; null where nothing did
- * @param battery in percent; null where it never said
+ * @param battery 0 to 1; null where it never said
  * @param off whether it said that it is switched off: then it may be silent
  */
 public record DeviceHealth(

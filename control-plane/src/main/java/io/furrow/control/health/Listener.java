@@ -85,7 +85,7 @@ final class Listener {
         if (!first && known.newest.reported() == reported) {
             return;
         }
-        Double battery = Battery.percentOf(entity);
+        Double battery = Battery.chargeOf(entity);
         boolean off = entity.value(STATUS)
                 .filter(status -> status.isBoolean() && !status.booleanValue())
                 .isPresent();

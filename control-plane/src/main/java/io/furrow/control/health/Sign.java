@@ -8,7 +8,7 @@ package io.furrow.control.health;
  * @param silent whether nothing was heard for too long; false for a sign of life
  * @param heard when it was last heard of, epoch ms, by the clock of the control plane
  * @param reported event time of that, epoch ms
- * @param battery in percent; null where it never said
+ * @param battery 0 to 1; null where it never said
  * @param off whether it said that it is switched off
  */
 record Sign(String id, String type, boolean silent, long heard, long reported, Double battery, boolean off) {}
