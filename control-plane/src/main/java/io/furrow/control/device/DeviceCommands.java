@@ -49,9 +49,14 @@ public final class DeviceCommands implements CommandSender {
         }
     }
 
+    /** A robot is wanted as {@code Robot}, while its entity is of whatever type it reports, with FIROS {@code ROBOT}. */
+    private static boolean isRobot(String type) {
+        return ROBOT.equalsIgnoreCase(type);
+    }
+
     private static ObjectNode body(String type, String command, String value) {
         ObjectNode body = JsonNodeFactory.instance.objectNode();
-        if (ROBOT.equals(type)) {
+        if (isRobot(type)) {
             body.putObject("cmd").put("type", "String").put("value", command);
         } else {
             body.putObject(command).put("type", "command").put("value", value);
@@ -60,8 +65,9 @@ public final class DeviceCommands implements CommandSender {
     }
 
     private HttpRequest request(String deviceId, String type, ObjectNode body) {
-        HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("%s/v2/entities/%s/attrs?type=%s"
-                        .formatted(contextBroker.toString().replaceAll("/+$", ""), encoded(deviceId), encoded(type))))
+        String query = isRobot(type) ? "" : "?type=" + encoded(type);
+        HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("%s/v2/entities/%s/attrs%s"
+                        .formatted(contextBroker.toString().replaceAll("/+$", ""), encoded(deviceId), query)))
                 .timeout(PATIENCE)
                 .header("Content-Type", "application/json")
                 .header("Fiware-Servicepath", scope.servicePath())

@@ -51,7 +51,12 @@ class DeviceCommandsTest {
     void tellsARobotByItsAttributeCmd() throws Exception {
         commands().send("urn:ngsi-ld:Robot:m-1", "Robot", "Stop", "");
 
-        assertThat(heard.get(0)).endsWith(" {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}}");
+        commands().send("urn:ngsi-ld:Robot:m-1", "ROBOT", "Stop", "");
+
+        assertThat(heard)
+                .hasSize(2)
+                .containsOnly("PATCH /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs farm /north"
+                        + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}}");
     }
 
     @Test

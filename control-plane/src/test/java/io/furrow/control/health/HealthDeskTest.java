@@ -1,0 +1,151 @@
+package io.furrow.control.health;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Function;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.alarm.Alarm;
+import io.furrow.control.alarm.AlarmDesk;
+import io.furrow.control.alarm.AlarmDesks;
+import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.StateJson;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class HealthDeskTest {
+    private static final String ID = "urn:t:1";
+    private static final String KEY = "|/|" + ID;
+    private static final long START = 1_700_000_000_000L;
+    /** Three periods, and the patience with devices that come up. */
+    private static final long LONG_ENOUGH = 30_000 + HealthDesk.PATIENCE.toMillis();
+
+    private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+    private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
+    private final KeptOutbox outbox = new KeptOutbox();
+    private final AlarmDesk alarms = AlarmDesks.writingTo(outbox);
+    private HealthDesk desk = desk();
+
+    @Test
+    void raisesAnAlarmOfADeviceThatNeverReported() {
+        want("m", START);
+        desk.passTime(START);
+        assertThat(known().silent()).isFalse();
+        desk.passTime(START + LONG_ENOUGH);
+        assertThat(known().silent()).isFalse();
+        desk.passTime(START + LONG_ENOUGH + 10_000);
+        assertThat(known().silent()).isTrue();
+        assertThat(alarms()).extracting(Alarm::text).containsExactly(ID + " of mission m has not been heard of yet");
+    }
+
+    @Test
+    void endsTheAlarmAtTheFirstSignOfLife() {
+        want("m", START);
+        desk.passTime(START);
+        desk.passTime(START + LONG_ENOUGH + 10_000);
+        desk.take(KEY, sign(false, START + LONG_ENOUGH + 11_000), START + LONG_ENOUGH + 11_000);
+        assertThat(known())
+                .returns(false, DeviceHealth::silent)
+                .returns(77L, DeviceHealth::lastSeen)
+                .returns(START + LONG_ENOUGH + 11_000, DeviceHealth::since);
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly("it was heard of again");
+    }
+
+    @Test
+    void missesADeviceWhoseListenerDied() {
+        want("m", START);
+        desk.take(KEY, sign(false, START), START);
+        desk.passTime(START + 10_000);
+        desk.passTime(START + 10_000 + LONG_ENOUGH);
+        assertThat(known().silent()).isFalse();
+        desk.passTime(START + 20_000 + LONG_ENOUGH);
+        assertThat(known().silent()).isTrue();
+    }
+
+    @Test
+    void holdsNothingAgainstADeviceThatWasNotListenedTo() {
+        want("m", START);
+        desk.take(KEY, sign(false, START), START);
+        desk = desk(); // and the control plane was away for a day
+        long back = START + Duration.ofDays(1).toMillis();
+        desk.passTime(back);
+        desk.passTime(back + LONG_ENOUGH);
+        assertThat(known().silent()).isFalse();
+    }
+
+    @Test
+    void passesOverSilenceThatAnotherListenerHasDisproved() {
+        want("m", START);
+        desk.take(KEY, sign(false, START + 5), START + 5);
+        desk.take(KEY, sign(true, START), START + 31_000);
+        assertThat(known().silent()).isFalse();
+        desk.take(KEY, sign(true, START + 5), START + 31_000);
+        assertThat(known().silent()).isTrue();
+        assertThat(alarms())
+                .extracting(Alarm::text)
+                .containsExactly(ID + " of mission m was silent for more than 30 s");
+    }
+
+    @Test
+    void forgetsADeviceThatIsNotWantedAnyMoreAndEndsItsAlarm() {
+        want("m", START);
+        desk.take(KEY, sign(true, START), START);
+        assertThat(alarms()).hasSize(1);
+        wanted.put(KEY, null);
+        desk.take(KEY, sign(false, START + 1), START + 1);
+        desk.passTime(START + 20_000);
+        assertThat(outbox.compacted(Topics.DEVICES_HEALTH)).isEmpty();
+        assertThat(health.all()).isEmpty();
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly("the device is not wanted any more");
+    }
+
+    @Test
+    void writesNothingWhereNothingChanged() {
+        want("m", START);
+        desk.take(KEY, sign(false, START), START);
+        int written = outbox.all().size();
+        desk.passTime(START + 10_000);
+        desk.passTime(START + 20_000);
+        assertThat(outbox.all()).hasSize(written);
+        want("other", START);
+        desk.passTime(START + 30_000);
+        assertThat(known().mission()).isEqualTo("other");
+    }
+
+    private HealthDesk desk() {
+        return new HealthDesk(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
+    }
+
+    private DeviceHealth known() {
+        return StateJson.read(outbox.compacted(Topics.DEVICES_HEALTH).get(KEY), DeviceHealth.class);
+    }
+
+    private List<Alarm> alarms() {
+        List<Alarm> all = new ArrayList<>();
+        outbox.compacted(Topics.ALARMS).values().forEach(json -> all.add(StateJson.read(json, Alarm.class)));
+        return all;
+    }
+
+    private static Sign sign(boolean silent, long heard) {
+        return new Sign(ID, "T", silent, heard, 77, null, false);
+    }
+
+    private void want(String mission, long from) {
+        DeviceVersion version = new DeviceVersion(ID, "", "/", "d", mission, from, null, 1, null);
+        WantedDevice device = new WantedDevice(
+                version,
+                "T",
+                ID,
+                true,
+                Duration.ofSeconds(10),
+                NgsiJson.mapper().createObjectNode());
+        wanted.put(KEY, device.toBytes());
+    }
+}
