@@ -19,6 +19,7 @@ import io.furrow.launcher.control.TemplateCommand;
         subcommands = {
             DemoCommand.class,
             UpCommand.class,
+            ScenarioCommand.class,
             DomainCommand.class,
             MissionCommand.class,
             TemplateCommand.class,
