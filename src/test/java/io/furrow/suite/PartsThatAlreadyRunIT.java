@@ -39,7 +39,9 @@ class PartsThatAlreadyRunIT {
                                 SuiteSettings.Ports.free(),
                                 orion.contextBroker(),
                                 kafka.bootstrapServers(),
-                                mongo.uri()))) {
+                                mongo.uri(),
+                                SuiteSettings.Farm.SIMULATED,
+                                SuiteSettings.Watch.DEFAULT))) {
             assertThat(running.suite().hasStandIn()).isFalse();
             assertThat(running.suite().mongo()).isEqualTo(mongo.uri());
             assertThat(running.suite().kafka().bootstrapServers()).isEqualTo(kafka.bootstrapServers());

@@ -12,11 +12,10 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.field.FieldsTopic;
 import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.launcher.control.DemoFarm;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.simulators.device.Fleet;
-import io.furrow.simulators.device.Scenario;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -25,19 +24,15 @@ class WholePathIT {
     private static final Duration PATIENCE = Duration.ofSeconds(60);
 
     private static RunningSuite running;
-    private static Fleet fleet;
 
     @BeforeAll
     static void startTheDemonstrationFarm() throws Exception {
         running = RunningSuite.start(null);
-        fleet = Fleet.start(running.suite().devices(), Scenario.demo());
+        DemoFarm.start(running.suite().control());
     }
 
     @AfterAll
     static void stop() {
-        if (fleet != null) {
-            fleet.close();
-        }
         if (running != null) {
             running.close();
         }
@@ -54,6 +49,18 @@ class WholePathIT {
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
             assertThat(average.at("/averageTemperature/value").asDouble())
                     .isLessThan(average.at("/plainMean/value").asDouble());
+        });
+    }
+
+    @Test
+    void showsEachDomainAndMissionInTheContextBroker() {
+        await().atMost(PATIENCE).untilAsserted(() -> {
+            JsonNode missions = running.ngsi().entities("type=Mission");
+            assertThat(missions)
+                    .hasSize(3)
+                    .allSatisfy(mission ->
+                            assertThat(mission.at("/status/value").asText()).isEqualTo("running"));
+            assertThat(running.ngsi().entities("type=Domain")).hasSize(2);
         });
     }
 

@@ -7,15 +7,14 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Spec;
 
-import io.furrow.simulators.device.Fleet;
-import io.furrow.simulators.device.Scenario;
+import io.furrow.launcher.control.DemoFarm;
 
 /** {@code ./furrow demo}. */
 @Command(
         name = "demo",
         abbreviateSynopsis = true,
         description =
-                "Starts everything in one JVM on 127.0.0.1, with the simulated devices of a small farm, and shows what "
+                "Starts everything in one JVM on 127.0.0.1, with the missions and simulated devices of a small farm, and shows what "
                         + "comes out.")
 final class DemoCommand implements Callable<Integer> {
     @Spec
@@ -30,9 +29,9 @@ final class DemoCommand implements Callable<Integer> {
     @Override
     public Integer call() throws Exception {
         return new Session(spec.commandLine().getOut())
-                .run(
-                        options.settings(null, null),
-                        options.data,
-                        suite -> Fleet.start(suite.devices(), Scenario.demo()));
+                .run(options.settings(null, null, SuiteSettings.Farm.SIMULATED), options.data, suite -> {
+                    DemoFarm.start(suite.control());
+                    return () -> {};
+                });
     }
 }

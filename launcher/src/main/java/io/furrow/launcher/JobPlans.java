@@ -66,7 +66,13 @@ final class JobPlans {
                 "temperature",
                 TemperatureJob.assemble(
                         parsed("temperature", new TemperatureOptions(), "--window", settings.window())));
-        plans.put("collision", CollisionJob.assemble(parsed("collision", new CollisionOptions())));
+        plans.put(
+                "collision",
+                CollisionJob.assemble(parsed(
+                        "collision",
+                        new CollisionOptions(),
+                        "--horizon",
+                        settings.watch().horizon())));
         plans.put("presence", PresenceJob.assemble(parsed("presence", new PresenceOptions())));
         return plans;
     }

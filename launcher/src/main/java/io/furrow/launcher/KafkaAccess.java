@@ -32,7 +32,8 @@ public final class KafkaAccess implements AutoCloseable {
             Topics.COLLISION,
             Topics.COLLISION_LATE,
             Topics.PRESENCE,
-            Topics.PRESENCE_LATE);
+            Topics.PRESENCE_LATE,
+            Topics.CONTEXT);
 
     private final String bootstrapServers;
     private final Path propertiesFile;

@@ -4,10 +4,10 @@ import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
 
 import io.furrow.control.field.FieldsTopic;
+import io.furrow.control.provisioning.LiveAccounts;
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
@@ -18,13 +18,14 @@ import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.fiware.FiwareSettings;
 import io.furrow.simulators.fiware.FiwareStandIn;
+import io.furrow.simulators.mqtt.MqttAccess;
 
 /**
- * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, and, unless a context
- * broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
+ * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, unless
+ * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
  */
 public final class Suite implements AutoCloseable {
-    /** The MQTT user of devices. */
+    /** The MQTT user of the IoT Agent, and of devices that no mission has. */
     public static final String MQTT_USER = "device";
     /** Its password; good enough for a broker that only this machine reaches. */
     public static final String MQTT_PASSWORD = "furrow";
@@ -43,6 +44,8 @@ public final class Suite implements AutoCloseable {
     private FiwareStandIn fiware;
     private String mongo;
     private URI contextBroker;
+    private SuiteControl control;
+    private final LiveAccounts accounts = new LiveAccounts();
     private URI listener;
 
     private Suite(SuiteSettings settings, RunDirectory directory, Progress progress) {
@@ -77,8 +80,10 @@ public final class Suite implements AutoCloseable {
         checkPorts();
         LogFile.writeTo(directory.resolve("furrow.log"));
         startKafka();
-        runTogether(this::startConnect, this::startFlink, this::startFiware);
+        control = parts.add("control plane", new SuiteControl(settings, kafka, directory));
+        Together.run(this::startConnect, this::startFlink, this::startFiware, this::startControl);
         connectThem();
+        progress.step("devices of missions", () -> control.join(ends()));
     }
 
     private void checkPorts() {
@@ -89,6 +94,7 @@ public final class Suite implements AutoCloseable {
         PortCheck.free(ports.connect(), "Connect", "--connect-port");
         PortCheck.free(ports.flink(), "Flink's web UI", "--flink-port");
         PortCheck.free(ports.listener(), "the listener for notifications", "--notify-port");
+        PortCheck.free(ports.control(), "the control plane", "--control-port");
         if (settings.mongo() == null) {
             PortCheck.free(ports.mongo(), "the server for missions", "--mongo-port");
         }
@@ -162,9 +168,28 @@ public final class Suite implements AutoCloseable {
             contextBroker = settings.orion();
             return;
         }
-        mqtt = parts.add("MQTT", EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD)));
+        mqtt = parts.add(
+                "MQTT",
+                EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD), new LiveUsers(accounts)));
         fiware = parts.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
+    }
+
+    private void startControl() throws Exception {
+        progress.step("control plane", control::startManagers);
+    }
+
+    private SuiteControl.Ends ends() {
+        SuiteSettings.Farm farm = settings.farm();
+        if (fiware != null) {
+            return new SuiteControl.Ends(
+                    contextBroker, fiware.iotAgent(), new MqttAccess(mqtt.uri(), null, 1), List.of(accounts));
+        }
+        return new SuiteControl.Ends(
+                contextBroker,
+                farm.iotAgent(),
+                farm.mqtt() == null ? null : new MqttAccess(farm.mqtt(), farm.mqttTrusted(), 1),
+                SuiteControl.files(farm.accounts()));
     }
 
     private FiwareStandIn startStandIn() {
@@ -187,7 +212,8 @@ public final class Suite implements AutoCloseable {
         Connectors connectors = new Connectors(connect.uri());
         progress.step("NGSI source and sink", () -> {
             connectors.source(port, directory.resolve("journal"), contextBroker, settings.fiwareService());
-            connectors.sink(contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE));
+            connectors.sink(
+                    contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
             return listener;
         });
     }
@@ -236,6 +262,11 @@ public final class Suite implements AutoCloseable {
                 contextBroker, fiware.iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD, settings.fiwareService(), "/");
     }
 
+    /** Base of the control plane's REST API. */
+    public URI control() {
+        return control.api();
+    }
+
     public String fiwareService() {
         return settings.fiwareService();
     }
@@ -253,27 +284,5 @@ public final class Suite implements AutoCloseable {
         }
         jobs = null;
         parts.close();
-    }
-
-    /** A step of the start; declared because {@code Callable} wants a result. */
-    private interface Step {
-        void run() throws Exception;
-    }
-
-    private static void runTogether(Step... steps) {
-        CompletableFuture<?>[] all = new CompletableFuture<?>[steps.length];
-        for (int i = 0; i < steps.length; i++) {
-            Step step = steps[i];
-            all[i] = CompletableFuture.runAsync(
-                    () -> {
-                        try {
-                            step.run();
-                        } catch (Exception e) { // carried to the caller by the future
-                            throw new CompletionException(e);
-                        }
-                    },
-                    task -> new Thread(task, "start").start());
-        }
-        CompletableFuture.allOf(all).join();
     }
 }

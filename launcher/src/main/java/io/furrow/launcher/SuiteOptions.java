@@ -3,6 +3,7 @@ package io.furrow.launcher;
 import java.net.URI;
 import java.nio.file.Path;
 
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 /** What is common to {@code demo} and {@code up}: where things are kept, and on which ports of 127.0.0.1 they listen. */
@@ -103,12 +104,31 @@ final class SuiteOptions {
             description = "Keep missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server.")
     String mongo;
 
+    @Option(
+            names = "--control-port",
+            paramLabel = "PORT",
+            defaultValue = "8085",
+            description = PORT_OF + "the control plane's REST API" + DEFAULT)
+    int controlPort;
+
+    @Mixin
+    WatchFlags watch;
+
     private static final String PORT_OF = "Port of ";
     private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
 
-    SuiteSettings settings(URI orion, String kafka) {
+    SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm) {
         SuiteSettings.Ports ports = new SuiteSettings.Ports(
-                kafkaPort, connectPort, flinkPort, notifyPort, mqttPort, orionPort, iotAgentPort, mongoPort);
-        return new SuiteSettings(kafkaProperties, fiwareService, window, fields, ports, orion, kafka, mongo);
+                kafkaPort,
+                connectPort,
+                flinkPort,
+                notifyPort,
+                mqttPort,
+                orionPort,
+                iotAgentPort,
+                mongoPort,
+                controlPort);
+        return new SuiteSettings(
+                kafkaProperties, fiwareService, window, fields, ports, orion, kafka, mongo, farm, watch.watch());
     }
 }

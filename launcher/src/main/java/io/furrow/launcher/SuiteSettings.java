@@ -13,6 +13,8 @@ import java.nio.file.Path;
  * @param orion a context broker that already runs; null to start the stand-in
  * @param kafka bootstrap servers that already run; null to start a broker
  * @param mongo URI of a MongoDB that already runs; null to start a server
+ * @param farm how devices of missions are provisioned and hosted
+ * @param watch what is done about alarms
  */
 public record SuiteSettings(
         Path kafkaProperties,
@@ -22,18 +24,75 @@ public record SuiteSettings(
         Ports ports,
         URI orion,
         String kafka,
-        String mongo) {
+        String mongo,
+        Farm farm,
+        Watch watch) {
 
     /** Ports on 127.0.0.1, each 0 for a free one. */
-    public record Ports(int kafka, int connect, int flink, int listener, int mqtt, int orion, int iotAgent, int mongo) {
+    public record Ports(
+            int kafka,
+            int connect,
+            int flink,
+            int listener,
+            int mqtt,
+            int orion,
+            int iotAgent,
+            int mongo,
+            int control) {
         /** All free ones. */
         public static Ports free() {
-            return new Ports(0, 0, 0, 0, 0, 0, 0, 0);
+            return new Ports(0, 0, 0, 0, 0, 0, 0, 0, 0);
         }
+    }
+
+    /**
+     * Devices of missions.
+     *
+     * @param iotAgent one that already runs, beside a context broker that does; null for none, or for the stand-in
+     * @param mqtt MQTT broker that already runs, likewise
+     * @param mqttTrusted PEM file with the certificates to trust there; null for those that Java trusts
+     * @param accounts files in which that broker finds the accounts of devices
+     * @param secret file with the farm's secret; null for one in the suite's directory
+     * @param tokens file of those who may command; null for all who reach the API
+     * @param simulates whether the devices are simulated here
+     */
+    public record Farm(
+            URI iotAgent,
+            URI mqtt,
+            Path mqttTrusted,
+            AccountFiles accounts,
+            Path secret,
+            Path tokens,
+            boolean simulates) {
+        /** Simulated devices on the stand-in and the suite's own MQTT broker. */
+        public static final Farm SIMULATED =
+                new Farm(null, null, null, new AccountFiles(null, null, null), null, null, true);
+    }
+
+    /**
+     * Mosquitto's files of users and their rights.
+     *
+     * @param passwords null for none
+     * @param rules null for none
+     * @param reload run after a change; null for nothing
+     */
+    public record AccountFiles(Path passwords, Path rules, String reload) {}
+
+    /**
+     * What is done about alarms.
+     *
+     * @param webhook where alarms are posted; null for nowhere
+     * @param silentAfter periods without a sign of life after which a device counts as silent
+     * @param horizon how far ahead encounters are predicted, as the job {@code collision} takes it
+     * @param stops whether robots are told to stop that are predicted to meet
+     */
+    public record Watch(URI webhook, int silentAfter, String horizon, boolean stops) {
+        public static final Watch DEFAULT = new Watch(null, 3, "0s", false);
     }
 
     /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
     public static SuiteSettings onFreePorts(String window) {
-        return new SuiteSettings(null, "farm", window, null, Ports.free(), null, null, null);
+        return new SuiteSettings(
+                null, "farm", window, null, Ports.free(), null, null, null, Farm.SIMULATED, Watch.DEFAULT);
     }
 }

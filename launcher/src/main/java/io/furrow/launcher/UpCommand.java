@@ -35,11 +35,14 @@ final class UpCommand implements Callable<Integer> {
     private String kafka;
 
     @Mixin
+    private FarmOptions farm;
+
+    @Mixin
     private HelpOption help;
 
     @Override
     public Integer call() throws Exception {
         return new Session(spec.commandLine().getOut())
-                .run(options.settings(orion, kafka), options.data, suite -> () -> {});
+                .run(options.settings(orion, kafka, farm.farm()), options.data, suite -> () -> {});
     }
 }

@@ -94,7 +94,17 @@ class SuiteFieldsIT {
     }
 
     private static SuiteSettings settings(Path fields, String kafka) {
-        return new SuiteSettings(null, "farm", "10s", fields, SuiteSettings.Ports.free(), null, kafka, null);
+        return new SuiteSettings(
+                null,
+                "farm",
+                "10s",
+                fields,
+                SuiteSettings.Ports.free(),
+                null,
+                kafka,
+                null,
+                SuiteSettings.Farm.SIMULATED,
+                SuiteSettings.Watch.DEFAULT);
     }
 
     private Path file(String... features) throws Exception {

@@ -1,5 +1,7 @@
 package io.furrow.control.provisioning;
 
+import java.util.List;
+
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
@@ -35,10 +37,28 @@ class MqttAccountTest {
 
     @ParameterizedTest
     @ValueSource(
-            strings = {"#", "/#", "/+/+/cmd", "/KEY/#", "/KEY/+/#", "/KEY/+/+", "$SYS/#", "/KEY/d/e/cmd", "/KEY//d/cmd"
+            strings = {
+                "#",
+                "/#",
+                "/+/+/cmd",
+                "/KEY/#",
+                "/KEY/+/#",
+                "/KEY/+/+",
+                "$SYS/#",
+                "/KEY/d/e/cmd",
+                "/KEY/d/cmd/e",
+                "/KEY//d/cmd"
             })
     void grantsNoFilterThatTakesMore(String filter) {
         assertThat(gateway.mayRead(filter.replace("/KEY", KEY))).isFalse();
+    }
+
+    @Test
+    void takesAWildcardOfOneLevelForNoWildcardOfAll() {
+        MqttAccount account = new MqttAccount(device.login(), List.of(), List.of("a/+"));
+
+        assertThat(account.mayRead("a/+")).isTrue();
+        assertThat(account.mayRead("a/#")).isFalse();
     }
 
     @Test

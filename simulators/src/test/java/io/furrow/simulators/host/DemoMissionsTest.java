@@ -1,0 +1,236 @@
+package io.furrow.simulators.host;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Position;
+import io.furrow.simulators.robot.RobotModel;
+import io.furrow.simulators.robot.Way;
+import io.furrow.simulators.scenario.SimulatedDevice;
+import io.furrow.simulators.scenario.SimulatedDevice.Camera;
+import io.furrow.simulators.scenario.SimulatedDevice.Robot;
+import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
+import io.furrow.simulators.scenario.WantedDeviceReader;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** What {@code ./furrow demo} shows, device by device as a host makes them. */
+class DemoMissionsTest {
+    private static final double CLOSE_METERS = 5;
+    private static final double METERS_PER_DEGREE = 111_195;
+    private static final Instant NOON = Instant.parse("2026-06-01T12:00:00Z");
+
+    private final Map<String, SimulatedDevice> devices = new LinkedHashMap<>();
+    private JsonNode demo;
+
+    @BeforeEach
+    void make() throws Exception {
+        demo = resource("missions.json");
+        WantedDeviceReader reader = new WantedDeviceReader(Map.of(), 0);
+        for (JsonNode mission : demo.path("missions")) {
+            for (JsonNode template : demo.path("templates")) {
+                if (template.path("template").equals(mission.path("template"))) {
+                    for (JsonNode device : template.path("devices")) {
+                        devices.put(device.path("id").asText(), reader.read(wanted(mission, device)));
+                    }
+                }
+            }
+        }
+    }
+
+    @Test
+    void hasTheFarmWithTwoMissionsAndTheCanary() {
+        assertThat(demo.path("domains").findValuesAsText("domain")).containsExactly("farm", "canary");
+        assertThat(demo.path("missions").findValuesAsText("mission")).containsExactly("weeding", "scouting", "dummy");
+        assertThat(devices).hasSize(14);
+    }
+
+    @Test
+    void putsFourOneAndOneThermometersIntoTheFieldsTheyName() throws IOException {
+        Map<String, Integer> counts = new TreeMap<>();
+        for (Sensor sensor : of("farm", Sensor.class)) {
+            List<String> fields = fieldsAt(place(sensor, Duration.ZERO));
+            assertThat(fields).as(sensor.id()).containsExactly(sensor.place().where());
+            counts.merge(fields.get(0), 1, Integer::sum);
+        }
+
+        assertThat(counts).isEqualTo(Map.of("field-1", 4, "field-2", 1, "field-3", 1));
+    }
+
+    @Test
+    void keepsTheCanaryOutOfTheFields() throws IOException {
+        for (Sensor sensor : of("canary", Sensor.class)) {
+            assertThat(fieldsAt(place(sensor, Duration.ZERO))).as(sensor.id()).isEmpty();
+        }
+        assertThat(of("canary", Sensor.class)).hasSize(3);
+        assertThat(of("canary", Robot.class)).hasSize(1);
+        assertThat(of("canary", Camera.class))
+                .singleElement()
+                .satisfies(camera ->
+                        assertThat(place(camera, Duration.ofSeconds(30))).isNotEqualTo(place(camera, Duration.ZERO)));
+    }
+
+    @Test
+    void hasOneDefectiveThermometerFarFromItsThreeNeighbours() {
+        List<Double> shown = of("farm", Sensor.class).stream()
+                .filter(sensor -> sensor.place().where().equals("field-1"))
+                .map(sensor -> sensor.quantities().get(0).signal().at(NOON).orElseThrow())
+                .sorted()
+                .toList();
+
+        assertThat(shown.get(2) - shown.get(0)).isLessThan(2);
+        assertThat(shown.get(3) - shown.get(2)).isGreaterThan(20);
+    }
+
+    /** Their missions do not start at the same time. */
+    @ParameterizedTest
+    @ValueSource(ints = {0, 1, 3, 10})
+    void letsTheTwoRobotsMeetWithinTenSecondsAndThenEveryTwentyToThirty(int secondsBetweenStarts) {
+        List<Robot> robots = of("farm", Robot.class);
+        assertThat(robots)
+                .hasSize(2)
+                .allSatisfy(robot -> assertThat(robot.period()).isEqualTo(Duration.ofMillis(500)));
+        List<Duration> meetings = meetings(robots.get(0), robots.get(1), Duration.ofSeconds(secondsBetweenStarts));
+
+        assertThat(meetings.get(0)).isLessThan(Duration.ofSeconds(10));
+        assertThat(meetings).hasSizeGreaterThan(20);
+        for (int i = 1; i < meetings.size(); i++) {
+            assertThat(meetings.get(i).minus(meetings.get(i - 1)))
+                    .isBetween(Duration.ofSeconds(20), Duration.ofSeconds(30));
+        }
+    }
+
+    @Test
+    void keepsAllOthersApart() {
+        List<SimulatedDevice> all = List.copyOf(devices.values());
+        for (int second = 0; second < 600; second++) {
+            Duration time = Duration.ofSeconds(second);
+            for (int a = 0; a < all.size(); a++) {
+                for (int b = a + 1; b < all.size(); b++) {
+                    boolean meet = all.get(a).id().equals("urn:ngsi-ld:Robot:1")
+                            && all.get(b).id().equals("urn:ngsi-ld:Robot:2");
+                    if (!meet) {
+                        assertThat(meters(place(all.get(a), time), place(all.get(b), time)))
+                                .as(all.get(a).id() + " and " + all.get(b).id())
+                                .isGreaterThan(3 * CLOSE_METERS);
+                    }
+                }
+            }
+        }
+    }
+
+    /** The times at which a pair becomes close, seen at 2 Hz over ten minutes; the one has started earlier than the other. */
+    private static List<Duration> meetings(Robot a, Robot b, Duration earlier) {
+        List<Duration> meetings = new ArrayList<>();
+        boolean close = false;
+        for (int beat = 0; beat < 1200; beat++) {
+            Duration time = Duration.ofMillis(500L * beat);
+            boolean now = meters(place(a, time.plus(earlier)), place(b, time)) <= CLOSE_METERS;
+            if (now && !close) {
+                meetings.add(time);
+            }
+            close = now;
+        }
+        return meetings;
+    }
+
+    private static Position place(SimulatedDevice device, Duration time) {
+        double seconds = time.toMillis() / 1000.0;
+        if (device instanceof Robot robot) {
+            RobotModel model = robot.model();
+            return model.way().at(robot.driven() + seconds).place();
+        }
+        Way way = device instanceof Sensor sensor
+                ? sensor.place().way()
+                : ((Camera) device).place().way();
+        return way.at(seconds).place();
+    }
+
+    private <T extends SimulatedDevice> List<T> of(String domain, Class<T> type) {
+        return devices.values().stream()
+                .filter(device -> device.identity().domain().equals(domain))
+                .filter(type::isInstance)
+                .map(type::cast)
+                .toList();
+    }
+
+    private static WantedDevice wanted(JsonNode mission, JsonNode device) {
+        DeviceVersion version = new DeviceVersion(
+                device.path("id").asText(),
+                "farm",
+                "/",
+                mission.path("domain").asText(),
+                mission.path("mission").asText(),
+                NOON.toEpochMilli(),
+                null,
+                1,
+                null);
+        ObjectNode settings = device.deepCopy();
+        settings.retain("area", "path", "speed", "faults", "parameters");
+        return new WantedDevice(
+                version,
+                device.path("type").asText(),
+                version.id(),
+                true,
+                Duration.parse(device.path("period").asText()),
+                settings);
+    }
+
+    private static JsonNode resource(String name) throws IOException {
+        try (InputStream json = DeviceHost.class.getResourceAsStream("/io/furrow/simulators/demo/" + name)) {
+            return NgsiJson.mapper().readTree(json);
+        }
+    }
+
+    private static double meters(Position a, Position b) {
+        double north = (a.latitude() - b.latitude()) * METERS_PER_DEGREE;
+        double east = (a.longitude() - b.longitude())
+                * METERS_PER_DEGREE
+                * Math.cos(Math.toRadians((a.latitude() + b.latitude()) / 2));
+        return Math.hypot(north, east);
+    }
+
+    private static List<String> fieldsAt(Position place) throws IOException {
+        List<String> fields = new ArrayList<>();
+        for (JsonNode field : resource("fields.geojson").path("features")) {
+            if (inside(field.at("/geometry/coordinates/0"), place)) {
+                assertThat(field.at("/properties/Domain").textValue()).isEqualTo("farm");
+                fields.add(field.path("id").textValue());
+            }
+        }
+        return fields;
+    }
+
+    /** Inside when a ray to the east crosses the ring an odd number of times. */
+    private static boolean inside(JsonNode ring, Position place) {
+        boolean inside = false;
+        for (int i = 1; i < ring.size(); i++) {
+            double lonA = ring.get(i - 1).get(0).doubleValue();
+            double latA = ring.get(i - 1).get(1).doubleValue();
+            double lonB = ring.get(i).get(0).doubleValue();
+            double latB = ring.get(i).get(1).doubleValue();
+            if (latA > place.latitude() != latB > place.latitude()
+                    && place.longitude() < lonA + (place.latitude() - latA) / (latB - latA) * (lonB - lonA)) {
+                inside = !inside;
+            }
+        }
+        return inside;
+    }
+}
