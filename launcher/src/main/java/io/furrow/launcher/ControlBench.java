@@ -114,7 +114,7 @@ final class ControlBench implements Callable<Integer> {
     private void measure(String way, ControlClient client, PrintWriter out) throws InterruptedException {
         try (client) {
             ControlMeasurement measurement =
-                    new ControlMeasurement(client, UUID.randomUUID().toString());
+                    new ControlMeasurement(client, UUID.randomUUID().toString().substring(0, 8));
             if (warmup > 0) {
                 measurement.run(new ControlLoadPlan(0, outstanding, Duration.ofSeconds(warmup)));
             }

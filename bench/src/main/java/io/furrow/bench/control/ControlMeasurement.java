@@ -17,7 +17,7 @@ public final class ControlMeasurement {
     private final String run;
     private long next;
 
-    /** @param run makes the ids of this run's requests its own */
+    /** @param run of letters and digits; makes ids and missions of this run its own */
     public ControlMeasurement(ControlClient client, String run) {
         this.client = client;
         this.run = run;
@@ -68,7 +68,7 @@ public final class ControlMeasurement {
 
     private void ask(Tally tally, Semaphore free, long due) {
         long number = next++;
-        ControlRequest request = ControlRequest.of(number);
+        ControlRequest request = ControlRequest.of(number, run);
         CompletableFuture<String> answer = client.ask(request, run + "-" + number);
         answer.whenComplete((status, failure) -> {
             if (failure == null) {

@@ -27,7 +27,8 @@ public record ControlRequest(
 
     private static final int STEPS = 3;
 
-    static ControlRequest of(long number) {
+    /** @param run that no other load has had, as part of the missions' names */
+    static ControlRequest of(long number, String run) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
         String domain = "bench-" + number % DOMAINS;
         if (number % 2 == 0) {
@@ -37,7 +38,7 @@ public record ControlRequest(
         }
         long turn = number / 2;
         long step = turn / MISSIONS;
-        String mission = "bench-" + (step / STEPS * MISSIONS + turn % MISSIONS);
+        String mission = "bench-" + run + "-" + (step / STEPS * MISSIONS + turn % MISSIONS);
         members.put("mission", mission);
         String path = "/api/missions/" + mission;
         return switch ((int) (step % STEPS)) {

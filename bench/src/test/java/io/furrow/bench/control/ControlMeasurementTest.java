@@ -54,7 +54,7 @@ class ControlMeasurementTest {
         Map<String, List<String>> commands = new HashMap<>();
         Map<String, Long> last = new HashMap<>();
         for (long number = 0; number < 40_000; number++) {
-            ControlRequest request = ControlRequest.of(number);
+            ControlRequest request = ControlRequest.of(number, "r");
             String mission = request.members().path("mission").asText();
             if (!mission.isEmpty()) {
                 commands.computeIfAbsent(mission, any -> new ArrayList<>()).add(request.command());
@@ -63,9 +63,9 @@ class ControlMeasurementTest {
                         .isTrue();
             }
         }
-        assertThat(commands.get("bench-0")).containsExactly("start", "stop", "delete");
-        assertThat(commands.get("bench-1999")).containsExactly("start", "stop", "delete");
-        assertThat(commands.get("bench-2000")).containsExactly("start", "stop", "delete");
+        assertThat(commands.get("bench-r-0")).containsExactly("start", "stop", "delete");
+        assertThat(commands.get("bench-r-1999")).containsExactly("start", "stop", "delete");
+        assertThat(commands.get("bench-r-2000")).containsExactly("start", "stop", "delete");
     }
 
     private ControlClient client(String... statuses) {

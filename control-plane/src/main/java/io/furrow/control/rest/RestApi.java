@@ -4,15 +4,24 @@ import java.io.IOException;
 import java.lang.reflect.Type;
 import java.net.InetAddress;
 import java.net.URI;
+import java.nio.ByteBuffer;
 import java.util.List;
+import java.util.Locale;
 import java.util.function.Supplier;
 
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.core.MediaType;
 import org.eclipse.jetty.ee10.servlet.ServletContextHandler;
 import org.eclipse.jetty.ee10.servlet.ServletHolder;
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.http.HttpStatus;
 import org.eclipse.jetty.server.HttpConfiguration;
 import org.eclipse.jetty.server.HttpConnectionFactory;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.server.Server;
 import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.util.Callback;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 import org.glassfish.jersey.internal.inject.AbstractBinder;
 import org.glassfish.jersey.server.ResourceConfig;
@@ -24,6 +33,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * The REST API of the control plane. It shares nothing with the managers but their topics, so any number of instances, beside
@@ -99,7 +109,7 @@ public final class RestApi implements AutoCloseable {
         config.register(new Instances(resources));
         config.register(metrics);
         config.register(new Failures());
-        config.register(new OwnPagesOnly());
+        config.register(new OwnPagesOnly(rest.host(), tokens != null));
         if (tokens != null) {
             config.register(tokens);
         }
@@ -133,6 +143,8 @@ public final class RestApi implements AutoCloseable {
         servlet.setAsyncSupported(true);
         ServletContextHandler context = new ServletContextHandler("/");
         context.addServlet(servlet, "/*");
+        context.setErrorHandler(RestApi::refuse);
+        server.setErrorHandler(RestApi::refuse);
         server.setHandler(context);
         try {
             server.start();
@@ -142,6 +154,18 @@ public final class RestApi implements AutoCloseable {
                             .formatted(rest.host(), rest.port(), e.getMessage()),
                     e);
         }
+    }
+
+    /** What comes no further than to the HTTP server, as a path that has two readings. */
+    private static boolean refuse(Request request, Response response, Callback callback) {
+        String reason = HttpStatus.getMessage(response.getStatus());
+        ObjectNode json = io.furrow.model.control.Response.of(io.furrow.model.control.Response.ERROR)
+                .with("error", reason.toLowerCase(Locale.ROOT).replace(' ', '-'))
+                .with("reason", "the HTTP server refuses the request: " + reason)
+                .json();
+        response.getHeaders().put(HttpHeader.CONTENT_TYPE, MediaType.APPLICATION_JSON);
+        response.write(true, ByteBuffer.wrap(NgsiJson.write(json)), callback);
+        return true;
     }
 
     /** Where it listens. */

@@ -4,6 +4,7 @@ import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.util.Map;
+import java.util.Set;
 import java.util.TreeMap;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
@@ -31,6 +32,7 @@ import io.furrow.model.topic.Topics;
 final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilter {
     static final String CONTENT_TYPE = PrometheusTextFormatWriter.CONTENT_TYPE;
 
+    private static final Set<String> METHODS = Set.of("GET", "HEAD", "OPTIONS", "POST", "PATCH", "PUT", "DELETE");
     private static final String BEGUN = "furrow.begun";
     private static final String STATE = "state";
 
@@ -56,7 +58,8 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     @Override
     public void filter(ContainerRequestContext request, ContainerResponseContext response) {
-        Route route = new Route(request.getMethod(), path(request), response.getStatus());
+        String method = METHODS.contains(request.getMethod()) ? request.getMethod() : "other";
+        Route route = new Route(method, path(request), response.getStatus());
         Count count = counts.computeIfAbsent(route, any -> new Count(new LongAdder(), new LongAdder()));
         count.requests().increment();
         if (request.getProperty(BEGUN) instanceof Long begun) {

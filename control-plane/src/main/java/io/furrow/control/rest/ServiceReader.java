@@ -9,16 +9,26 @@ import java.util.Map;
 import java.util.Properties;
 import java.util.Queue;
 import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.ListOffsetsOptions;
+import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
+import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.clients.consumer.Consumer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
+import org.apache.kafka.common.IsolationLevel;
 import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.KafkaFuture;
+import org.apache.kafka.common.PartitionInfo;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.InterruptException;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.errors.WakeupException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
@@ -40,6 +50,8 @@ final class ServiceReader implements AutoCloseable {
 
     private static final Logger LOG = LoggerFactory.getLogger(ServiceReader.class);
     private static final Duration POLL = Duration.ofMillis(100);
+    private static final Duration POLL_WITH_ANSWERS = Duration.ofMillis(5);
+    private static final ListOffsetsOptions COMMITTED = new ListOffsetsOptions(IsolationLevel.READ_COMMITTED);
     private static final long PAUSE_MS = 1000;
     private static final long PATIENCE_SECONDS = 10;
 
@@ -51,8 +63,9 @@ final class ServiceReader implements AutoCloseable {
     private final Thread thread = new Thread(this::follow, "control-plane-view");
     private volatile Consumer<String, byte[]> consumer;
 
-    /** Answers that wait until the view is as far as they are. */
-    private record Held(Map<Answers.Key, Response> answers, Map<TopicPartition, Long> ends) {}
+    /** Answers that wait until the view is as far as the topics are, when that is known. */
+    private record Held(
+            Map<Answers.Key, Response> answers, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {}
 
     /** @param remembered how far back answers are read at the start */
     ServiceReader(Properties client, Duration remembered, ServiceView view, Answers answers) {
@@ -75,11 +88,12 @@ final class ServiceReader implements AutoCloseable {
 
     private void follow() {
         while (closing.getCount() > 0) {
-            try (Consumer<String, byte[]> fresh =
-                    new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+            try (Admin admin = Admin.create(settings);
+                    Consumer<String, byte[]> fresh =
+                            new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
                 consumer = fresh;
                 view.clear();
-                read(fresh);
+                read(fresh, admin);
             } catch (WakeupException e) { // to look whether it is closed
                 LOG.debug("the view of the control plane's topics was woken up", e);
             } catch (KafkaException e) {
@@ -98,23 +112,42 @@ final class ServiceReader implements AutoCloseable {
         }
     }
 
-    private void read(Consumer<String, byte[]> from) {
+    /** @param admin asks for the ends of topics: a broker would leave such a request of the consumer behind its waiting fetch */
+    private void read(Consumer<String, byte[]> from, Admin admin) {
         List<TopicPartition> viewed = partitions(from, ServiceView.TOPICS);
         List<TopicPartition> all = begin(from, viewed);
         Map<TopicPartition, Long> ends = from.endOffsets(all);
+        Map<TopicPartition, OffsetSpec> latest = new HashMap<>();
+        viewed.forEach(each -> latest.put(each, OffsetSpec.latest()));
         Queue<Held> held = new ArrayDeque<>();
         while (closing.getCount() > 0) {
-            Map<Answers.Key, Response> fresh = take(from.poll(POLL));
+            Map<Answers.Key, Response> fresh = take(from.poll(held.isEmpty() ? POLL : POLL_WITH_ANSWERS));
             if (!view.isComplete() && reached(from, ends)) {
                 view.complete();
                 LOG.info("the view of the control plane's topics is complete");
             }
             if (!fresh.isEmpty()) {
-                held.add(new Held(fresh, from.endOffsets(viewed)));
+                held.add(new Held(fresh, admin.listOffsets(latest, COMMITTED).all()));
             }
-            while (!held.isEmpty() && reached(from, held.peek().ends())) {
+            while (!held.isEmpty() && isSeen(from, held.peek())) {
                 held.remove().answers().forEach(answers::release);
             }
+        }
+    }
+
+    /** Whether the view shows what the answers tell of. */
+    private static boolean isSeen(Consumer<String, byte[]> from, Held held) {
+        if (!held.ends().isDone()) {
+            return false;
+        }
+        try {
+            Map<TopicPartition, Long> ends = new HashMap<>();
+            held.ends().getNow(Map.of()).forEach((partition, end) -> ends.put(partition, end.offset()));
+            return reached(from, ends);
+        } catch (ExecutionException e) {
+            throw new KafkaException("the ends of the control plane's topics are not known", e.getCause());
+        } catch (InterruptedException e) {
+            throw new InterruptException(e);
         }
     }
 
@@ -147,7 +180,11 @@ final class ServiceReader implements AutoCloseable {
     private static List<TopicPartition> partitions(Consumer<String, byte[]> consumer, List<String> topics) {
         List<TopicPartition> partitions = new ArrayList<>();
         for (String topic : topics) {
-            consumer.partitionsFor(topic).forEach(each -> partitions.add(new TopicPartition(topic, each.partition())));
+            List<PartitionInfo> found = consumer.partitionsFor(topic);
+            if (found == null || found.isEmpty()) {
+                throw new UnknownTopicOrPartitionException("there is no topic " + topic + " yet");
+            }
+            found.forEach(each -> partitions.add(new TopicPartition(topic, each.partition())));
         }
         return partitions;
     }

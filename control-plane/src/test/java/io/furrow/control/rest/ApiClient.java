@@ -70,14 +70,12 @@ final class ApiClient {
         return NgsiJson.read(answer.body());
     }
 
-    /** The status of a GET of a path that no client would send so. */
-    int raw(String path) throws IOException {
+    /** The answer to a GET of a path or a host that no client would send so. */
+    String raw(String path, String host) throws IOException {
         try (Socket socket = new Socket(base.getHost(), base.getPort())) {
-            String request =
-                    "GET %s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n".formatted(path, base.getAuthority());
+            String request = "GET %s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n".formatted(path, host);
             socket.getOutputStream().write(request.getBytes(StandardCharsets.US_ASCII));
-            String answer = new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
-            return Integer.parseInt(answer.split(" ")[1]);
+            return new String(socket.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
         }
     }
 }

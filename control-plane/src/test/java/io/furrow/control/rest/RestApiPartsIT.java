@@ -1,0 +1,146 @@
+package io.furrow.control.rest;
+
+import java.net.http.HttpResponse;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlSettings;
+import io.furrow.control.FarmWatch;
+import io.furrow.control.WatchOptions;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.FreePort;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The API while other parts come and go. */
+class RestApiPartsIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final String DOMAIN = "{\"domain\":\"north\"}";
+
+    @TempDir
+    Path directory;
+
+    private int port;
+    private EmbeddedKafka kafka;
+    private RestApi api;
+    private ApiClient client;
+
+    @BeforeEach
+    void start() throws Exception {
+        port = FreePort.orFree(0);
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"), port);
+        api = RestApi.start(settings(), RestSettings.on(0).withPatience(Duration.ofSeconds(1)), () -> "RUNNING");
+        client = new ApiClient(api.uri(), null);
+        await().atMost(PATIENCE).until(api::isReady);
+    }
+
+    @AfterEach
+    void stop() {
+        api.close();
+        kafka.close();
+    }
+
+    @Test
+    void givesARequestThatIsRepeatedUntilItIsAnsweredOneEffect() throws Exception {
+        assertThat(create("key-1").statusCode()).isEqualTo(503);
+        assertThat(create("key-1").statusCode()).isEqualTo(503);
+        try (ControlPlane plane = ControlPlane.start(settings())) {
+            await().atMost(PATIENCE).until(() -> create("key-1").statusCode() != 503);
+            assertThat(plane.state()).isEqualTo("RUNNING");
+            assertThat(create("key-1").statusCode()).isEqualTo(201);
+
+            kafka.close();
+            assertThat(create("key-2").statusCode()).isEqualTo(503);
+            kafka = EmbeddedKafka.start(directory.resolve("kafka"), port);
+            await().atMost(PATIENCE).until(() -> create("key-2").statusCode() == 409);
+        }
+        assertThat(client.json(client.send("GET", "/api/audit", null)))
+                .filteredOn(entry -> entry.path("requestId").asText().equals("key-1"))
+                .hasSize(1);
+    }
+
+    @Test
+    void takesAnAlarmFromItsBeginningToItsEnd() throws Exception {
+        try (FarmWatch watch = FarmWatch.start(settings(), WatchOptions.DEFAULT);
+                KafkaProducer<String, byte[]> producer =
+                        new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
+            await().atMost(PATIENCE).until(watch::isHealthy);
+            producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision()));
+            await().atMost(PATIENCE)
+                    .until(() -> client.json(client.send("GET", "/api/alarms?state=open", null))
+                                    .size()
+                            == 1);
+            JsonNode alarm =
+                    client.json(client.send("GET", "/api/alarms", null)).get(0);
+            String path = "/api/alarms/" + alarm.path("alarm").asText();
+            assertThat(alarm.path("kind").asText()).isEqualTo("collision");
+
+            assertThat(answered(path + "/acknowledge", null)).isEqualTo(200);
+            assertThat(answered(path + "/mute", "{\"for\":\"PT1H\"}")).isEqualTo(200);
+            assertThat(answered(path + "/unmute", null)).isEqualTo(200);
+            assertThat(answered("/api/alarms/mute", "{\"kind\":\"silent-device\",\"for\":\"PT1H\"}"))
+                    .isEqualTo(200);
+            assertThat(answered("/api/alarms/unmute", "{\"kind\":\"silent-device\"}"))
+                    .isEqualTo(200);
+            assertThat(answered(path + "/close", null)).isEqualTo(200);
+            assertThat(client.json(client.send("GET", "/api/alarms?state=closed", null))
+                            .get(0)
+                            .path("acknowledgedBy")
+                            .asText())
+                    .isEqualTo("rest");
+            assertThat(answered(path + "/close", null)).isEqualTo(409);
+            assertThat(answered("/api/alarms/nosuch/close", null)).isEqualTo(404);
+            assertThat(answered(path + "/mute", "{}")).isEqualTo(400);
+        }
+    }
+
+    /** Asked until there is an answer: the patience is a second. */
+    private int answered(String path, String body) throws Exception {
+        String key = java.util.UUID.randomUUID().toString();
+        await().atMost(PATIENCE)
+                .until(() -> client.send("POST", path, body == null ? "" : body, "Idempotency-Key", key)
+                                .statusCode()
+                        != 503);
+        return client.send("POST", path, body == null ? "" : body, "Idempotency-Key", key)
+                .statusCode();
+    }
+
+    private HttpResponse<byte[]> create(String key) throws Exception {
+        return client.send("POST", "/api/domains", DOMAIN, "Idempotency-Key", key);
+    }
+
+    private static byte[] collision() {
+        return Entity.builder("Analytics:Collision:1", "Analytics:Collision")
+                .text("encounter", "e-1")
+                .text("phase", "started")
+                .text("Device1_ID", "r1")
+                .text("Device1_Mission", "m")
+                .text("Device2_ID", "r2")
+                .text("Device2_Mission", "")
+                .number("distance", 2)
+                .number("minDistance", 2)
+                .toBytes();
+    }
+
+    private ControlSettings settings() {
+        Properties settings = new Properties();
+        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        settings.setProperty("state.dir", directory.resolve("state").toString());
+        return ControlSettings.of(settings);
+    }
+}
