@@ -2,12 +2,20 @@ package io.furrow.control.alarm;
 
 import java.io.UncheckedIOException;
 import java.time.Duration;
+import java.util.Collection;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.Properties;
+import java.util.Set;
 
 import org.apache.kafka.clients.consumer.CommitFailedException;
+import org.apache.kafka.clients.consumer.ConsumerRebalanceListener;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.consumer.OffsetAndMetadata;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.InterruptException;
 import org.apache.kafka.common.errors.RetriableException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
@@ -26,8 +34,8 @@ final class AlarmFollower implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(AlarmFollower.class);
     private static final Duration POLL = Duration.ofSeconds(1);
     private static final Duration LONGEST_ACTION = Duration.ofMinutes(10);
-    /** Where a group begins that never read: what changed before is no news. */
-    private static final String NEWS = "by_duration:PT10M";
+    /** What changed before is no news for a group that never read. */
+    private static final Duration NEWS = Duration.ofMinutes(10);
 
     private final Properties settings;
     private final Action action;
@@ -57,7 +65,7 @@ final class AlarmFollower implements AutoCloseable {
         settings.put("group.id", group);
         settings.put("isolation.level", "read_committed");
         settings.put("enable.auto.commit", "false");
-        settings.put("auto.offset.reset", NEWS);
+        settings.put("auto.offset.reset", "latest");
         settings.put("max.poll.records", "1");
         settings.put("max.poll.interval.ms", Long.toString(LONGEST_ACTION.toMillis()));
         AlarmFollower follower = new AlarmFollower(group, settings, action);
@@ -69,15 +77,26 @@ final class AlarmFollower implements AutoCloseable {
         while (!closed) {
             try (KafkaConsumer<String, byte[]> consumer =
                     new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
-                consumer.subscribe(List.of(Topics.ALARMS));
-                while (!closed) {
-                    follow(consumer);
-                }
+                followUntilClosed(consumer);
             } catch (InterruptException | InterruptedException e) {
-                Thread.interrupted(); // as close() asks; the consumer needs to leave in peace
+                LOG.debug("{} ends, as close() asks", thread.getName());
             } catch (RetriableException | CommitFailedException e) {
                 LOG.warn("{} lost Kafka and goes on when that is back", thread.getName(), e);
+            } catch (KafkaException e) {
+                LOG.error("{} stops; start it again once the cause is removed", thread.getName(), e);
+                return;
             }
+        }
+    }
+
+    private void followUntilClosed(KafkaConsumer<String, byte[]> consumer) throws InterruptedException {
+        try {
+            consumer.subscribe(List.of(Topics.ALARMS), new BeginWithNews(consumer));
+            while (!closed) {
+                follow(consumer);
+            }
+        } finally {
+            Thread.interrupted(); // or the consumer could not leave its group in peace
         }
     }
 
@@ -89,6 +108,29 @@ final class AlarmFollower implements AutoCloseable {
             }
             consumer.commitSync();
         }
+    }
+
+    /** The clients' own {@code by_duration} waits for half a minute on a partition that holds nothing so new. */
+    private record BeginWithNews(KafkaConsumer<?, ?> consumer) implements ConsumerRebalanceListener {
+        @Override
+        public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
+            Map<TopicPartition, Long> since = new HashMap<>();
+            consumer.committed(Set.copyOf(partitions)).forEach((partition, known) -> {
+                if (known == null) {
+                    since.put(partition, System.currentTimeMillis() - NEWS.toMillis());
+                }
+            });
+            Map<TopicPartition, OffsetAndMetadata> begin = new HashMap<>();
+            Map<TopicPartition, Long> ends = consumer.endOffsets(since.keySet());
+            consumer.offsetsForTimes(since)
+                    .forEach((partition, found) -> begin.put(
+                            partition, new OffsetAndMetadata(found == null ? ends.get(partition) : found.offset())));
+            begin.forEach(consumer::seek);
+            consumer.commitSync(begin);
+        }
+
+        @Override
+        public void onPartitionsRevoked(Collection<TopicPartition> partitions) {}
     }
 
     /** Null where it was taken away, or is none. */

@@ -1,0 +1,222 @@
+package io.furrow.control;
+
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.sun.net.httpserver.HttpServer;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.alarm.StopRobots;
+import io.furrow.control.alarm.Webhook;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.control.AlarmCommand;
+import io.furrow.model.control.Requests;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The farm watch against a real Kafka, with a webhook that does not always answer. */
+class FarmWatchIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(120);
+    private static final String ROBOT = "robot-1";
+
+    @TempDir
+    Path directory;
+
+    private final List<JsonNode> posted = Collections.synchronizedList(new ArrayList<>());
+    private final List<String> sent = Collections.synchronizedList(new ArrayList<>());
+    private EmbeddedKafka kafka;
+    private KafkaProducer<String, byte[]> producer;
+    private HttpServer hook;
+    private volatile boolean hookIsUp = true;
+    private WatchOptions options;
+
+    @BeforeEach
+    void start() throws Exception {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        hook = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        hook.createContext("/", exchange -> {
+            JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
+            exchange.sendResponseHeaders(hookIsUp ? 204 : 503, -1);
+            exchange.close();
+            if (hookIsUp) {
+                posted.add(alarm);
+            }
+        });
+        hook.start();
+        URI url = URI.create("http://127.0.0.1:" + hook.getAddress().getPort());
+        options = WatchOptions.DEFAULT
+                .with(Webhook.Settings.of(url))
+                .with(StopRobots.Settings.of((device, type, command, value) -> sent.add(device + " " + command)));
+    }
+
+    @AfterEach
+    void stop() {
+        producer.close();
+        hook.stop(0);
+        kafka.close();
+    }
+
+    @Test
+    void tellsOfADeviceThatFallsSilentAndComesBack() throws Exception {
+        try (FarmWatch watch = watch("one")) {
+            assertThat(watch.state()).isNotEqualTo("ERROR");
+            want();
+            await().atMost(PATIENCE).until(() -> {
+                report();
+                return !records(Topics.DEVICES_HEALTH).isEmpty()
+                        && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
+            });
+            hookIsUp = false;
+            await().atMost(PATIENCE).until(() -> state("silent-device").equals("open"));
+            await().atMost(PATIENCE).until(() -> {
+                report();
+                return state("silent-device").equals("closed");
+            });
+            hookIsUp = true;
+            await().atMost(PATIENCE).until(() -> posted.size() >= 2);
+        }
+        assertThat(posted)
+                .extracting(alarm -> alarm.path("id").asText())
+                .startsWith("silent-device-1:1", "silent-device-1:2")
+                .doesNotHaveDuplicates();
+    }
+
+    @Test
+    void stopsRobotsOnceAndRemembersAlarmsOverARestart() throws Exception {
+        try (FarmWatch watch = watch("one")) {
+            assertThat(watch.state()).isNotEqualTo("ERROR");
+            want();
+            await().atMost(PATIENCE).until(() -> {
+                report();
+                return !records(Topics.DEVICES_HEALTH).isEmpty()
+                        && newest(Topics.DEVICES_HEALTH).path("type").asText().equals("ROBOT");
+            });
+            predict();
+            await().atMost(PATIENCE).until(() -> audited().size() == 2);
+        }
+        assertThat(audited().get(0)).contains(ROBOT, "\"result\":\"sent\"");
+        assertThat(audited().get(1)).contains("somebody", "nobody knows what type of entity it is");
+        assertThat(sent).containsExactly(ROBOT + " Stop");
+
+        String alarm = "predicted-encounter-1";
+        try (FarmWatch watch = watch("two")) { // knows nothing but what is in Kafka
+            assertThat(watch.state()).isNotEqualTo("ERROR");
+            predict();
+            producer.send(new ProducerRecord<>(
+                    Topics.ALARM_MANAGER, Requests.write("r", new AlarmCommand.Acknowledge(alarm, "ann"))));
+            await().atMost(PATIENCE).until(() -> state("predicted-encounter").equals("acknowledged"));
+            await().atMost(PATIENCE)
+                    .until(() -> posted.stream()
+                            .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
+        }
+        assertThat(sent).hasSize(1);
+    }
+
+    private FarmWatch watch(String state) throws Exception {
+        Path own = directory.resolve(state);
+        return FarmWatch.start(ControlPlaneProcess.settings(kafka.bootstrapServers(), own.toString()), options);
+    }
+
+    private void want() {
+        DeviceVersion version =
+                new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
+        WantedDevice device = new WantedDevice(
+                version,
+                null,
+                null,
+                true,
+                Duration.ofSeconds(1),
+                NgsiJson.mapper().createObjectNode());
+        producer.send(new ProducerRecord<>(Topics.DEVICES, version.key(), device.toBytes()));
+    }
+
+    private void report() {
+        EntityBuilder entity = Entity.builder(ROBOT, "ROBOT").text("battery", "{%27percentage%27: 0.5}");
+        producer.send(new ProducerRecord<>(Topics.RAW, entity.id(), entity.toBytes()));
+    }
+
+    private void predict() {
+        EntityBuilder entity = Entity.builder("Analytics:Collision:1:predicted", "Analytics:Collision")
+                .text("encounter", "e-1")
+                .text("phase", "predicted")
+                .text("Device1_ID", ROBOT)
+                .text("Device2_ID", "somebody")
+                .number("distance", 12)
+                .number("dcpa", 0.5);
+        producer.send(new ProducerRecord<>(Topics.COLLISION, ROBOT + "-somebody", entity.toBytes()));
+    }
+
+    /** Of the newest alarm of a kind. */
+    private String state(String kind) throws Exception {
+        String state = "";
+        for (ConsumerRecord<String, byte[]> record : records(Topics.ALARMS)) {
+            if (record.key().startsWith(kind)) {
+                state = NgsiJson.read(record.value()).path("state").asText();
+            }
+        }
+        return state;
+    }
+
+    private List<String> audited() {
+        return records(Topics.AUDIT).stream()
+                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .toList();
+    }
+
+    private JsonNode newest(String topic) throws Exception {
+        List<ConsumerRecord<String, byte[]>> all = records(topic);
+        return NgsiJson.read(all.get(all.size() - 1).value());
+    }
+
+    private List<ConsumerRecord<String, byte[]>> records(String topic) {
+        Properties settings = client();
+        settings.setProperty("isolation.level", "read_committed");
+        try (KafkaConsumer<String, byte[]> consumer =
+                new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+            TopicPartition only = new TopicPartition(topic, 0);
+            consumer.assign(List.of(only));
+            consumer.seekToBeginning(List.of(only));
+            long end = consumer.endOffsets(List.of(only)).get(only);
+            List<ConsumerRecord<String, byte[]>> all = new ArrayList<>();
+            while (consumer.position(only) < end) {
+                consumer.poll(Duration.ofMillis(100)).forEach(all::add);
+            }
+            return all;
+        }
+    }
+
+    private Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+}
