@@ -76,6 +76,11 @@ public final class DeviceHost implements AutoCloseable {
         return caughtUp;
     }
 
+    /** Waits until it takes up nothing any more: because it was closed, or broke down, which is in the log. */
+    public void await() throws InterruptedException {
+        thread.join();
+    }
+
     /** The fleet at work, for figures. */
     public FarmFleet fleet() {
         return fleet;

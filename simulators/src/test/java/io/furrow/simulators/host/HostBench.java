@@ -42,7 +42,8 @@ import io.furrow.simulators.mqtt.MqttAccess;
 
 /** All that a host of devices speaks to, and who asks it for devices in the place of the control plane. */
 final class HostBench implements AutoCloseable {
-    static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
+    static final String SECRET_TEXT = "0123456789abcdef";
+    static final FarmSecret SECRET = new FarmSecret(SECRET_TEXT.getBytes(StandardCharsets.UTF_8));
 
     final Map<String, String> passwords = new ConcurrentHashMap<>(Map.of("farmer", "plough"));
     final FiwareStandIn fiware;

@@ -1,0 +1,131 @@
+package io.furrow.simulators.host;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Properties;
+import java.util.concurrent.Callable;
+import java.util.concurrent.atomic.AtomicBoolean;
+
+import picocli.CommandLine;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.model.device.FarmSecret;
+import io.furrow.simulators.mqtt.MqttAccess;
+
+/** The host of simulated devices as a process of its own, in a container for instance: each option may be a variable too. */
+@Command(
+        name = "device-host",
+        description = "Runs the devices that are wanted on service.devices as a simulated fleet, until it is stopped.",
+        mixinStandardHelpOptions = true,
+        sortOptions = false)
+public final class DeviceHostCommand implements Callable<Integer> {
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = "${env:FURROW_KAFKA:-127.0.0.1:9092}",
+            description = "Kafka. Default: $FURROW_KAFKA, else 127.0.0.1:9092.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            defaultValue = "${env:FURROW_KAFKA_PROPERTIES:-}",
+            description =
+                    "Further settings of Kafka clients, a password for instance. Default: $FURROW_KAFKA_PROPERTIES.")
+    private String kafkaProperties;
+
+    @Option(
+            names = "--mqtt",
+            paramLabel = "URI",
+            defaultValue = "${env:FURROW_MQTT:-tcp://127.0.0.1:1883}",
+            description = "MQTT broker, ssl://HOST:PORT with TLS. Default: $FURROW_MQTT, else tcp://127.0.0.1:1883.")
+    private URI mqtt;
+
+    @Option(
+            names = "--mqtt-trusted",
+            paramLabel = "FILE",
+            defaultValue = "${env:FURROW_MQTT_TRUSTED:-}",
+            description = "Certificates in PEM whom to trust. Default: $FURROW_MQTT_TRUSTED, else those of Java.")
+    private String trusted;
+
+    @Option(
+            names = "--mqtt-qos",
+            paramLabel = "0|1",
+            defaultValue = "${env:FURROW_MQTT_QOS:-1}",
+            description =
+                    "QoS of measures; with 0 they are lost while a connection is broken. Default: $FURROW_MQTT_QOS, else 1.")
+    private int qos;
+
+    @Option(
+            names = "--context-broker",
+            paramLabel = "URL",
+            defaultValue = "${env:FURROW_CONTEXT_BROKER:-http://127.0.0.1:1026}",
+            description =
+                    "Context broker, to which robots write. Default: $FURROW_CONTEXT_BROKER, else http://127.0.0.1:1026.")
+    private URI contextBroker;
+
+    @Option(
+            names = "--farm-secret",
+            paramLabel = "FILE",
+            required = true,
+            defaultValue = "${env:FURROW_FARM_SECRET}",
+            description = "File with the farm's secret, the same as the control plane's. Default: $FURROW_FARM_SECRET.")
+    private Path secret;
+
+    @Option(
+            names = "--seed",
+            paramLabel = "N",
+            defaultValue = "${env:FURROW_SEED:-0}",
+            description = "Another number makes other devices. Default: $FURROW_SEED, else 0.")
+    private long seed;
+
+    private DeviceHostCommand() {}
+
+    /** Ends with 1 where it cannot start or broke down, which is in the log. */
+    public static void main(String[] arguments) {
+        System.exit(new CommandLine(new DeviceHostCommand())
+                .setExecutionExceptionHandler((failure, command, result) -> {
+                    command.getErr().println(failure.getMessage());
+                    return 1;
+                })
+                .execute(arguments));
+    }
+
+    @Override
+    public Integer call() throws IOException, InterruptedException {
+        DeviceHost host = DeviceHost.start(settings());
+        AtomicBoolean asked = new AtomicBoolean();
+        Runtime.getRuntime()
+                .addShutdownHook(new Thread(
+                        () -> {
+                            asked.set(true);
+                            host.close();
+                        },
+                        "device-host-stop"));
+        spec.commandLine().getOut().println("Devices that are wanted run until this is stopped.");
+        spec.commandLine().getOut().flush();
+        host.await();
+        return asked.get() ? 0 : 1;
+    }
+
+    private HostSettings settings() throws IOException {
+        Properties client = new Properties();
+        if (!kafkaProperties.isBlank()) {
+            try (Reader reader = Files.newBufferedReader(Path.of(kafkaProperties))) {
+                client.load(reader);
+            }
+        }
+        client.setProperty("bootstrap.servers", kafka);
+        MqttAccess access = new MqttAccess(mqtt, trusted.isBlank() ? null : Path.of(trusted), qos);
+        return new HostSettings(client, access, contextBroker, FarmSecret.read(secret), seed);
+    }
+}

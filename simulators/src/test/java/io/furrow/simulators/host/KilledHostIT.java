@@ -1,0 +1,114 @@
+package io.furrow.simulators.host;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.simulators.device.Listener;
+
+import static io.furrow.simulators.host.HostBench.entity;
+import static io.furrow.simulators.host.HostBench.topic;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The host as a process of its own. */
+class KilledHostIT {
+    private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
+
+    @TempDir
+    private Path directory;
+
+    private HostBench bench;
+    private final List<Process> processes = new ArrayList<>();
+
+    @BeforeEach
+    void start() throws Exception {
+        bench = new HostBench(directory.resolve("kafka"));
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        for (Process process : processes) {
+            process.destroyForcibly().waitFor();
+        }
+        bench.close();
+    }
+
+    @Test
+    void takesUpWhatWasWantedWhileItWasDead() throws Exception {
+        String stays = entity("Thermometer", "killed", 1);
+        String stopped = entity("Thermometer", "killed", 2);
+        String comes = entity("Thermometer", "killed", 3);
+        bench.admit("killed", stays);
+        bench.admit("killed", stopped);
+        bench.admit("killed", comes);
+        long first = bench.want("killed", stays, true, YARD);
+        long second = bench.want("killed", stopped, true, YARD);
+        Process host = host();
+        await().untilAsserted(() -> {
+            assertThat(bench.status(stays)).contains(new DeviceStatus(first, State.RUNNING, null));
+            assertThat(bench.status(stopped)).contains(new DeviceStatus(second, State.RUNNING, null));
+        });
+
+        host.destroyForcibly().waitFor();
+        long end = bench.want("killed", stopped, false, YARD);
+        long begin = bench.want("killed", comes, true, YARD);
+        host();
+
+        await().untilAsserted(() -> {
+            assertThat(bench.status(stays)).contains(new DeviceStatus(first, State.RUNNING, null));
+            assertThat(bench.status(stopped)).contains(new DeviceStatus(end, State.STOPPED, null));
+            assertThat(bench.status(comes)).contains(new DeviceStatus(begin, State.RUNNING, null));
+        });
+        try (Listener listener = bench.listener()) {
+            await().untilAsserted(() -> {
+                assertThat(listener.heard(topic("killed", stays, "attrs"))).isNotEmpty();
+                assertThat(listener.heard(topic("killed", comes, "attrs"))).isNotEmpty();
+            });
+            assertThat(listener.heard(topic("killed", stopped, "attrs"))).isEmpty();
+        }
+    }
+
+    @Test
+    void endsWithASentenceWhereTheSecretIsTooShort() throws Exception {
+        Path secret = Files.writeString(directory.resolve("short"), "plough");
+        Process process = run(secret, "host-with-a-short-secret");
+
+        assertThat(process.waitFor()).isEqualTo(1);
+        assertThat(Files.readString(directory.resolve("host-with-a-short-secret.log")))
+                .contains("short: a farm's secret has at least 16 bytes");
+    }
+
+    private Process host() throws Exception {
+        return run(Files.writeString(directory.resolve("secret"), HostBench.SECRET_TEXT), "host-" + processes.size());
+    }
+
+    private Process run(Path secret, String name) throws Exception {
+        ProcessBuilder builder = new ProcessBuilder(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                "-Xmx256m",
+                "-cp",
+                System.getProperty("java.class.path"),
+                DeviceHostCommand.class.getName(),
+                "--mqtt",
+                bench.settings().mqtt().broker().toString(),
+                "--farm-secret",
+                secret.toString());
+        builder.environment().put("FURROW_KAFKA", bench.client().getProperty("bootstrap.servers"));
+        builder.environment()
+                .put("FURROW_CONTEXT_BROKER", bench.fiware.contextBroker().toString());
+        Process process = builder.redirectErrorStream(true)
+                .redirectOutput(directory.resolve(name + ".log").toFile())
+                .start();
+        processes.add(process);
+        return process;
+    }
+}
