@@ -30,7 +30,8 @@ import io.furrow.simulators.load.LoadPlan;
             ImageBench.class,
             IngestBench.class,
             AnalyticsBench.class,
-            ControlBench.class
+            ControlBench.class,
+            FleetBench.class
         })
 final class BenchCommand {
     private static final String DOMAIN = "bench";

@@ -1,0 +1,2 @@
+/** What a fleet of simulated devices costs. */
+package io.furrow.bench.fleet;
