@@ -2,9 +2,8 @@ package io.furrow.simulators.fleet;
 
 import java.io.IOException;
 import java.time.Duration;
-import java.util.concurrent.Executors;
 import java.util.concurrent.RejectedExecutionException;
-import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.ScheduledThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
 import org.slf4j.Logger;
@@ -18,16 +17,24 @@ import io.furrow.simulators.mqtt.Line;
  */
 final class LineOpener implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(LineOpener.class);
-    private static final int AT_ONCE = 8;
+    /** Many, because Paho sleeps twice for a tenth of a second in each. */
+    private static final int AT_ONCE = 32;
+
+    private static final long IDLE_SECONDS = 10;
     private static final Duration FIRST_PAUSE = Duration.ofMillis(200);
     private static final Duration LONGEST_PAUSE = Duration.ofSeconds(2);
     private static final long CLOSE_SECONDS = 15;
 
-    private final ScheduledExecutorService threads = Executors.newScheduledThreadPool(AT_ONCE, task -> {
+    private final ScheduledThreadPoolExecutor threads = new ScheduledThreadPoolExecutor(AT_ONCE, task -> {
         Thread thread = new Thread(task, "simulated-farm-connects");
         thread.setDaemon(true);
         return thread;
     });
+
+    LineOpener() {
+        threads.setKeepAliveTime(IDLE_SECONDS, TimeUnit.SECONDS);
+        threads.allowCoreThreadTimeOut(true);
+    }
 
     /** What is told of an attempt, on a thread of the opener. */
     interface Outcome {

@@ -101,6 +101,25 @@ class SceneTest {
     }
 
     @Test
+    void isSilentWhileItRestartsAndSwitchedOnAfterThat() {
+        scene.switchTo(device("t"), false, START.plusSeconds(1));
+        scene.restart("t", START.plusSeconds(5));
+
+        assertThat(scene.report(device("t"), START.plusMillis(4999))).isEmpty();
+        assertThat(scene.report(device("t"), START.plusSeconds(5))).isPresent();
+    }
+
+    @Test
+    void goesOnAlongItsWayAsIfItHadBeenThereAllTheTime() {
+        Scene later = new Scene();
+        later.add(device("r"), START, START.plusSeconds(20));
+
+        Report report = later.report(device("r"), START.plusSeconds(30)).orElseThrow();
+
+        assertThat(meters(((Report.Update) report).entity())).isEqualTo(60, within(0.01));
+    }
+
+    @Test
     void saysNothingOfWhatIsCarriedByARobotThatIsGone() {
         scene.remove("r");
 

@@ -55,6 +55,26 @@ class OutboxTest {
     }
 
     @Test
+    void dropsTheOldestWhenWhatWaitsOrIsUnderWayIsTooLarge() {
+        Outbox outbox = new Outbox(1000, 10_000);
+        for (int i = 0; i < 9; i++) {
+            outbox.add(new Outbox.Message("t", new byte[1500]));
+        }
+        assertThat(outbox.open()).isEqualTo(5);
+        assertThat(outbox.dropped()).isEqualTo(4);
+        assertThat(outbox.first().getKey()).isEqualTo(4);
+
+        outbox.sent(4);
+        outbox.acknowledged(4);
+        outbox.add(new Outbox.Message("t", new byte[1500]));
+        assertThat(outbox.open()).isEqualTo(5);
+        assertThat(outbox.dropped()).isEqualTo(4);
+
+        outbox.add(new Outbox.Message("t", new byte[50_000]));
+        assertThat(outbox.open()).as("one may be larger than all that fits").isEqualTo(1);
+    }
+
+    @Test
     void dropsTheOldestWhenTooManyWait() {
         Outbox outbox = new Outbox(3, MUCH);
         for (int i = 0; i < 5; i++) {
