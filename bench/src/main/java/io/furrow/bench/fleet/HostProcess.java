@@ -21,6 +21,7 @@ final class HostProcess implements AutoCloseable {
                         Path.of(System.getProperty("java.home"), "bin", "java").toString(),
                         "-Xmx" + plan.heapMb() + "m",
                         "-XX:+UseParallelGC",
+                        "-Dfurrow.log=" + ends.folder().resolve("fleet.log"),
                         "-cp",
                         System.getProperty("java.class.path"),
                         DeviceHostCommand.class.getName(),

@@ -32,11 +32,14 @@ import io.furrow.simulators.device.NoDelaySockets;
 public final class Line implements MqttCallbackExtended, AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Line.class);
     private static final int CONNECT_SECONDS = 10;
-    private static final int INFLIGHT = 1000;
+    /** Enough for 10,000 in a second; brokers drop what they are given faster than they can take it. */
+    private static final int INFLIGHT = 100;
+
     private static final int COMMAND_QOS = 1;
     private static final int TOPICS_PER_SUBSCRIPTION = 100;
     private static final long CLOSE_MS = 100;
     private static final long RETRY_NANOS = TimeUnit.SECONDS.toNanos(1);
+    private static final long STALLED_NANOS = TimeUnit.SECONDS.toNanos(10);
 
     private final MqttAccess access;
     private final MqttAccess.Login login;
@@ -47,6 +50,8 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
     private final String[] topics;
     private volatile boolean closed;
     private long lastAttempt = System.nanoTime();
+    private Long watched;
+    private long watchedSince;
 
     /**
      * What a line is for.
@@ -110,6 +115,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
         for (Long number = acknowledgements.poll(); number != null; number = acknowledgements.poll()) {
             outbox.acknowledged(number);
         }
+        breakOffWhereStalled();
         if (!ready()) {
             outbox.broken();
             return;
@@ -122,6 +128,23 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
                 return;
             }
             outbox.sent(next.getKey());
+        }
+    }
+
+    /** A broker that has dropped a message acknowledges it only when the message comes again over another connection. */
+    private void breakOffWhereStalled() {
+        Long oldest = outbox.oldestUnderWay();
+        if (oldest == null || !oldest.equals(watched)) {
+            watched = oldest;
+            watchedSince = System.nanoTime();
+        } else if (System.nanoTime() - watchedSince > STALLED_NANOS) {
+            LOG.warn("{} has a message that is not acknowledged, and connects again", this);
+            watched = null;
+            try {
+                client.disconnectForcibly(0, CLOSE_MS, false);
+            } catch (MqttException e) {
+                LOG.debug("{} could not be broken off", this, e);
+            }
         }
     }
 

@@ -1,6 +1,5 @@
 package io.furrow.simulators.mqtt;
 
-import java.util.HashMap;
 import java.util.Map;
 import java.util.TreeMap;
 
@@ -15,7 +14,7 @@ final class Outbox {
     private final int most;
     private final long mostBytes;
     private final TreeMap<Long, Message> waiting = new TreeMap<>();
-    private final Map<Long, Message> underWay = new HashMap<>();
+    private final TreeMap<Long, Message> underWay = new TreeMap<>();
     private long number;
     private long acknowledged;
     private long dropped;
@@ -71,6 +70,11 @@ final class Outbox {
     void broken() {
         waiting.putAll(underWay);
         underWay.clear();
+    }
+
+    /** The number of the message that is under way for longest; null where none is. */
+    Long oldestUnderWay() {
+        return underWay.isEmpty() ? null : underWay.firstKey();
     }
 
     int underWay() {
