@@ -38,6 +38,11 @@ public record ControlSettings(
         return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions);
     }
 
+    /** The missions' entities belong to a tenant of the context broker, at the root of its service paths. */
+    public ControlSettings withTenant(String service) {
+        return with(new MissionOptions(missions.patience(), FiwareScope.of(service, "/")));
+    }
+
     public ControlSettings withStandbyReplicas(int replicas) {
         return new ControlSettings(client, replicas, replicationFactor, remembered, missions);
     }

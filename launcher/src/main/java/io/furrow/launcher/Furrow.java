@@ -19,6 +19,7 @@ import io.furrow.launcher.control.TemplateCommand;
         subcommands = {
             DemoCommand.class,
             UpCommand.class,
+            ControlPlaneCommand.class,
             ScenarioCommand.class,
             DomainCommand.class,
             MissionCommand.class,

@@ -189,7 +189,7 @@ public final class Suite implements AutoCloseable {
                 contextBroker,
                 farm.iotAgent(),
                 farm.mqtt() == null ? null : new MqttAccess(farm.mqtt(), farm.mqttTrusted(), 1),
-                SuiteControl.files(farm.accounts()));
+                farm.accounts().accounts());
     }
 
     private FiwareStandIn startStandIn() {

@@ -114,6 +114,13 @@ final class SuiteOptions {
     @Mixin
     WatchFlags watch;
 
+    @Option(
+            names = "--predict",
+            paramLabel = "DURATION",
+            description =
+                    "How far ahead encounters are predicted, 0s for none. Default: 10s with --stop-on-predicted, else 0s.")
+    String horizon;
+
     private static final String PORT_OF = "Port of ";
     private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
 
@@ -129,6 +136,6 @@ final class SuiteOptions {
                 mongoPort,
                 controlPort);
         return new SuiteSettings(
-                kafkaProperties, fiwareService, window, fields, ports, orion, kafka, mongo, farm, watch.watch());
+                kafkaProperties, fiwareService, window, fields, ports, orion, kafka, mongo, farm, watch.watch(horizon));
     }
 }

@@ -2,6 +2,15 @@ package io.furrow.launcher;
 
 import java.net.URI;
 import java.nio.file.Path;
+import java.util.List;
+
+import io.furrow.control.WatchOptions;
+import io.furrow.control.alarm.StopRobots;
+import io.furrow.control.alarm.Webhook;
+import io.furrow.control.device.CommandSender;
+import io.furrow.control.health.HealthOptions;
+import io.furrow.control.provisioning.MosquittoFiles;
+import io.furrow.control.provisioning.MqttAccounts;
 
 /**
  * How a suite is to be started.
@@ -76,7 +85,20 @@ public record SuiteSettings(
      * @param rules null for none
      * @param reload run after a change; null for nothing
      */
-    public record AccountFiles(Path passwords, Path rules, String reload) {}
+    public record AccountFiles(Path passwords, Path rules, String reload) {
+        /** The accounts of an MQTT broker that has these files; none where none are named. */
+        List<MqttAccounts> accounts() {
+            if (passwords == null && rules == null) {
+                return List.of();
+            }
+            if (passwords == null || rules == null) {
+                throw new SuiteNotStartedException(
+                        "Name both or none of --mqtt-password-file and --mqtt-acl-file: a password without rules lets nothing"
+                                + " through, and rules without passwords let nobody in.");
+            }
+            return List.of(new MosquittoFiles(passwords, rules, reload));
+        }
+    }
 
     /**
      * What is done about alarms.
@@ -88,6 +110,16 @@ public record SuiteSettings(
      */
     public record Watch(URI webhook, int silentAfter, String horizon, boolean stops) {
         public static final Watch DEFAULT = new Watch(null, 3, "0s", false);
+
+        /** @param robots how Stop reaches robots */
+        WatchOptions options(CommandSender robots) {
+            WatchOptions options = WatchOptions.DEFAULT.with(
+                    new HealthOptions(silentAfter, HealthOptions.DEFAULT.period()));
+            if (webhook != null) {
+                options = options.with(Webhook.Settings.of(webhook));
+            }
+            return stops ? options.with(StopRobots.Settings.of(robots)) : options;
+        }
     }
 
     /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */

@@ -4,7 +4,7 @@ import java.net.URI;
 
 import picocli.CommandLine.Option;
 
-/** Options of {@code demo} and {@code up} that say what is done about alarms. */
+/** Options that say what is done about alarms. */
 final class WatchFlags {
     @Option(
             names = "--webhook",
@@ -26,14 +26,8 @@ final class WatchFlags {
                     "Send Stop to robots that are predicted to meet. This is no safety function: messages may be late or lost.")
     private boolean stops;
 
-    @Option(
-            names = "--predict",
-            paramLabel = "DURATION",
-            description =
-                    "How far ahead encounters are predicted, 0s for none. Default: 10s with --stop-on-predicted, else 0s.")
-    private String horizon;
-
-    SuiteSettings.Watch watch() {
+    /** @param horizon how far ahead encounters are predicted; null for what suits the other options */
+    SuiteSettings.Watch watch(String horizon) {
         String usual = stops ? "10s" : "0s";
         return new SuiteSettings.Watch(webhook, silentAfter, horizon == null ? usual : horizon, stops);
     }

@@ -35,6 +35,8 @@ class CommandLineTest {
         "bench sink --help, --stand-in",
         "bench control --help, --outstanding",
         "dead-letters refeed --help, --dry-run",
+        "control-plane --help, --standby-replicas",
+        "scenario --help, --qos",
         "domain create --help, --area",
         "mission --help, watch",
         "mission start --help, --duration",

@@ -1,0 +1,165 @@
+package io.furrow.launcher;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.Properties;
+import java.util.concurrent.Callable;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+import io.furrow.control.ControlSettings;
+import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.provisioning.ProvisioningSettings;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.event.FiwareScope;
+
+/** {@code ./furrow control-plane}. */
+@Command(
+        name = "control-plane",
+        abbreviateSynopsis = true,
+        description =
+                "Runs an instance of the control plane alone, beside a Kafka that already runs. Several share the work; what one "
+                        + "had when it died another takes over.")
+final class ControlPlaneCommand implements Callable<Integer> {
+    private static final long STOPPED_WITHIN_SECONDS = 35;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka. Default: ${DEFAULT-VALUE}.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for every Kafka client, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--standby-replicas",
+            paramLabel = "N",
+            defaultValue = "0",
+            description = "How many further instances hold a copy of all state, ready to take over. Default: 0.")
+    private int standbyReplicas;
+
+    @Option(
+            names = "--control-host",
+            paramLabel = "ADDRESS",
+            defaultValue = "127.0.0.1",
+            description = "Address of the REST API; another than this machine's needs --api-tokens. Default: ${DEFAULT-VALUE}.")
+    private String host;
+
+    @Option(
+            names = "--control-port",
+            paramLabel = "PORT",
+            defaultValue = "8085",
+            description = "Port of the REST API, 0 for a free one. Default: ${DEFAULT-VALUE}.")
+    private int port;
+
+    @Option(
+            names = "--orion",
+            paramLabel = "URL",
+            defaultValue = "http://127.0.0.1:1026",
+            description = "Context broker, through which commands reach devices. Default: ${DEFAULT-VALUE}.")
+    private URI orion;
+
+    @Option(
+            names = "--fiware-service",
+            paramLabel = "NAME",
+            defaultValue = "farm",
+            description = "Tenant of the context broker. Default: ${DEFAULT-VALUE}.")
+    private String fiwareService;
+
+    @Option(
+            names = "--log",
+            paramLabel = "FILE",
+            defaultValue = "/dev/stderr",
+            description = "Where to log. Default: ${DEFAULT-VALUE}.")
+    private Path log;
+
+    @Mixin
+    private ProvisioningOptions provisioning;
+
+    @Mixin
+    private WatchFlags watch;
+
+    @Mixin
+    private HelpOption help;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (provisioning.iotAgent != null && provisioning.secret == null) {
+            throw new ParameterException(
+                    spec.commandLine(),
+                    "--iot-agent needs --farm-secret: all instances and the host of the devices make passwords of the same.");
+        }
+        LogFile.writeTo(log);
+        CountDownLatch stop = new CountDownLatch(1);
+        CountDownLatch stopped = new CountDownLatch(1);
+        Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(stop, stopped), "stop"));
+        try (ControlService service = new ControlService(settings())) {
+            PrintWriter out = spec.commandLine().getOut();
+            out.println("The control plane starts; Ctrl-C stops it.");
+            out.flush();
+            service.startManagers();
+            out.println("REST API: " + serve(service) + "/openapi.json");
+            out.flush();
+            stop.await();
+            return 0;
+        } catch (IOException e) { // says what is away or refused, and what to do
+            throw new SuiteNotStartedException(e.getMessage(), e);
+        } finally {
+            stopped.countDown();
+        }
+    }
+
+    private ControlSettings settings() {
+        Properties client = KafkaAccess.clientProperties(kafka, kafkaProperties);
+        return ControlSettings.of(client).withTenant(fiwareService).withStandbyReplicas(standbyReplicas);
+    }
+
+    private URI serve(ControlService service) throws IOException {
+        FarmSecret secret = provisioning.secret == null ? null : FarmSecretFile.readOrMake(provisioning.secret);
+        ControlSettings settings = settings();
+        FiwareScope scope = settings.missions().scope();
+        RestSettings rest = RestSettings.on(port)
+                .withHost(host)
+                .withTokens(provisioning.tokens)
+                .withContextBroker(orion)
+                .withSecret(secret);
+        return service.serve(
+                rest,
+                watch.watch(null).options(new DeviceCommands(orion, scope)),
+                provisioning.iotAgent == null
+                        ? null
+                        : new ProvisioningSettings(
+                                settings.client(),
+                                scope,
+                                secret,
+                                provisioning.iotAgent,
+                                provisioning.accounts().accounts()));
+    }
+
+    private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {
+        stop.countDown();
+        try {
+            stopped.await(STOPPED_WITHIN_SECONDS, TimeUnit.SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

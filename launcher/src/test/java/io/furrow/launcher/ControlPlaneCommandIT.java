@@ -1,0 +1,117 @@
+package io.furrow.launcher;
+
+import java.io.File;
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ControlPlaneCommandIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(120);
+    private static final Pattern API = Pattern.compile("REST API: (\\S+)/openapi.json");
+
+    @TempDir
+    Path directory;
+
+    private final RestClient rest = new RestClient();
+    private final List<Process> processes = new ArrayList<>();
+    private EmbeddedKafka kafka;
+
+    @BeforeEach
+    void start() {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        for (Process process : processes) {
+            process.destroyForcibly().waitFor();
+        }
+        kafka.close();
+    }
+
+    @Test
+    void goesOnInAnotherProcessWhenOneIsKilledAndStopsWhenItIsAsked() throws Exception {
+        Path one = directory.resolve("one");
+        Path two = directory.resolve("two");
+        Process first = run(one, "--standby-replicas", "1");
+        Process second = run(two, "--standby-replicas", "1");
+        URI firstApi = await().atMost(PATIENCE).until(() -> api(one), Optional::isPresent).orElseThrow();
+        URI secondApi = await().atMost(PATIENCE).until(() -> api(two), Optional::isPresent).orElseThrow();
+
+        await().atMost(PATIENCE).until(() -> create(firstApi, "north"));
+        first.destroyForcibly().waitFor();
+        await().atMost(PATIENCE).until(() -> create(secondApi, "south"));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(rest.get(URI.create(secondApi + "/api/domains"), Map.of()).body())
+                        .extracting(domain -> domain.path("domain").asText())
+                        .containsExactly("north", "south"));
+
+        second.destroy();
+        assertThat(second.waitFor(PATIENCE.toSeconds(), TimeUnit.SECONDS)).isTrue();
+    }
+
+    @Test
+    void saysWhatItNeedsToProvisionDevices() throws Exception {
+        Process process = run(directory.resolve("out"), "--iot-agent", "http://127.0.0.1:4041");
+
+        assertThat(process.waitFor()).isNotZero();
+        assertThat(Files.readString(directory.resolve("out"))).contains("--iot-agent needs --farm-secret");
+    }
+
+    /** Whether it is there now; a request is repeated under the same key until it is answered. */
+    private boolean create(URI api, String domain) {
+        JsonNode body = NgsiJson.mapper().createObjectNode().put("domain", domain);
+        RestClient.Answer answer =
+                rest.send("POST", URI.create(api + "/api/domains"), Map.of("Idempotency-Key", "r-" + domain), body);
+        return answer.isSuccess();
+    }
+
+    private static Optional<URI> api(Path output) throws IOException {
+        Matcher found = API.matcher(Files.readString(output));
+        return found.find() ? Optional.of(URI.create(found.group(1))) : Optional.empty();
+    }
+
+    private Process run(Path output, String... further) throws IOException {
+        List<String> words = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                "-Xmx256m",
+                "-cp",
+                System.getProperty("java.class.path"),
+                Furrow.class.getName(),
+                "control-plane",
+                "--kafka",
+                kafka.bootstrapServers(),
+                "--control-port",
+                "0",
+                "--log",
+                output + ".log"));
+        words.addAll(List.of(further));
+        Process process = new ProcessBuilder(words)
+                .redirectErrorStream(true)
+                .redirectOutput(new File(output.toString()))
+                .start();
+        processes.add(process);
+        return process;
+    }
+}
