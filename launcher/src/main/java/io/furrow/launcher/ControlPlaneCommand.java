@@ -60,7 +60,8 @@ final class ControlPlaneCommand implements Callable<Integer> {
             names = "--control-host",
             paramLabel = "ADDRESS",
             defaultValue = "127.0.0.1",
-            description = "Address of the REST API; another than this machine's needs --api-tokens. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Address of the REST API; another than this machine's needs --api-tokens. Default: ${DEFAULT-VALUE}.")
     private String host;
 
     @Option(

@@ -10,9 +10,8 @@ final class ProvisioningOptions {
     @Option(
             names = "--iot-agent",
             paramLabel = "URL",
-            description =
-                    "Provision devices of missions at this IoT Agent, for instance http://127.0.0.1:4041. Needs "
-                            + "--orion; without it none are provisioned at another context broker.")
+            description = "Provision devices of missions at this IoT Agent, for instance http://127.0.0.1:4041. Needs "
+                    + "--orion; without it none are provisioned at another context broker.")
     URI iotAgent;
 
     @Option(

@@ -113,8 +113,8 @@ public record SuiteSettings(
 
         /** @param robots how Stop reaches robots */
         WatchOptions options(CommandSender robots) {
-            WatchOptions options = WatchOptions.DEFAULT.with(
-                    new HealthOptions(silentAfter, HealthOptions.DEFAULT.period()));
+            WatchOptions options =
+                    WatchOptions.DEFAULT.with(new HealthOptions(silentAfter, HealthOptions.DEFAULT.period()));
             if (webhook != null) {
                 options = options.with(Webhook.Settings.of(webhook));
             }

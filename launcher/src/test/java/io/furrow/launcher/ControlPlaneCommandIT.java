@@ -56,14 +56,19 @@ class ControlPlaneCommandIT {
         Path two = directory.resolve("two");
         Process first = run(one, "--standby-replicas", "1");
         Process second = run(two, "--standby-replicas", "1");
-        URI firstApi = await().atMost(PATIENCE).until(() -> api(one), Optional::isPresent).orElseThrow();
-        URI secondApi = await().atMost(PATIENCE).until(() -> api(two), Optional::isPresent).orElseThrow();
+        URI firstApi = await().atMost(PATIENCE)
+                .until(() -> api(one), Optional::isPresent)
+                .orElseThrow();
+        URI secondApi = await().atMost(PATIENCE)
+                .until(() -> api(two), Optional::isPresent)
+                .orElseThrow();
 
         await().atMost(PATIENCE).until(() -> create(firstApi, "north"));
         first.destroyForcibly().waitFor();
         await().atMost(PATIENCE).until(() -> create(secondApi, "south"));
         await().atMost(PATIENCE)
-                .untilAsserted(() -> assertThat(rest.get(URI.create(secondApi + "/api/domains"), Map.of()).body())
+                .untilAsserted(() -> assertThat(rest.get(URI.create(secondApi + "/api/domains"), Map.of())
+                                .body())
                         .extracting(domain -> domain.path("domain").asText())
                         .containsExactly("north", "south"));
 
