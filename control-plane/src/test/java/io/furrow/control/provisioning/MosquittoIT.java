@@ -30,7 +30,7 @@ import static org.awaitility.Awaitility.await;
 
 /** The written files in a real Mosquitto, as Debian packs it, that reads them again while it runs. */
 class MosquittoIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(20);
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
     private static final FarmSecret.Login AGENT = new FarmSecret.Login("agent", "plough");
     private static final FarmSecret SECRET = Wanted.SECRET;
     private static final String KEY = "/" + SECRET.apiKey("hoeing");
@@ -63,7 +63,7 @@ class MosquittoIT {
                 .redirectErrorStream(true)
                 .redirectOutput(path("log").toFile())
                 .start();
-        await().until(this::isListening);
+        await().atMost(PATIENCE).until(this::isListening);
         files = new MosquittoFiles(path("passwords"), path("rules"), "kill -HUP " + broker.pid());
         heard = new Heard(connect(AGENT, "agent"), "#");
         files.replace(List.of(

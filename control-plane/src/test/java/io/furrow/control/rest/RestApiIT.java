@@ -22,6 +22,7 @@ import static org.awaitility.Awaitility.await;
 
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
 class RestApiIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
     private static final FarmSecret SECRET = new FarmSecret("a secret of sixteen bytes or more".getBytes());
     private static final String DEVICES =
             "[{\"type\":\"Thermometer\",\"count\":2},{\"type\":\"Robot\",\"id\":\"robot-1\"},\"urn:own:1\"]";
@@ -138,14 +139,15 @@ class RestApiIT {
         refused("GET", "/api/devices/nosuch", null, 404, "unknown-device");
         refused("POST", "/api/devices/nosuch/commands", "{\"command\":\"on\"}", 404, "unknown-device");
 
-        await().untilAsserted(() -> assertThat(json("GET", "/api/audit?limit=1000"))
-                .anyMatch(entry -> entry.path("command").asText().equals("Stop")
-                        && entry.at("/about/device").asText().equals("robot-1")
-                        && entry.path("user").asText().equals("rest")
-                        && entry.path("result").asText().equals("sent"))
-                .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
-                .anyMatch(entry -> entry.path("command").asText().equals("start")
-                        && entry.at("/about/mission").asText().equals("hoeing")));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(json("GET", "/api/audit?limit=1000"))
+                        .anyMatch(entry -> entry.path("command").asText().equals("Stop")
+                                && entry.at("/about/device").asText().equals("robot-1")
+                                && entry.path("user").asText().equals("rest")
+                                && entry.path("result").asText().equals("sent"))
+                        .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
+                        .anyMatch(entry -> entry.path("command").asText().equals("start")
+                                && entry.at("/about/mission").asText().equals("hoeing")));
     }
 
     @Test
@@ -208,7 +210,8 @@ class RestApiIT {
 
         try (RestApi other = RestApi.start(settings(), RestSettings.on(0), () -> "RUNNING")) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().until(() -> there.send("GET", "/health", null).statusCode() == 200);
+            await().atMost(PATIENCE)
+                    .until(() -> there.send("GET", "/health", null).statusCode() == 200);
             assertThat(there.send("POST", "/api/domains", body, "Idempotency-Key", "key-1")
                             .body())
                     .isEqualTo(first.body());
@@ -258,7 +261,8 @@ class RestApiIT {
         try (RestApi other = RestApi.start(settings(), RestSettings.on(0).withTokens(tokens), () -> "RUNNING")) {
             ApiClient nobody = new ApiClient(other.uri(), null);
             ApiClient ann = new ApiClient(other.uri(), "a-token-of-sixteen-signs");
-            await().until(() -> nobody.send("GET", "/health", null).statusCode() == 200);
+            await().atMost(PATIENCE)
+                    .until(() -> nobody.send("GET", "/health", null).statusCode() == 200);
             for (String path :
                     new String[] {"/api/domains", "//api/domains", "/api/../api/domains", "/api;x/domains"}) {
                 assertThat(nobody.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
@@ -269,9 +273,10 @@ class RestApiIT {
             assertThat(ann.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
             ann.send("POST", "/api/domains", "{\"domain\":\"ann-s\",\"user\":\"bob\"}");
         }
-        await().untilAsserted(() -> assertThat(json("GET", "/api/audit?limit=1000"))
-                .anyMatch(entry -> entry.path("user").asText().equals("ann")
-                        && entry.at("/about/domain").asText().equals("ann-s")));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(json("GET", "/api/audit?limit=1000"))
+                        .anyMatch(entry -> entry.path("user").asText().equals("ann")
+                                && entry.at("/about/domain").asText().equals("ann-s")));
     }
 
     /** The alarms' manager does not run here. */
@@ -280,7 +285,7 @@ class RestApiIT {
         try (RestApi other = RestApi.start(
                 settings(), RestSettings.on(0).withPatience(Duration.ofMillis(300)), () -> "REBALANCING")) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().until(other::isReady);
+            await().atMost(PATIENCE).until(other::isReady);
             assertThat(there.send("GET", "/health", null).statusCode()).isEqualTo(503);
             for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute"}) {
                 HttpResponse<byte[]> answer = there.send("POST", path, "{}", "Idempotency-Key", "again");

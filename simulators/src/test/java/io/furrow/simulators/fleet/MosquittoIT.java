@@ -25,6 +25,7 @@ import static org.awaitility.Awaitility.await;
 
 /** A fleet and a real Mosquitto with password file and TLS. */
 class MosquittoIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
     private static final String FARM = """
             {"seed": 1, "apiKey": "k", "missions": [{"domain": "farm", "mission": "weeding", "devices": [
                 {"type": "Thermometer", "id": "t", "count": 20, "at": {"latitude": 40.31, "longitude": -3.48}, "period": "PT0.02S"}]}]}
@@ -68,7 +69,7 @@ class MosquittoIT {
             assertThat(fleet.connections()).isEqualTo(connections);
             for (int i = 0; i < 5; i++) {
                 long before = fleet.tally().acknowledged();
-                await().until(() -> fleet.tally().acknowledged() > before + 500);
+                await().atMost(PATIENCE).until(() -> fleet.tally().acknowledged() > before + 500);
                 broker.restart();
             }
             long before = fleet.tally().acknowledged();

@@ -1,6 +1,7 @@
 package io.furrow.simulators.host;
 
 import java.nio.file.Path;
+import java.time.Duration;
 import java.util.List;
 
 import org.junit.jupiter.api.AfterAll;
@@ -22,6 +23,7 @@ import static org.awaitility.Awaitility.await;
 
 /** A host against a real Kafka and MQTT broker; each test has a mission of its own. */
 class DeviceHostIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
@@ -57,17 +59,20 @@ class DeviceHostIT {
     void runsWhatIsWantedFromWhenTheBrokerKnowsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
         long sequence = bench.want("late", device, true, YARD);
-        await().untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
-            assertThat(status.state()).isEqualTo(State.FAILED);
-            assertThat(status.reason()).contains("refuses user 'late.urn%3Angsi-ld%3AThermometer%3Alate-1'");
-        }));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
+                    assertThat(status.state()).isEqualTo(State.FAILED);
+                    assertThat(status.reason()).contains("refuses user 'late.urn%3Angsi-ld%3AThermometer%3Alate-1'");
+                }));
 
         bench.admit("late", device);
 
-        await().untilAsserted(() ->
-                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().untilAsserted(() ->
-                assertThat(listener.heard(topic("late", device, "attrs"))).hasSizeGreaterThan(3));
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(listener.heard(topic("late", device, "attrs")))
+                        .hasSizeGreaterThan(3));
     }
 
     @Test
@@ -79,13 +84,15 @@ class DeviceHostIT {
         long sequence = bench.want("end", stopped, false, YARD);
         bench.delete(deleted);
 
-        await().untilAsserted(() ->
-                assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
-        await().untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
-        await().until(() -> host.fleet().connections() == 1);
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
+        await().atMost(PATIENCE).until(() -> host.fleet().connections() == 1);
         int before = heard("end", stopped) + heard("end", deleted);
         int other = heard("end", goesOn);
-        await().until(() -> heard("end", goesOn) > other + 10);
+        await().atMost(PATIENCE).until(() -> heard("end", goesOn) > other + 10);
         assertThat(heard("end", stopped) + heard("end", deleted)).isEqualTo(before);
         bench.delete(goesOn);
     }
@@ -100,11 +107,14 @@ class DeviceHostIT {
 
         host = DeviceHost.start(bench.settings());
 
-        await().untilAsserted(() ->
-                assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
-        await().until(() -> listener.heard(topic("again", device, "attrs")).stream()
-                .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
+        await().atMost(PATIENCE)
+                .until(() -> listener.heard(topic("again", device, "attrs")).stream()
+                        .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
         bench.delete(device);
     }
 
@@ -113,17 +123,19 @@ class DeviceHostIT {
         String device = entity("Thermometer", "field", 1);
         bench.admit("field", device);
         bench.want("field", device, true, "{\"area\": \"orchard\"}");
-        await().untilAsserted(() -> assertThat(bench.status(device))
-                .hasValueSatisfying(
-                        status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(bench.status(device))
+                        .hasValueSatisfying(
+                                status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
 
         bench.put(Topics.FIELDS, "orchard@2020-01-01T00:00:00.000Z", """
                 {"type": "Feature", "id": "orchard", "properties": {"validFrom": "2020-01-01T00:00:00Z"}, "geometry": {"type": "Polygon",
                  "coordinates": [[[-3.5, 40.3], [-3.49, 40.3], [-3.49, 40.31], [-3.5, 40.3]]]}}
                 """);
 
-        await().untilAsserted(() ->
-                assertThat(bench.status(device).map(DeviceStatus::state)).contains(State.RUNNING));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(bench.status(device).map(DeviceStatus::state))
+                        .contains(State.RUNNING));
         bench.delete(device);
     }
 
@@ -137,12 +149,13 @@ class DeviceHostIT {
                 camera,
                 true,
                 "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
-        await().untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
-                .contains("carriedBy: '" + robot + "' is no robot that runs here"));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
+                        .contains("carriedBy: '" + robot + "' is no robot that runs here"));
 
         bench.want("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 
-        await().untilAsserted(() -> {
+        await().atMost(PATIENCE).untilAsserted(() -> {
             assertThat(bench.status(robot).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(bench.status(camera).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(listener.heard(topic("carry", camera, "attrs"))).last().satisfies(json -> {
@@ -159,9 +172,10 @@ class DeviceHostIT {
         String device = run("restart", 1);
         listener.say(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
 
-        await().untilAsserted(() -> assertThat(listener.heard(topic("restart", device, "cmdexe")))
-                .singleElement()
-                .hasToString("{\"restart\":\"ok\"}"));
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(listener.heard(topic("restart", device, "cmdexe")))
+                        .singleElement()
+                        .hasToString("{\"restart\":\"ok\"}"));
         List<Long> times = listener.heard(topic("restart", device, "attrs")).stream()
                 .map(json -> json.path("time").longValue())
                 .toList();
@@ -177,7 +191,7 @@ class DeviceHostIT {
         String device = entity("Thermometer", mission, number);
         bench.admit(mission, device);
         long sequence = bench.want(mission, device, true, YARD);
-        await().untilAsserted(() -> {
+        await().atMost(PATIENCE).untilAsserted(() -> {
             assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null));
             assertThat(heard(mission, device)).isPositive();
         });
