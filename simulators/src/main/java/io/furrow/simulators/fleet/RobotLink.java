@@ -34,6 +34,7 @@ final class RobotLink {
     private static final Logger LOG = LoggerFactory.getLogger(RobotLink.class);
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
     private static final int PAGE = 500;
+    private static final String TYPE = "ROBOT";
 
     private final FleetSettings settings;
     private final FiwareHttp http;
@@ -84,8 +85,8 @@ final class RobotLink {
             return;
         }
         ObjectNode result = robot.result.get();
-        ObjectNode more =
-                robot.listening ? result : attribute("cmd", "String", "").setAll(result);
+        boolean listening = robot.listening;
+        ObjectNode more = listening ? result : attribute("cmd", "String", "").setAll(result);
         ObjectNode body = NODES.objectNode().put("actionType", "append");
         body.putArray("entities").add(entity.json().deepCopy().<ObjectNode>setAll(more));
         http.postAsync(settings.contextBroker(), "/v2/op/update", body).whenComplete((answer, failure) -> {
@@ -93,11 +94,11 @@ final class RobotLink {
             String reason = arrived ? "" : reason(answer, failure);
             if (arrived) {
                 robot.result.compareAndSet(result, NODES.objectNode());
-                if (!robot.listening) {
+                if (!listening) {
                     robot.listening = true;
                     events.up(robot.device);
                 }
-            } else if (!robot.listening) {
+            } else if (!listening) {
                 robot.attempts++;
                 events.failed(robot.device, robot.attempts, reason);
             }
@@ -110,6 +111,22 @@ final class RobotLink {
     void answer(String entity, boolean obeyed, String sentence) {
         ObjectNode result = attribute("cmd_status", "commandStatus", obeyed ? "OK" : "ERROR");
         robots.get(entity).result.set(result.setAll(attribute("cmd_info", "commandResult", sentence)));
+    }
+
+    /** Says what became of commands for robots that do not report by themselves at the moment. */
+    void sayResults() {
+        robots.forEach((entity, robot) -> {
+            if (!robot.result.get().isEmpty()) {
+                update(Entity.builder(entity, TYPE).build());
+            }
+        });
+    }
+
+    /** Takes a robot for one that has just come: its {@code cmd} is emptied before it is told something again. */
+    void beginAnew(String entity) {
+        Known robot = robots.get(entity);
+        robot.listening = false;
+        robot.last = null;
     }
 
     private static ObjectNode attribute(String name, String type, String value) {
@@ -136,7 +153,7 @@ final class RobotLink {
         ObjectNode query = NODES.objectNode();
         ArrayNode wanted = query.putArray("entities");
         List<String> page = entities.subList(from, Math.min(entities.size(), from + PAGE));
-        page.forEach(id -> wanted.addObject().put("id", id).put("type", "ROBOT"));
+        page.forEach(id -> wanted.addObject().put("id", id).put("type", TYPE));
         query.putArray("attrs").add("cmd");
         http.postAsync(settings.contextBroker(), "/v2/op/query?limit=" + PAGE, query)
                 .whenComplete((answer, failure) -> {
@@ -156,7 +173,7 @@ final class RobotLink {
             for (JsonNode entity : NgsiJson.read(body.getBytes(StandardCharsets.UTF_8))) {
                 String word = entity.path("cmd").path("value").asText("");
                 Known robot = robots.get(entity.path("id").asText());
-                if (!word.isBlank() && robot != null) {
+                if (!word.isBlank() && robot != null && robot.listening) {
                     orders.add(new Order(robot.device, entity.path("id").asText(), word));
                 }
             }

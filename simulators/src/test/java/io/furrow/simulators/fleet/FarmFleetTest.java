@@ -157,11 +157,34 @@ class FarmFleetTest {
         command("Dance");
         await().untilAsserted(() -> {
             assertThat(entity("Robot:r").text("cmd_status")).contains("ERROR");
-            assertThat(entity("Robot:r").text("cmd_info")).contains("no such command: use Running, Stop or Resume");
+            assertThat(entity("Robot:r").text("cmd_info"))
+                    .contains("no such command: use Running, Stop, Resume, on, off or restart");
         });
         command("Resume");
         await().untilAsserted(() ->
                 assertThat(entity("Robot:r").text("state").orElse("")).contains("Running"));
+    }
+
+    @Test
+    void switchesARobotOffAndOnAndRestartsIt() throws Exception {
+        fleet = FarmFleet.start(farm(), access("plough"));
+        await().untilAsserted(() -> assertThat(entity("Robot:r").value("cmd")).contains(TextNode.valueOf("")));
+
+        command("off");
+        await().untilAsserted(
+                        () -> assertThat(entity("Robot:r").text("cmd_info")).contains("off"));
+        Object silentSince = entity("Robot:r").number("Time");
+        long reports = fleet.reports();
+        await().until(() -> fleet.reports() > reports + 30);
+        assertThat(entity("Robot:r").number("Time")).isEqualTo(silentSince);
+
+        command("restart");
+        await().untilAsserted(() -> {
+            Entity robot = entity("Robot:r");
+            assertThat(robot.text("cmd_info")).contains("restart");
+            assertThat(robot.value("cmd")).contains(TextNode.valueOf(""));
+            assertThat(robot.number("Time")).isNotEqualTo(silentSince);
+        });
     }
 
     @Test
