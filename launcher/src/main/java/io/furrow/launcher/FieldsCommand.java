@@ -30,7 +30,7 @@ import io.furrow.model.ngsi.NgsiJson;
         description = "Imports and lists the fields of the farm, the topic service.fields.",
         synopsisSubcommandLabel = "COMMAND",
         subcommands = FieldsImportCommand.class)
-final class FieldsCommand {
+final class FieldsCommand extends CommandGroup {
     private enum Output {
         TABLE,
         JSON
@@ -61,13 +61,6 @@ final class FieldsCommand {
             defaultValue = "table",
             description = "table or json. Default: ${DEFAULT-VALUE}.")
     private Output output;
-
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            scope = ScopeType.INHERIT,
-            description = "Show this text.")
-    private boolean help;
 
     @Command(name = "list", description = "Prints the fields as of a time.")
     int list(

@@ -7,23 +7,17 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.ScopeType;
+
+import io.furrow.launcher.CommandGroup;
 
 /** {@code ./furrow alarm}. */
 @Command(
         name = "alarm",
         description = "Lists, acknowledges, closes and mutes alarms.",
         synopsisSubcommandLabel = "COMMAND")
-public final class AlarmCommand {
+public final class AlarmCommand extends CommandGroup {
     private static final String ALARMS = "/api/alarms";
     private static final String ID = "Id of the alarm, as list shows it.";
-
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            scope = ScopeType.INHERIT,
-            description = "Show this text.")
-    private boolean help;
 
     @Command(name = "list", description = "Lists alarms.")
     int list(

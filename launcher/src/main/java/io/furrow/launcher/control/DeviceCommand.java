@@ -8,23 +8,17 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.ScopeType;
+
+import io.furrow.launcher.CommandGroup;
 
 /** {@code ./furrow device}. */
 @Command(
         name = "device",
         description = "Lists devices with their status, and sends them commands.",
         synopsisSubcommandLabel = "COMMAND")
-public final class DeviceCommand {
+public final class DeviceCommand extends CommandGroup {
     private static final String DEVICES = "/api/devices";
     private static final String ID = "Id of the device's entity, as in urn:ngsi-ld:Thermometer:weeding-1.";
-
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            scope = ScopeType.INHERIT,
-            description = "Show this text.")
-    private boolean help;
 
     @Command(name = "list", description = "Lists devices: status, when last heard of, battery, whether silent.")
     int list(

@@ -9,8 +9,8 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.ScopeType;
 
+import io.furrow.launcher.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow domain}. */
@@ -18,16 +18,9 @@ import io.furrow.model.ngsi.NgsiJson;
         name = "domain",
         description = "Creates, changes, lists and deletes domains: what missions belong to.",
         synopsisSubcommandLabel = "COMMAND")
-public final class DomainCommand {
+public final class DomainCommand extends CommandGroup {
     private static final String DOMAINS = "/api/domains";
     private static final String NAME = "Name of the domain: 1 to 64 of A-Z a-z 0-9 _ -.";
-
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            scope = ScopeType.INHERIT,
-            description = "Show this text.")
-    private boolean help;
 
     /** What can be said of a domain. */
     static final class Details {

@@ -9,10 +9,11 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
 
+import io.furrow.launcher.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The commands of {@code ./furrow mission} that speak with the control plane. */
-public class MissionControl {
+public class MissionControl extends CommandGroup {
     private static final String MISSIONS = "/api/missions";
     private static final String NAME = "Name of the mission: 1 to 64 of A-Z a-z 0-9 _ -.";
 

@@ -8,24 +8,18 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.ScopeType;
+
+import io.furrow.launcher.CommandGroup;
 
 /** {@code ./furrow replay}. */
 @Command(
         name = "replay",
         description = "Asks for replays of missions, and steers them.",
         synopsisSubcommandLabel = "COMMAND")
-public final class ReplayCommand {
+public final class ReplayCommand extends CommandGroup {
     private static final String REPLAYS = "/api/replays";
     private static final String REPLAY = "Name of the replay, as start answers it: MISSION.ID.";
     private static final String TIME = "ISO 8601 or epoch ms.";
-
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            scope = ScopeType.INHERIT,
-            description = "Show this text.")
-    private boolean help;
 
     /** What is played back, and how. */
     static final class Choice {

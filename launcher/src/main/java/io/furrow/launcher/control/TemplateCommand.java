@@ -8,10 +8,9 @@ import java.nio.file.Path;
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
-import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.ScopeType;
 
+import io.furrow.launcher.CommandGroup;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow template}. */
@@ -19,16 +18,9 @@ import io.furrow.model.ngsi.NgsiJson;
         name = "template",
         description = "Lists, exports, imports and deletes templates: the devices of missions to come.",
         synopsisSubcommandLabel = "COMMAND")
-public final class TemplateCommand {
+public final class TemplateCommand extends CommandGroup {
     private static final String TEMPLATES = "/api/templates";
     private static final String NAME = "NAME of the template, its newest version, or NAME@VERSION.";
-
-    @Option(
-            names = {"-h", "--help"},
-            usageHelp = true,
-            scope = ScopeType.INHERIT,
-            description = "Show this text.")
-    private boolean help;
 
     @Command(name = "list", description = "Lists all versions of all templates.")
     int list(@Mixin ControlOptions control) {
