@@ -1,5 +1,6 @@
 package io.furrow.control.health;
 
+import java.math.BigDecimal;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
@@ -71,10 +72,12 @@ final class HealthDesk {
         if (known.silent()) {
             return known;
         }
-        long allowed = options.silentAfter(device) / 1000;
+        String allowed = BigDecimal.valueOf(options.silentAfter(device), 3)
+                .stripTrailingZeros()
+                .toPlainString();
         String text = known.heard() == null
                 ? "%s of mission %s has not been heard of yet".formatted(known.id(), known.mission())
-                : "%s of mission %s was silent for more than %d s".formatted(known.id(), known.mission(), allowed);
+                : "%s of mission %s was silent for more than %s s".formatted(known.id(), known.mission(), allowed);
         List<Cause.Device> one = List.of(new Cause.Device(known.id(), known.type()));
         alarms.raise(new Cause(AlarmKind.SILENT_DEVICE, known.id(), text, one, null), now);
         return known.silent(now);

@@ -24,6 +24,7 @@ final class Listener {
     /** Boolean; false where the device is switched off. */
     static final String STATUS = "Status";
 
+    private static final Duration LONGEST_TICK = Duration.ofSeconds(2);
     private static final Duration LOOKED_UP_EVERY = Duration.ofSeconds(5);
 
     private final HealthOptions options;
@@ -32,6 +33,7 @@ final class Listener {
     private final Map<String, Heard> devices = new HashMap<>();
     private final Set<String> unwanted = new HashSet<>();
     private long lookedUp;
+    private long passed;
 
     /** Takes what there is to tell of a device. */
     interface Told {
@@ -99,13 +101,21 @@ final class Listener {
         }
     }
 
-    /** Called about once a second. */
+    /** Called about once a second. After a pause, in which reports were not read either, nobody is judged before they are. */
     void passTime(long now) {
+        boolean paused = now - passed > LONGEST_TICK.toMillis();
+        passed = now;
         if (now - lookedUp >= LOOKED_UP_EVERY.toMillis()) {
             lookedUp = now;
             unwanted.clear();
             devices.entrySet().removeIf(entry -> !isWantedStill(entry.getKey(), entry.getValue()));
         }
+        if (!paused) {
+            tellSilent(now);
+        }
+    }
+
+    private void tellSilent(long now) {
         devices.forEach((key, heard) -> {
             if (!heard.silent
                     && heard.newest != null

@@ -70,7 +70,19 @@ class ListenerTest {
         hear(Entity.builder(ID, "T"), 5);
         want(PERIOD.multipliedBy(10));
         pass(31_000);
+        pass(1000);
         assertThat(signs).hasSize(1);
+    }
+
+    @Test
+    void judgesNobodyRightAfterAPauseInWhichItDidNotListen() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T"), 5);
+        pass(1000);
+        pass(60_000); // as a process that stood still finds itself, with reports still to be read
+        hear(Entity.builder(ID, "T"), 6);
+        pass(1000);
+        assertThat(signs).hasSize(2).noneMatch(Sign::silent);
     }
 
     /** As the context broker tells an entity when somebody sends it a command. */
@@ -91,9 +103,11 @@ class ListenerTest {
         hear(Entity.builder(ID, "T").bool("Status", true), 5);
         hear(Entity.builder(ID, "T").bool("Status", false), 6);
         pass(100_000);
+        pass(1000);
         assertThat(signs).extracting(Sign::off).containsExactly(false, true);
         hear(Entity.builder(ID, "T").bool("Status", true), 7);
-        pass(31_000);
+        pass(30_000);
+        pass(1000);
         assertThat(signs).extracting(Sign::silent).containsExactly(false, false, false, true);
     }
 
@@ -106,6 +120,7 @@ class ListenerTest {
         hear(Entity.builder(ID, "T"), 5);
         wanted.put(KEY, null);
         pass(100_000);
+        pass(1000);
         assertThat(signs).hasSize(1);
         assertThat(listener.listensTo(KEY)).isFalse();
         wanted.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
