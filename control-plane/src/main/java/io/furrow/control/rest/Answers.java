@@ -5,6 +5,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.atomic.LongAdder;
 
 import io.furrow.model.control.Response;
 import io.furrow.model.ngsi.UnreadableException;
@@ -17,6 +18,7 @@ final class Answers {
     static final int REMEMBERED = 100_000;
 
     private final Map<Key, CompletableFuture<Response>> awaited = new ConcurrentHashMap<>();
+    private final Map<Kind, LongAdder> counts = new ConcurrentHashMap<>();
     private final Map<Key, byte[]> remembered = new LinkedHashMap<>() {
         private static final long serialVersionUID = 1L;
 
@@ -25,6 +27,9 @@ final class Answers {
             return size() > REMEMBERED;
         }
     };
+
+    /** @param topic of the manager @param status of the answer */
+    record Kind(String topic, String status) {}
 
     /** @param topic of the manager */
     record Key(String topic, String requestId) {}
@@ -62,6 +67,16 @@ final class Answers {
         synchronized (remembered) {
             remembered.put(key, answer);
         }
+    }
+
+    /** An answer that was read, of whomever. */
+    void count(String topic, String status) {
+        counts.computeIfAbsent(new Kind(topic, status), any -> new LongAdder()).increment();
+    }
+
+    /** How many were read since the start. */
+    Map<Kind, LongAdder> counts() {
+        return counts;
     }
 
     /** Tells whoever waits for it. */

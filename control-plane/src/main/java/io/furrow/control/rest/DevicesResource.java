@@ -31,6 +31,7 @@ import io.furrow.model.topic.Topics;
 @Produces(MediaType.APPLICATION_JSON)
 public final class DevicesResource {
     private static final String DEVICE = "device";
+    private static final int LONGEST_AUDITED = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
 
     private final ServiceView view;
@@ -85,7 +86,11 @@ public final class DevicesResource {
         }
         String mission = device.path("mission").asText();
         FarmSecret.Login login = means.secret().device(mission, deviceId);
-        audit(Caller.user(request), "credentials", id, null);
+        audit(
+                Caller.user(request),
+                "credentials",
+                JsonNodeFactory.instance.objectNode().put(DEVICE, id),
+                null);
         return Replies.json(
                         200,
                         JsonNodeFactory.instance
@@ -105,19 +110,24 @@ public final class DevicesResource {
         ObjectNode members = Body.read(body);
         ObjectNode device = find(id);
         String command = members.path("command").asText();
+        String value = members.path("value").asText("");
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
+        ObjectNode about = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+        if (!value.isEmpty()) {
+            about.put("value", value.substring(0, Math.min(value.length(), LONGEST_AUDITED)));
+        }
         if (means.sender() == null) {
             throw new ProblemException(
-                    503, "no-context-broker", "this control plane was started without a context broker for commands");
+                    501, "no-context-broker", "this control plane was started without a context broker for commands");
         }
         try {
-            means.sender().send(id, type, command, members.path("value").asText(""));
+            means.sender().send(id, type, command, value);
         } catch (IOException e) {
-            audit(Caller.user(request), command, id, e.getMessage());
+            audit(Caller.user(request), command, about, e.getMessage());
             throw new ProblemException(502, "context-broker", e.getMessage());
         }
-        audit(Caller.user(request), command, id, null);
+        audit(Caller.user(request), command, about, null);
         ObjectNode answer = io.furrow.model.control.Response.of("sent").json();
         return Replies.json(202, answer.put(DEVICE, id).put("command", command)).build();
     }
@@ -140,8 +150,7 @@ public final class DevicesResource {
         }
     }
 
-    private void audit(String user, String command, String id, String failure) {
-        ObjectNode about = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+    private void audit(String user, String command, ObjectNode about, String failure) {
         managers.audit(AuditEntry.ofDevice(System.currentTimeMillis(), user, command, about, failure));
     }
 

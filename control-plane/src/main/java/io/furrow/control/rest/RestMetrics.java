@@ -91,7 +91,14 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
             requests.dataPoint(point(labels, count.requests().sum()));
             seconds.dataPoint(point(labels, count.nanos().sum() / 1e9));
         });
+        CounterSnapshot.Builder answered = CounterSnapshot.builder()
+                .name("furrow_control_answers")
+                .help("Answers of the managers, to whomever, that were read since this instance was ready.");
+        answers.counts()
+                .forEach((kind, count) -> answered.dataPoint(
+                        point(Labels.of("manager", kind.topic(), "status", kind.status()), count.sum())));
         MetricSnapshots.Builder metrics = MetricSnapshots.builder()
+                .metricSnapshot(answered.build())
                 .metricSnapshot(requests.build())
                 .metricSnapshot(seconds.build())
                 .metricSnapshot(gauge("awaited", "Requests whose answer a manager owes.")

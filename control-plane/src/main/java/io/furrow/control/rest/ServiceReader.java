@@ -60,7 +60,7 @@ final class ServiceReader implements AutoCloseable {
     private final ServiceView view;
     private final Answers answers;
     private final CountDownLatch closing = new CountDownLatch(1);
-    private final Thread thread = new Thread(this::follow, "control-plane-view");
+    private final Thread thread = new Thread(this::run, "control-plane-view");
     private volatile Consumer<String, byte[]> consumer;
 
     /** Answers that wait until the view is as far as the topics are, when that is known. */
@@ -86,6 +86,15 @@ final class ServiceReader implements AutoCloseable {
         thread.start();
     }
 
+    /** A view that nobody follows is none. */
+    private void run() {
+        try {
+            follow();
+        } finally {
+            view.clear();
+        }
+    }
+
     private void follow() {
         while (closing.getCount() > 0) {
             try (Admin admin = Admin.create(settings);
@@ -98,6 +107,7 @@ final class ServiceReader implements AutoCloseable {
                 LOG.debug("the view of the control plane's topics was woken up", e);
             } catch (KafkaException e) {
                 LOG.warn("the view of the control plane's topics failed and begins anew", e);
+                view.clear();
                 pause();
             }
         }
@@ -212,6 +222,9 @@ final class ServiceReader implements AutoCloseable {
             answer = Response.read(record.value() == null ? new byte[0] : record.value());
         } catch (UnreadableException e) { // a request, or what somebody else wrote there
             return;
+        }
+        if (view.isComplete()) {
+            answers.count(record.topic(), answer.status());
         }
         answer.requestId().ifPresent(id -> {
             Answers.Key key = new Answers.Key(record.topic(), id);

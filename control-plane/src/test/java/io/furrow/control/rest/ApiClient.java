@@ -70,6 +70,11 @@ final class ApiClient {
         return NgsiJson.read(answer.body());
     }
 
+    /** Status and code of an error. */
+    String error(HttpResponse<byte[]> answer) throws Exception {
+        return answer.statusCode() + " " + json(answer).path("error").asText();
+    }
+
     /** The answer to a GET of a path or a host that no client would send so. */
     String raw(String path, String host) throws IOException {
         try (Socket socket = new Socket(base.getHost(), base.getPort())) {

@@ -1,0 +1,82 @@
+package io.furrow.control.rest;
+
+import java.net.http.HttpResponse;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlSettings;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.device.FarmSecret;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The API with managers, and a context broker for commands. */
+final class RunningApi implements AutoCloseable {
+    static final Duration PATIENCE = Duration.ofSeconds(60);
+    static final FarmSecret SECRET = new FarmSecret("a secret of sixteen bytes or more".getBytes());
+
+    private final Path directory;
+    private final EmbeddedKafka kafka;
+    private final ControlPlane plane;
+    private final StubContextBroker broker = new StubContextBroker();
+    private final RestApi api;
+    private final ApiClient client;
+
+    RunningApi(Path directory) throws Exception {
+        this.directory = directory;
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        plane = ControlPlane.start(settings());
+        RestSettings rest = RestSettings.on(0)
+                .withSecret(SECRET)
+                .withContextBroker(broker.uri())
+                .withPatience(Duration.ofSeconds(30));
+        api = RestApi.start(settings(), rest, plane::state);
+        client = new ApiClient(api.uri(), null);
+        await().atMost(PATIENCE).until(() -> client.send("GET", "/health", null).statusCode() == 200);
+    }
+
+    RestApi api() {
+        return api;
+    }
+
+    ApiClient client() {
+        return client;
+    }
+
+    StubContextBroker broker() {
+        return broker;
+    }
+
+    /** What is there. */
+    JsonNode get(String path) throws Exception {
+        HttpResponse<byte[]> answer = client.send("GET", path, null);
+        assertThat(answer.statusCode()).as(path).isEqualTo(200);
+        return client.json(answer);
+    }
+
+    /** Asks for what is refused; where nothing is known of the path, that is no described answer. */
+    void refused(String method, String path, String body, int status, String error) throws Exception {
+        boolean described = !error.equals("not-found");
+        assertThat(client.error(client.send(method, path, body, described))).isEqualTo(status + " " + error);
+    }
+
+    ControlSettings settings() {
+        Properties settings = new Properties();
+        settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        settings.setProperty("state.dir", directory.resolve("state").toString());
+        return ControlSettings.of(settings);
+    }
+
+    @Override
+    public void close() {
+        api.close();
+        plane.close();
+        broker.close();
+        kafka.close();
+    }
+}
