@@ -1,0 +1,145 @@
+package io.furrow.simulators.fleet;
+
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Queue;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ConcurrentLinkedQueue;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.device.Listener;
+import io.furrow.simulators.mqtt.MqttAccess;
+import io.furrow.simulators.scenario.WantedDeviceReader;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ComingAndGoingTest {
+    private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
+    private static final int MOST_OWN = 3;
+
+    private final Map<String, String> passwords = new ConcurrentHashMap<>(Map.of("farmer", "plough"));
+    private final Set<String> up = ConcurrentHashMap.newKeySet();
+    private final Queue<String> failures = new ConcurrentLinkedQueue<>();
+    private EmbeddedMqtt mqtt;
+    private Listener listener;
+    private FarmFleet fleet;
+
+    @BeforeEach
+    void start() throws Exception {
+        mqtt = EmbeddedMqtt.start(passwords);
+        FleetSettings settings =
+                new FleetSettings(URI.create("http://127.0.0.1:1"), null, mqtt.uri(), "farmer", "plough", "farm", "/");
+        listener = new Listener(settings);
+        FleetAccess access =
+                new FleetAccess(settings, new MqttAccess(mqtt.uri(), null, 1), FleetAccess.Logins.of(SECRET));
+        fleet = FarmFleet.open(access, new Connections(access, SECRET::apiKey, MOST_OWN), new FleetEvents() {
+            @Override
+            public void up(String device) {
+                up.add(device);
+            }
+
+            @Override
+            public void failed(String device, int attempts, String reason) {
+                failures.add(device + " " + attempts + " " + reason);
+            }
+        });
+    }
+
+    @AfterEach
+    void stop() {
+        fleet.close();
+        listener.close();
+        mqtt.close();
+    }
+
+    @Test
+    void givesAMissionAGatewayWhoseDevicesWouldBeTooManyConnections() throws Exception {
+        letIn("small", 2);
+        letInGateway("large");
+        fleet.add(mission("small", 2));
+        await().until(() -> up.size() == 2);
+        fleet.add(mission("large", 2));
+        await().until(() -> up.size() == 4);
+        assertThat(fleet.connections()).isEqualTo(3);
+
+        listener.say(topic("large", 2, "cmd"), "{\"off\": \"\"}");
+        await().untilAsserted(() -> assertThat(listener.heard(topic("large", 2, "cmdexe")))
+                .singleElement()
+                .hasToString("{\"off\":\"ok\"}"));
+        assertThat(listener.heard(topic("large", 1, "cmdexe"))).isEmpty();
+
+        fleet.remove("large-1");
+        fleet.remove("large-2");
+        await().until(() -> fleet.connections() == 2);
+        int before = listener.heard(topic("large", 1, "attrs")).size();
+        int other = listener.heard(topic("small", 1, "attrs")).size();
+        await().until(() -> listener.heard(topic("small", 1, "attrs")).size() > other + 10);
+        assertThat(listener.heard(topic("large", 1, "attrs"))).hasSize(before);
+    }
+
+    @Test
+    void triesARefusedLoginUntilItIsKnownAndNotWhenTheDeviceIsGone() throws Exception {
+        fleet.add(mission("late", 2));
+        await().until(() -> failures.stream().anyMatch(failure -> failure.startsWith("late-1 3 the MQTT broker")));
+        assertThat(failures).allMatch(failure -> failure.contains("refuses user 'late.late-"));
+        assertThat(up).isEmpty();
+        fleet.remove("late-2");
+
+        letIn("late", 2);
+
+        await().until(() -> !listener.heard(topic("late", 1, "attrs")).isEmpty());
+        assertThat(up).containsExactly("late-1");
+        assertThat(listener.heard(topic("late", 2, "attrs"))).isEmpty();
+        assertThat(fleet.connections()).isEqualTo(1);
+    }
+
+    private void letIn(String mission, int devices) {
+        for (int number = 1; number <= devices; number++) {
+            FarmSecret.Login login = SECRET.device(mission, mission + "-" + number);
+            passwords.put(login.user(), login.password());
+        }
+    }
+
+    private void letInGateway(String mission) {
+        FarmSecret.Login login = SECRET.gateway(mission);
+        passwords.put(login.user(), login.password());
+    }
+
+    private static String topic(String mission, int number, String end) {
+        return "/" + SECRET.apiKey(mission) + "/" + mission + "-" + number + "/" + end;
+    }
+
+    private static List<FarmFleet.Member> mission(String mission, int devices) throws Exception {
+        List<FarmFleet.Member> members = new ArrayList<>();
+        Instant now = Instant.now();
+        for (int number = 1; number <= devices; number++) {
+            String id = mission + "-" + number;
+            DeviceVersion version =
+                    new DeviceVersion("urn:" + id, "farm", "/", "farm", mission, now.toEpochMilli(), null, 1, null);
+            ObjectNode settings = JsonNodeFactory.instance.objectNode();
+            settings.putArray("path").addArray().add(-3.5).add(40.3);
+            WantedDevice wanted = new WantedDevice(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
+            members.add(new FarmFleet.Member(
+                    new WantedDeviceReader(Map.of(), 0).read(wanted), FiwareScope.of("farm", "/"), now));
+        }
+        return members;
+    }
+}
