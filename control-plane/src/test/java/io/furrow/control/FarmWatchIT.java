@@ -141,6 +141,31 @@ class FarmWatchIT {
         assertThat(sent).hasSize(1);
     }
 
+    @Test
+    void goesOnWhereAnotherInstanceLeaves() throws Exception {
+        try (FarmWatch second = watch("two")) {
+            try (FarmWatch first = watch("one")) {
+                await().atMost(PATIENCE).until(() -> first.isHealthy() && second.isHealthy());
+                want();
+                await().atMost(PATIENCE).until(() -> {
+                    report();
+                    return !records(Topics.DEVICES_HEALTH).isEmpty()
+                            && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
+                });
+                await().atMost(PATIENCE).until(() -> state("silent-device").equals("open"));
+            }
+            await().atMost(PATIENCE).until(() -> {
+                report();
+                return state("silent-device").equals("closed");
+            });
+        }
+        List<String> opened = records(Topics.ALARMS).stream()
+                .filter(record -> new String(record.value(), StandardCharsets.UTF_8).contains("\"opened\""))
+                .map(ConsumerRecord::key)
+                .toList();
+        assertThat(opened).startsWith("silent-device-1").doesNotHaveDuplicates();
+    }
+
     private FarmWatch watch(String state) throws Exception {
         Path own = directory.resolve(state);
         return FarmWatch.start(ControlPlaneProcess.settings(kafka.bootstrapServers(), own.toString()), options);
