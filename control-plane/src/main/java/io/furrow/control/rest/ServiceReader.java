@@ -1,21 +1,17 @@
 package io.furrow.control.rest;
 
 import java.time.Duration;
-import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
-import java.util.Queue;
 import java.util.concurrent.CountDownLatch;
-import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.ListOffsetsOptions;
-import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
 import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.clients.consumer.Consumer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -24,10 +20,8 @@ import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.IsolationLevel;
 import org.apache.kafka.common.KafkaException;
-import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.PartitionInfo;
 import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.errors.InterruptException;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.errors.WakeupException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
@@ -62,10 +56,6 @@ final class ServiceReader implements AutoCloseable {
     private final CountDownLatch closing = new CountDownLatch(1);
     private final Thread thread = new Thread(this::run, "control-plane-view");
     private volatile Consumer<String, byte[]> consumer;
-
-    /** Answers that wait until the view is as far as the topics are, when that is known. */
-    private record Held(
-            Map<Answers.Key, Response> answers, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {}
 
     /** @param remembered how far back answers are read at the start */
     ServiceReader(Properties client, Duration remembered, ServiceView view, Answers answers) {
@@ -129,35 +119,17 @@ final class ServiceReader implements AutoCloseable {
         Map<TopicPartition, Long> ends = from.endOffsets(all);
         Map<TopicPartition, OffsetSpec> latest = new HashMap<>();
         viewed.forEach(each -> latest.put(each, OffsetSpec.latest()));
-        Queue<Held> held = new ArrayDeque<>();
+        AnswerGate gate = new AnswerGate(answers);
         while (closing.getCount() > 0) {
-            Map<Answers.Key, Response> fresh = take(from.poll(held.isEmpty() ? POLL : POLL_WITH_ANSWERS));
-            if (!view.isComplete() && reached(from, ends)) {
+            Map<Answers.Key, Response> fresh = take(from.poll(gate.isEmpty() ? POLL : POLL_WITH_ANSWERS));
+            if (!view.isComplete() && AnswerGate.reached(ends, from::position)) {
                 view.complete();
                 LOG.info("the view of the control plane's topics is complete");
             }
             if (!fresh.isEmpty()) {
-                held.add(new Held(fresh, admin.listOffsets(latest, COMMITTED).all()));
+                gate.hold(fresh, admin.listOffsets(latest, COMMITTED).all());
             }
-            while (!held.isEmpty() && isSeen(from, held.peek())) {
-                held.remove().answers().forEach(answers::release);
-            }
-        }
-    }
-
-    /** Whether the view shows what the answers tell of. */
-    private static boolean isSeen(Consumer<String, byte[]> from, Held held) {
-        if (!held.ends().isDone()) {
-            return false;
-        }
-        try {
-            Map<TopicPartition, Long> ends = new HashMap<>();
-            held.ends().getNow(Map.of()).forEach((partition, end) -> ends.put(partition, end.offset()));
-            return reached(from, ends);
-        } catch (ExecutionException e) {
-            throw new KafkaException("the ends of the control plane's topics are not known", e.getCause());
-        } catch (InterruptedException e) {
-            throw new InterruptException(e);
+            gate.release(from::position);
         }
     }
 
@@ -197,10 +169,6 @@ final class ServiceReader implements AutoCloseable {
             found.forEach(each -> partitions.add(new TopicPartition(topic, each.partition())));
         }
         return partitions;
-    }
-
-    private static boolean reached(Consumer<String, byte[]> consumer, Map<TopicPartition, Long> ends) {
-        return ends.entrySet().stream().allMatch(end -> consumer.position(end.getKey()) >= end.getValue());
     }
 
     /** Answers the answers among them that somebody waits for. */
