@@ -31,7 +31,8 @@ import io.furrow.simulators.load.LoadPlan;
             IngestBench.class,
             AnalyticsBench.class,
             ControlBench.class,
-            FleetBench.class
+            FleetBench.class,
+            MissionBench.class
         })
 final class BenchCommand {
     private static final String DOMAIN = "bench";
