@@ -16,7 +16,7 @@ import io.furrow.control.field.ImportedField;
 import io.furrow.control.field.RefusedFeature;
 import io.furrow.control.field.UnusableFileException;
 import io.furrow.model.field.FieldVersion;
-import io.furrow.simulators.device.Scenario;
+import io.furrow.simulators.fiware.FiwareStandIn;
 
 /**
  * The fields with which a suite starts, on {@code service.fields} as {@code ./furrow fields import} would put them there, valid from
@@ -69,7 +69,7 @@ final class SuiteFields {
 
     private static Path demo(RunDirectory directory) throws IOException {
         Path file = directory.resolve("fields.geojson");
-        try (InputStream demo = Scenario.class.getResourceAsStream(DEMO)) {
+        try (InputStream demo = FiwareStandIn.class.getResourceAsStream(DEMO)) {
             Files.copy(demo, file, StandardCopyOption.REPLACE_EXISTING);
         }
         return file;

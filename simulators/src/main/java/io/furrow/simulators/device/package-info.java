@@ -1,2 +1,2 @@
-/** Simulated thermometers, cameras and robots that report as real ones do: over MQTT and straight to the context broker. */
+/** What devices and load have in common: the ends that they speak to, and how they are provisioned. */
 package io.furrow.simulators.device;
