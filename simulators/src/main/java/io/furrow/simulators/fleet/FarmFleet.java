@@ -98,7 +98,7 @@ public final class FarmFleet implements AutoCloseable {
         boolean open = false;
         try {
             List<SimulatedDevice> devices = farm.devices();
-            for (Connections.Way way : connections.add(identities(devices))) {
+            for (Connections.Way way : connections.add(SimulatedDevice.overMqtt(devices))) {
                 way.open();
             }
             devices.forEach(device -> fleet.admit(new Member(device, scope, start), start));
@@ -231,8 +231,8 @@ public final class FarmFleet implements AutoCloseable {
 
     private void join(List<Member> members) {
         Instant now = clock.instant();
-        Collection<Connections.Way> fresh =
-                connections.add(identities(members.stream().map(Member::device).toList()));
+        Collection<Connections.Way> fresh = connections.add(
+                SimulatedDevice.overMqtt(members.stream().map(Member::device).toList()));
         for (Member member : members) {
             String id = member.device().id();
             joining.put(id, member);
@@ -272,13 +272,6 @@ public final class FarmFleet implements AutoCloseable {
         } else if (report instanceof Report.Measures measures) {
             connections.send(measures.device(), "attrs", measures.json());
         }
-    }
-
-    private static List<SimulatedDevice.Identity> identities(Collection<SimulatedDevice> devices) {
-        return devices.stream()
-                .filter(device -> !(device instanceof Robot))
-                .map(SimulatedDevice::identity)
-                .toList();
     }
 
     /** What becomes of connections, told on threads of the opener. */

@@ -1,6 +1,7 @@
 package io.furrow.simulators.scenario;
 
 import java.time.Duration;
+import java.util.Collection;
 import java.util.List;
 
 import io.furrow.simulators.device.Registration;
@@ -18,6 +19,14 @@ public sealed interface SimulatedDevice {
 
     default String id() {
         return identity().id();
+    }
+
+    /** Who of these reports over MQTT: all but robots. */
+    static List<Identity> overMqtt(Collection<SimulatedDevice> devices) {
+        return devices.stream()
+                .filter(device -> !(device instanceof Robot))
+                .map(SimulatedDevice::identity)
+                .toList();
     }
 
     /**
