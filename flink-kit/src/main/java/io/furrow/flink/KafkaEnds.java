@@ -4,7 +4,6 @@ import java.time.Duration;
 import java.util.Properties;
 import java.util.regex.Pattern;
 
-import org.apache.flink.api.common.eventtime.Watermark;
 import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
@@ -126,12 +125,15 @@ public final class KafkaEnds {
                 new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance())));
     }
 
-    /** For a stream beside the events that has no event time of its own: it never holds theirs up. */
+    /**
+     * For a stream beside the events that has no event time of its own: it is always idle, and so never holds theirs up. Did it
+     * say how late it is, nobody else would while no event comes, and every event after that would be late.
+     */
     public static WatermarkStrategy<TopicRecord> noHindrance() {
-        return WatermarkStrategy.forGenerator(context -> new AlwaysAtTheEnd());
+        return WatermarkStrategy.forGenerator(context -> new AlwaysIdle());
     }
 
-    private static final class AlwaysAtTheEnd implements WatermarkGenerator<TopicRecord> {
+    private static final class AlwaysIdle implements WatermarkGenerator<TopicRecord> {
         @Override
         public void onEvent(TopicRecord event, long timestamp, WatermarkOutput output) {
             onPeriodicEmit(output);
@@ -139,7 +141,7 @@ public final class KafkaEnds {
 
         @Override
         public void onPeriodicEmit(WatermarkOutput output) {
-            output.emitWatermark(new Watermark(EndOfEventTime.BESIDE));
+            output.markIdle();
         }
     }
 }
