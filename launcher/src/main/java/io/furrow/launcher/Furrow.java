@@ -10,6 +10,7 @@ import io.furrow.launcher.control.DeviceCommand;
 import io.furrow.launcher.control.DomainCommand;
 import io.furrow.launcher.control.ReplayCommand;
 import io.furrow.launcher.control.TemplateCommand;
+import io.furrow.simulators.host.DeviceHostCommand;
 
 /** The command {@code ./furrow}. */
 @Command(
@@ -20,6 +21,7 @@ import io.furrow.launcher.control.TemplateCommand;
             DemoCommand.class,
             UpCommand.class,
             ControlPlaneCommand.class,
+            DeviceHostCommand.class,
             ScenarioCommand.class,
             DomainCommand.class,
             MissionCommand.class,

@@ -37,6 +37,7 @@ class CommandLineTest {
         "dead-letters refeed --help, --dry-run",
         "control-plane --help, --standby-replicas",
         "scenario --help, --qos",
+        "device-host --help, --farm-secret",
         "domain create --help, --area",
         "mission --help, watch",
         "mission start --help, --duration",
