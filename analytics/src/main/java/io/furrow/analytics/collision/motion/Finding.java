@@ -17,7 +17,7 @@ import io.furrow.analytics.eventtime.Timed;
  * @param from the first instant that both legs cover; of legs ahead the same as {@code time}
  * @param until the last
  * @param contactFrom since when they are within the threshold, rounded down
- * @param contactUntil until when, rounded up
+ * @param contactUntil until when, rounded down: less than {@code until} where they part before, be it by less than a millisecond
  * @param reportedClose whether the newest positions were close too, at one of both ends
  */
 public record Finding(

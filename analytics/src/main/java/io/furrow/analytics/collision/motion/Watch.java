@@ -73,7 +73,7 @@ record Watch(MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predic
                         span.from,
                         span.until,
                         (long) Math.floor(approach.contactFrom()),
-                        (long) Math.ceil(approach.contactUntil()),
+                        (long) Math.floor(approach.contactUntil()),
                         reportedClose)));
     }
 }

@@ -38,6 +38,17 @@ class MotionSimulationTest {
         assertThat(crossed).isGreaterThan(CASES / 20);
     }
 
+    /** The second of them is shown by the reports, the first is not. */
+    @Test
+    void keepsContactsApartThatAreLessThanAMillisecondApart() {
+        long seed = 53433193976546L;
+        List<PositionFix> fixes = world(seed, 337);
+        List<MotionOracle.Told> expected = MotionOracle.of(fixes, Courses.rules(42));
+
+        agree(told(MotionSimulation.approaches(fixes, Courses.rules(42), new Random(seed))), expected, "that world");
+        assertThat(count(expected, Phase.CROSSED)).isOne();
+    }
+
     @Test
     void givesTheSameForAnyCubeSizeAndOrder() {
         for (int i = 0; i < 60; i++) {
