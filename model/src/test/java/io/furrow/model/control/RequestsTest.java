@@ -107,8 +107,7 @@ class RequestsTest {
             {'command':'start','mission':'m','template':'a','devices':[]}    | wrong-member
             {'command':'start','mission':'m','devices':{}}                   | wrong-member
             {'command':'start','mission':'m','devices':[7]}                  | wrong-member
-            {'command':'start','mission':'m','devices':[{'type':'T','id':'a'},{'type':'T','id':'a'}]} | wrong-member
-            {'command':'start','mission':'m','devices':['a','a']}            | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','name':'x','id':'a'},{'type':'T','name':'y','id':'a'}]} | wrong-member
             {'command':'start','mission':'m','devices':['a b']}              | wrong-member
             {'command':'start','mission':'m','devices':['a','a']}            | wrong-member
             {'command':'start','mission':'m','devices':[{'count':1}]}        | missing-member
