@@ -85,6 +85,9 @@ build() {
     zip=$(ls -t "$home"/ngsi-connector/target/furrow-ngsi-connector-*.zip | head -n 1)
 }
 
+# The access rule needs what Connect has brought since version 4.
+guards() { ((${version%%.*} >= 4)); }
+
 start_worker() {
     local port
     free_port && rest=127.0.0.1:$port
@@ -107,6 +110,9 @@ status.storage.partitions=1
 scheduled.rebalance.max.delay.ms=0
 exactly.once.source.support=enabled
 PROPERTIES
+    if guards; then
+        echo "rest.extension.classes=io.furrow.http.connect.AccessExtension" >>"$run/worker.properties"
+    fi
     "$java" -Xmx512m -cp "$classes" org.apache.kafka.connect.cli.ConnectDistributed "$run/worker.properties" >"$logs/worker.log" 2>&1 &
     own $!
     until_true 120 "The Connect worker" curl -fsS "http://$rest/connectors"
@@ -138,6 +144,12 @@ start_kafka
 say "starting Connect $version with $(basename "$zip")"
 start_worker
 curl -fsS "http://$rest/" | grep -q "\"version\":\"$version\"" || fail "The worker is not of version $version."
+
+if guards; then
+    [[ $(curl -s -o "$logs/refused.json" -w '%{http_code}' -H 'Host: evil.example' "http://$rest/connectors") == 403 ]] ||
+        fail "The worker answered under a foreign host; logs: $logs"
+    say "the worker refuses a foreign host"
+fi
 
 free_port && listen=$port
 free_port && receive=$port

@@ -28,13 +28,14 @@ class ArchitectureTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', textBlock = """
                     io.furrow.model      |
-                    io.furrow.embedded   |
+                    io.furrow.http       |
+                    io.furrow.embedded   | io.furrow.http
                     io.furrow.flink      | io.furrow.model
-                    io.furrow.connect    | io.furrow.model
+                    io.furrow.connect    | io.furrow.model, io.furrow.http
                     io.furrow.ingest     | io.furrow.model, io.furrow.flink
                     io.furrow.analytics  | io.furrow.model, io.furrow.flink
-                    io.furrow.control    | io.furrow.model
-                    io.furrow.simulators | io.furrow.model
+                    io.furrow.control    | io.furrow.model, io.furrow.http
+                    io.furrow.simulators | io.furrow.model, io.furrow.http
                     io.furrow.bench      | io.furrow.model, io.furrow.flink, io.furrow.connect, io.furrow.ingest, io.furrow.analytics, io.furrow.simulators
                     """)
     void letsEachModuleDependOnWhatItMay(String module, String allowed) {
@@ -109,12 +110,31 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
+    /** Each of its adapters goes where the engines of the others are not. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+                    io.furrow.http         | java.., io.furrow.http
+                    io.furrow.http.jetty   | java.., io.furrow.http, io.furrow.http.jetty, org.eclipse.jetty..
+                    io.furrow.http.flink   | java.., io.furrow.http, io.furrow.http.flink, org.apache.flink..
+                    io.furrow.http.connect | java.., io.furrow.http, io.furrow.http.connect, org.apache.kafka.., jakarta..
+                    """)
+    void keepsTheAccessRuleFreeOfEnginesAndItsAdaptersApart(String where, String allowed) {
+        ArchRuleDefinition.classes()
+                .that()
+                .resideInAPackage(where)
+                .should()
+                .onlyDependOnClassesThat()
+                .resideInAnyPackage(allowed.split(", "))
+                .check(CLASSES);
+    }
+
     @Test
     void seesEveryModule() {
         assertThat(CLASSES)
                 .extracting(JavaClass::getPackageName)
                 .contains(
                         "io.furrow.model.ngsi",
+                        "io.furrow.http",
                         "io.furrow.embedded",
                         "io.furrow.flink",
                         "io.furrow.connect.source",

@@ -11,7 +11,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** A program of the operating system, as a user would call it. */
 final class Command implements AutoCloseable {
-    private static final long SECONDS = 30;
+    private static final long SECONDS = 120;
 
     private final List<String> words;
     private final Process process;

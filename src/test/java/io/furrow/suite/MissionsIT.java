@@ -4,8 +4,10 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.List;
 import java.util.Optional;
 
@@ -17,6 +19,8 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.launcher.Suite;
 import io.furrow.launcher.control.MissionStart;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -43,7 +47,8 @@ class MissionsIT {
                     .get();
             try (MissionStart start =
                     new MissionStart(suite.control(), suite.kafka().clientProperties(), "north")) {
-                MissionStart.Delays delays = start.run("hoeing", DEVICES, PATIENCE);
+                MissionStart.Delays delays =
+                        start.run(new MissionStart.Plan("hoeing", DEVICES, Duration.ofSeconds(1)), PATIENCE);
                 reporter.publishEntry("mission of 100 devices", delays.toString());
             }
             assertThat(provisioned(suite)).isEqualTo(DEVICES);
@@ -65,6 +70,45 @@ class MissionsIT {
 
             await().atMost(PATIENCE).until(() -> state(suite).equals("stopped"));
             await().atMost(PATIENCE).until(() -> provisioned(suite) == 0);
+        }
+    }
+
+    @Test
+    void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
+        try (RunningSuite running = RunningSuite.start(kept)) {
+            Suite suite = running.suite();
+            await().atMost(PATIENCE)
+                    .until(() -> send(suite, "GET", "/ready", "")
+                            .path("status")
+                            .asText()
+                            .equals("ready"));
+            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
+            send(suite, "POST", "/api/missions/hoeing/start", """
+                    {"domain": "north", "devices": [
+                      {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
+                    """);
+            await().atMost(PATIENCE).until(() -> state(suite).equals("running"));
+
+            Instant over = Instant.now().plusSeconds(5);
+            Path file = kept.resolve("farm-secret");
+            FarmSecret rotated = FarmSecret.read(file).rotated(Instant.now(), over, false);
+            Files.writeString(file, FarmSecretCodec.write(rotated));
+
+            for (int number = 1; number <= 3; number++) {
+                String entity = "id=urn:ngsi-ld:Thermometer:hoeing-" + number;
+                await().atMost(PATIENCE)
+                        .until(() -> running.ngsi()
+                                        .entities(entity)
+                                        .at("/0/Time/value")
+                                        .asLong()
+                                > over.plusSeconds(3).toEpochMilli());
+            }
+            assertThat(state(suite)).isEqualTo("running");
+            assertThat(send(suite, "GET", "/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials", "")
+                            .path("user")
+                            .asText())
+                    .isEqualTo(rotated.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")
+                            .user());
         }
     }
 

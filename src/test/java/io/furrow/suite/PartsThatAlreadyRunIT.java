@@ -8,6 +8,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.http.AllowedNames;
 import io.furrow.launcher.SuiteSettings;
 import io.furrow.simulators.fiware.FiwareSettings;
 import io.furrow.simulators.fiware.FiwareStandIn;
@@ -24,13 +25,16 @@ class PartsThatAlreadyRunIT {
     @TempDir
     Path documents;
 
+    @TempDir
+    Path kept;
+
     @Test
     void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven() throws Exception {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
                 EmbeddedMongo mongo = EmbeddedMongo.start(documents);
                 FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());
                 RunningSuite running = RunningSuite.start(
-                        null,
+                        kept,
                         new SuiteSettings(
                                 null,
                                 "farm",
@@ -41,7 +45,8 @@ class PartsThatAlreadyRunIT {
                                 kafka.bootstrapServers(),
                                 mongo.uri(),
                                 SuiteSettings.Farm.SIMULATED,
-                                SuiteSettings.Watch.DEFAULT))) {
+                                SuiteSettings.Watch.DEFAULT,
+                                AllowedNames.NONE))) {
             assertThat(running.suite().hasStandIn()).isFalse();
             assertThat(running.suite().mongo()).isEqualTo(mongo.uri());
             assertThat(running.suite().kafka().bootstrapServers()).isEqualTo(kafka.bootstrapServers());

@@ -18,8 +18,10 @@ import static org.awaitility.Awaitility.await;
 
 /** The thermometer of the README, with the clients that a user would take. */
 class RealClientsIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(30);
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
     private static final String ENTITY = "urn:ngsi-ld:Thermometer:mine";
+    private static final String GROUP = """
+            {"services": [{"apikey": "secret", "resource": "/iot/json", "entity_type": "Thing"}]}""";
     private static final String DEVICE = """
             {"devices": [{"device_id": "mine", "apikey": "secret", "entity_name": "urn:ngsi-ld:Thermometer:mine",
               "entity_type": "Thermometer", "transport": "MQTT", "commands": [{"name": "on", "type": "command"}],
@@ -34,6 +36,7 @@ class RealClientsIT {
     @BeforeAll
     static void startAndProvision() throws Exception {
         running = RunningSuite.start(null);
+        curl("POST", running.suite().devices().iotAgent().resolve("/iot/services"), GROUP);
         curl("POST", running.suite().devices().iotAgent().resolve("/iot/devices"), DEVICE);
     }
 
@@ -46,16 +49,7 @@ class RealClientsIT {
 
     @Test
     void takesAMeasureOfMosquittoPubToTheDomainsTopic() throws Exception {
-        Command.run(mosquitto(
-                "mosquitto_pub",
-                Suite.MQTT_PASSWORD,
-                "/secret/mine/attrs",
-                "-m",
-                "{\"temp\": 21.5, \"lat\": 40.3138, \"lon\": -3.483}"));
-
-        await().atMost(PATIENCE)
-                .untilAsserted(() ->
-                        assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
+        report();
         try (TopicLog topic = running.topic("data.farm.realtime")) {
             await().atMost(PATIENCE)
                     .untilAsserted(() -> assertThat(topic.of(ENTITY))
@@ -68,6 +62,7 @@ class RealClientsIT {
 
     @Test
     void sendsACommandOfCurlToTheDeviceAndItsAnswerBack() throws Exception {
+        report();
         URI attributes = running.suite().contextBroker().resolve("/v2/entities/" + ENTITY + "/attrs");
         try (Command device =
                 Command.start(mosquitto("mosquitto_sub", Suite.MQTT_PASSWORD, "/secret/mine/cmd", "-C", "1", "-d"))) {
@@ -96,6 +91,20 @@ class RealClientsIT {
             assertThat(stranger.exitCode()).isNotZero();
             assertThat(stranger.printed()).contains("bad user name or password");
         }
+    }
+
+    /** A device takes commands from its first measure on. */
+    private static void report() throws Exception {
+        Command.run(mosquitto(
+                "mosquitto_pub",
+                Suite.MQTT_PASSWORD,
+                "/secret/mine/attrs",
+                "-m",
+                "{\"temp\": 21.5, \"lat\": 40.3138, \"lon\": -3.483}"));
+
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(entity().at("/Temperature/value").asDouble()).isEqualTo(21.5));
     }
 
     private static JsonNode entity() throws Exception {

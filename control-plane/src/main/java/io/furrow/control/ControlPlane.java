@@ -2,6 +2,8 @@ package io.furrow.control;
 
 import java.io.IOException;
 
+import io.furrow.control.readiness.PartStatus;
+
 /**
  * The three managers in this JVM. Several instances of the same settings share the work: the managers of domains and of missions
  * are one task, that of replays another; what an instance had when it died another takes over.
@@ -21,7 +23,7 @@ public final class ControlPlane implements AutoCloseable {
     public static ControlPlane start(ControlSettings settings) throws IOException {
         ServiceTopics.prepare(settings);
         return new ControlPlane(StreamsApplication.start(
-                "control plane", ControlTopology.of(settings.remembered(), settings.missions()), settings.streams()));
+                "managers", () -> ControlTopology.of(settings.remembered(), settings.missions()), settings.streams()));
     }
 
     /** Whether it answers requests: it runs, and has its state, not being about to rebuild or to hand it over. */
@@ -32,6 +34,11 @@ public final class ControlPlane implements AutoCloseable {
     /** For a health page: {@code RUNNING}, {@code REBALANCING} and so on. */
     public String state() {
         return application.state();
+    }
+
+    /** For a health page. */
+    public PartStatus status() {
+        return application.status();
     }
 
     /** Finishes what it is at and leaves; another instance takes over at once. */

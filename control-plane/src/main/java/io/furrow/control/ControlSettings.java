@@ -5,7 +5,9 @@ import java.util.Properties;
 
 import org.apache.kafka.streams.StreamsConfig;
 
+import io.furrow.control.manager.FailureHandler;
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.model.control.Limits;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -21,6 +23,9 @@ public record ControlSettings(
         Properties client, int standbyReplicas, short replicationFactor, Duration remembered, MissionOptions missions) {
     /** Name of the group, first part of the names of its topics, of which state is rebuilt: never changed. */
     static final String APPLICATION = "furrow-control-plane";
+
+    /** A rebalance waits no longer for a member that does not join; the default of five minutes is as long as nobody would be answered. */
+    private static final Duration REBALANCED_WITHIN = Duration.ofSeconds(60);
 
     private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
 
@@ -54,8 +59,14 @@ public record ControlSettings(
         streams.put(StreamsConfig.PROCESSING_GUARANTEE_CONFIG, StreamsConfig.EXACTLY_ONCE_V2);
         streams.put(StreamsConfig.NUM_STANDBY_REPLICAS_CONFIG, standbyReplicas);
         streams.put(StreamsConfig.REPLICATION_FACTOR_CONFIG, (int) replicationFactor);
+        streams.put(StreamsConfig.DESERIALIZATION_EXCEPTION_HANDLER_CLASS_CONFIG, FailureHandler.class);
+        streams.put(StreamsConfig.PROCESSING_EXCEPTION_HANDLER_CLASS_CONFIG, FailureHandler.class);
+        streams.put(StreamsConfig.PRODUCTION_EXCEPTION_HANDLER_CLASS_CONFIG, FailureHandler.class);
+        streams.put(StreamsConfig.producerPrefix("max.request.size"), Limits.DEAD_LETTER_BYTES);
+        streams.put(StreamsConfig.topicPrefix("max.message.bytes"), Limits.MESSAGE_BYTES);
         streams.put(StreamsConfig.consumerPrefix("auto.offset.reset"), "earliest");
         streams.put(StreamsConfig.mainConsumerPrefix("session.timeout.ms"), (int) TAKEN_OVER_AFTER.toMillis());
+        streams.put(StreamsConfig.mainConsumerPrefix("max.poll.interval.ms"), (int) REBALANCED_WITHIN.toMillis());
         return streams;
     }
 }

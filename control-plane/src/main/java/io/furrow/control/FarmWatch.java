@@ -1,11 +1,13 @@
 package io.furrow.control;
 
 import java.io.IOException;
+import java.util.List;
 import java.util.Properties;
 
 import org.apache.kafka.streams.StreamsConfig;
 
 import io.furrow.control.alarm.AlarmActions;
+import io.furrow.control.readiness.PartStatus;
 
 /**
  * Watches the farm in this JVM: health of devices, alarms, the entities of domains and missions. It is an application of its
@@ -26,18 +28,24 @@ public final class FarmWatch implements AutoCloseable {
     /**
      * Makes the topics that are missing and starts.
      *
-     * @throws IOException if the topics cannot be prepared; the message says what to do
+     * @throws IOException if the topics cannot be prepared, or the webhook's secret not be used; the message says what to do
      */
     public static FarmWatch start(ControlSettings settings, WatchOptions options) throws IOException {
         ServiceTopics.prepare(settings);
         Properties properties = settings.streams();
         properties.put(StreamsConfig.APPLICATION_ID_CONFIG, APPLICATION);
-        StreamsApplication application = StreamsApplication.start(
-                "farm watch",
-                WatchTopology.of(
-                        settings.remembered(), options, settings.missions().scope()),
-                properties);
-        return new FarmWatch(application, AlarmActions.start(settings.client(), options.webhook(), options.stop()));
+        AlarmActions actions = AlarmActions.start(settings.client(), options.webhook(), options.stop());
+        try {
+            StreamsApplication application = StreamsApplication.start(
+                    "farm watch",
+                    () -> WatchTopology.of(
+                            settings.remembered(), options, settings.missions().scope()),
+                    properties);
+            return new FarmWatch(application, actions);
+        } catch (RuntimeException e) {
+            actions.close();
+            throw e;
+        }
     }
 
     /** Whether it watches: it runs, and has its state, not being about to rebuild or to hand it over. */
@@ -48,6 +56,16 @@ public final class FarmWatch implements AutoCloseable {
     /** For a health page: {@code RUNNING}, {@code REBALANCING} and so on. */
     public String state() {
         return application.state();
+    }
+
+    /** For a health page. */
+    public PartStatus status() {
+        return application.status().named("farmWatch");
+    }
+
+    /** How it is with each thread that acts on alarms, for a health page. */
+    public List<PartStatus> followers() {
+        return actions.followers();
     }
 
     /** Finishes what it is at and leaves; another instance takes over at once. */

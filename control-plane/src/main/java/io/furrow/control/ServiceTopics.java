@@ -10,6 +10,7 @@ import java.util.Optional;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
+import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.AlterConfigOp;
@@ -20,6 +21,7 @@ import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.errors.TopicExistsException;
 
+import io.furrow.model.control.Limits;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -31,6 +33,7 @@ public final class ServiceTopics {
     private static final long PATIENCE_SECONDS = 30;
     private static final long LOOK_MILLIS = 50;
     private static final String POLICY = "cleanup.policy";
+    private static final String MAX_BYTES = "max.message.bytes";
 
     private static final List<String> REQUESTS =
             List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER);
@@ -39,25 +42,40 @@ public final class ServiceTopics {
             Topics.MISSIONS,
             Topics.TEMPLATES,
             Topics.DEVICES,
+            Topics.MISSION_DEVICES,
             Topics.REPLAYS,
             Topics.MISSIONS_STATUS,
             Topics.DEVICES_STATUS,
             Topics.DEVICES_HEALTH,
             Topics.REPLAYS_STATUS,
-            Topics.ALARMS);
+            Topics.ALARMS,
+            Topics.ALARMS_DELIVERED,
+            Topics.SECRETS);
     /** A year; whoever wants another time alters the topic, which then stays so. */
     private static final Map<String, String> KEPT_LONG =
             Map.of(POLICY, "delete", "retention.ms", Long.toString(TimeUnit.DAYS.toMillis(365)));
     /** Written by others, or read by others: made as jobs make them, never altered. */
     private static final List<String> DATA = List.of(Topics.RAW, Topics.COLLISION, Topics.TEMPERATURE, Topics.CONTEXT);
 
-    private static final int MOST_BYTES = 16 * 1024 * 1024;
+    /** For what could not be read of topics that the control plane reads. */
+    private static final List<String> DEAD = Stream.of(
+                    REQUESTS,
+                    DATA,
+                    List.of(
+                            Topics.DOMAINS,
+                            Topics.MISSIONS,
+                            Topics.MISSIONS_STATUS,
+                            Topics.DEVICES_STATUS,
+                            Topics.REPLAYS_STATUS))
+            .flatMap(List::stream)
+            .map(Topics::dead)
+            .toList();
 
     private ServiceTopics() {}
 
     /**
-     * Makes those that are missing. Of those that are there, as a client makes them by asking first, the cleanup policy is put
-     * right: else the broker would delete what is wanted.
+     * Makes those that are missing. Of those that are there, as a client makes them by asking first, the cleanup policy and the
+     * limits are put right: else the broker would delete what is wanted, or take records that nobody can handle.
      *
      * @throws IOException if Kafka does not answer or refuses
      */
@@ -65,16 +83,17 @@ public final class ServiceTopics {
         try (Admin admin = Admin.create(settings.client())) {
             List<NewTopic> wanted = new ArrayList<>();
             REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
-            COMPACTED.forEach(name -> wanted.add(topic(name, settings, Map.of(POLICY, "compact"))));
+            COMPACTED.forEach(name -> wanted.add(topic(name, settings, stateConfigs())));
             wanted.add(topic(Topics.AUDIT, settings, KEPT_LONG));
-            DATA.forEach(name ->
-                    wanted.add(topic(name, settings, Map.of("max.message.bytes", Integer.toString(MOST_BYTES)))));
+            Stream.concat(DATA.stream(), DEAD.stream())
+                    .forEach(name -> wanted.add(
+                            topic(name, settings, Map.of(MAX_BYTES, Integer.toString(Limits.DEAD_LETTER_BYTES)))));
             for (KafkaFuture<Void> made : admin.createTopics(wanted).values().values()) {
                 await(made, true);
             }
             Map<ConfigResource, Collection<AlterConfigOp>> policies = new LinkedHashMap<>();
             REQUESTS.forEach(name -> set(policies, name, requestConfigs()));
-            COMPACTED.forEach(name -> set(policies, name, Map.of(POLICY, "compact")));
+            COMPACTED.forEach(name -> set(policies, name, stateConfigs()));
             await(admin.incrementalAlterConfigs(policies).all(), false);
             awaitKnown(admin, wanted.stream().map(NewTopic::name).toList());
         } catch (KafkaException | ExecutionException | TimeoutException e) {
@@ -110,9 +129,30 @@ public final class ServiceTopics {
         return new NewTopic(name, partitions, replication).configs(configs);
     }
 
-    /** The time of the broker, because the control plane tells old requests from new ones by it. */
+    /**
+     * The time of the broker, because the control plane tells old requests from new ones by it. Uncompressed, because the broker then
+     * measures records as a manager will see them: a megabyte may hold a gigabyte.
+     */
     private static Map<String, String> requestConfigs() {
-        return Map.of(POLICY, "delete", "message.timestamp.type", "LogAppendTime");
+        return Map.of(
+                POLICY,
+                "delete",
+                "message.timestamp.type",
+                "LogAppendTime",
+                "compression.type",
+                "uncompressed",
+                MAX_BYTES,
+                Integer.toString(Limits.MESSAGE_BYTES));
+    }
+
+    private static Map<String, String> stateConfigs() {
+        return Map.of(
+                POLICY,
+                "compact",
+                "compression.type",
+                "uncompressed",
+                MAX_BYTES,
+                Integer.toString(Limits.MESSAGE_BYTES));
     }
 
     private static void set(

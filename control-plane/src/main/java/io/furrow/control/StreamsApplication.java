@@ -1,7 +1,12 @@
 package io.furrow.control;
 
 import java.time.Duration;
+import java.time.Instant;
 import java.util.Properties;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Supplier;
 
 import org.apache.kafka.common.errors.RetriableException;
 import org.apache.kafka.streams.CloseOptions;
@@ -13,40 +18,96 @@ import org.apache.kafka.streams.errors.StreamsUncaughtExceptionHandler.StreamThr
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** A topology at work in this JVM, alone or as one of several instances. */
+import io.furrow.control.readiness.PartStatus;
+
+/**
+ * Runs a topology in this JVM, alone or as one of several instances, and keeps it running: a thread that loses Kafka is replaced, and
+ * where a client ends for another reason a new one is started, after a pause that grows from one second to one minute.
+ */
 final class StreamsApplication implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(StreamsApplication.class);
-    private static final Duration PATIENCE = Duration.ofSeconds(30);
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(30);
+    private static final Duration FIRST_BACKOFF = Duration.ofSeconds(1);
+    private static final Duration MAX_BACKOFF = Duration.ofMinutes(1);
+    /** A client that ran for so long begins with the first pause again. */
+    private static final Duration STABLE = Duration.ofMinutes(5);
 
     private final String name;
-    private final KafkaStreams streams;
+    private final Supplier<Topology> topology;
+    private final Properties settings;
+    private final ScheduledExecutorService supervisor;
+    private volatile KafkaStreams streams;
+    private volatile String failure;
+    private Instant started;
+    private Duration backoff = FIRST_BACKOFF;
+    private boolean closed;
 
-    private StreamsApplication(String name, KafkaStreams streams) {
+    private StreamsApplication(String name, Supplier<Topology> topology, Properties settings) {
         this.name = name;
-        this.streams = streams;
+        this.topology = topology;
+        this.settings = settings;
+        this.supervisor = Executors.newSingleThreadScheduledExecutor(task -> {
+            Thread thread = new Thread(task, name + " supervisor");
+            thread.setDaemon(true);
+            return thread;
+        });
     }
 
     /** @param name for people, as in {@code control plane} */
-    static StreamsApplication start(String name, Topology topology, Properties settings) {
-        StreamsApplication application = new StreamsApplication(name, new KafkaStreams(topology, settings));
-        application.streams.setUncaughtExceptionHandler(application::onFailure);
-        application.streams.setStateListener((now, before) -> LOG.info("{}: {} (was {})", name, now, before));
-        application.streams.start();
+    static StreamsApplication start(String name, Supplier<Topology> topology, Properties settings) {
+        StreamsApplication application = new StreamsApplication(name, topology, settings);
+        application.startClient();
         return application;
     }
 
+    private synchronized void startClient() {
+        if (closed) {
+            return;
+        }
+        KafkaStreams fresh = new KafkaStreams(topology.get(), settings);
+        fresh.setUncaughtExceptionHandler(this::onFailure);
+        fresh.setStateListener((now, before) -> {
+            LOG.info("{}: {} (was {})", name, now, before);
+            if (now == KafkaStreams.State.RUNNING) {
+                failure = null;
+            } else if (now == KafkaStreams.State.ERROR) {
+                supervisor.execute(this::replaceClient);
+            }
+        });
+        started = Instant.now();
+        streams = fresh;
+        fresh.start();
+    }
+
+    /** Not on a thread of the client, which its close waits for. */
+    private void replaceClient() {
+        streams.close(CLOSE_TIMEOUT);
+        Duration pause;
+        synchronized (this) {
+            if (closed) {
+                return;
+            }
+            boolean stable = started.plus(STABLE).isBefore(Instant.now());
+            pause = stable ? FIRST_BACKOFF : backoff;
+            backoff = pause.multipliedBy(2).compareTo(MAX_BACKOFF) > 0 ? MAX_BACKOFF : pause.multipliedBy(2);
+        }
+        LOG.warn("the {} is started again in {} s", name, pause.toSeconds());
+        supervisor.schedule(this::startClient, pause.toMillis(), TimeUnit.MILLISECONDS);
+    }
+
     /**
-     * Kafka being away is no fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; anything
-     * else would come again with the same record.
+     * Kafka being away is no fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; after anything
+     * else the state of this client is not trusted.
      */
-    private StreamThreadExceptionResponse onFailure(Throwable failure) {
-        for (Throwable cause = failure; cause != null; cause = cause.getCause()) {
-            if (cause instanceof RetriableException || cause instanceof MissingSourceTopicException) {
-                LOG.warn("the {} lost Kafka, or a topic of it, and goes on when that is back", name, failure);
+    private StreamThreadExceptionResponse onFailure(Throwable cause) {
+        failure = cause.toString();
+        for (Throwable each = cause; each != null; each = each.getCause()) {
+            if (each instanceof RetriableException || each instanceof MissingSourceTopicException) {
+                LOG.warn("the {} lost Kafka, or a topic of it, and goes on when that is back", name, cause);
                 return StreamThreadExceptionResponse.REPLACE_THREAD;
             }
         }
-        LOG.error("the {} stops; start it again once the cause is removed, nothing is lost", name, failure);
+        LOG.error("the {} failed and is started again; nothing is lost", name, cause);
         return StreamThreadExceptionResponse.SHUTDOWN_CLIENT;
     }
 
@@ -60,12 +121,40 @@ final class StreamsApplication implements AutoCloseable {
         return streams.state().name();
     }
 
+    /** Its last success is the last time that all of its threads had asked Kafka for records. */
+    PartStatus status() {
+        KafkaStreams current = streams;
+        boolean up = current.state() == KafkaStreams.State.RUNNING;
+        String cause = failure;
+        String detail =
+                up || cause == null ? current.state().name() : current.state().name() + " after " + cause;
+        return new PartStatus(name, up ? PartStatus.State.UP : PartStatus.State.DOWN, lastPoll(current), detail);
+    }
+
+    /** Null where no thread has polled yet. */
+    private static Instant lastPoll(KafkaStreams streams) {
+        double longest = streams.metrics().entrySet().stream()
+                .filter(metric -> metric.getKey().name().equals("last-poll-seconds-ago"))
+                .filter(metric ->
+                        metric.getKey().tags().getOrDefault("client-id", "").endsWith("-consumer")
+                                && !metric.getKey().tags().get("client-id").endsWith("-restore-consumer"))
+                .mapToDouble(metric -> ((Number) metric.getValue().metricValue()).doubleValue())
+                .filter(seconds -> seconds >= 0)
+                .max()
+                .orElse(-1);
+        return longest < 0 ? null : Instant.now().minusMillis((long) (longest * 1000));
+    }
+
     /** Finishes what it is at and leaves; another instance takes over at once. */
     @Override
     public void close() {
-        if (!streams.close(
-                CloseOptions.timeout(PATIENCE).withGroupMembershipOperation(GroupMembershipOperation.LEAVE_GROUP))) {
-            LOG.warn("the {} did not stop within {} s", name, PATIENCE.toSeconds());
+        synchronized (this) {
+            closed = true;
+        }
+        supervisor.shutdownNow();
+        if (!streams.close(CloseOptions.timeout(CLOSE_TIMEOUT)
+                .withGroupMembershipOperation(GroupMembershipOperation.LEAVE_GROUP))) {
+            LOG.warn("the {} did not stop within {} s", name, CLOSE_TIMEOUT.toSeconds());
         }
     }
 }

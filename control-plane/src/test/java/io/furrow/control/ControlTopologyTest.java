@@ -19,6 +19,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.model.control.Limits;
 import io.furrow.model.control.Response;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
@@ -62,11 +63,43 @@ class ControlTopologyTest {
     void givesTheSameRequestOneEffectAndOneAnswer() {
         String request = "{'type':'request','requestId':'r-1','domain':'north'}";
         ask(Topics.DOMAIN_MANAGER, "mine", request);
-        ask(Topics.DOMAIN_MANAGER, "mine", request);
-        ask(Topics.DOMAIN_MANAGER, "mine", "{'type':'request','requestId':'r-1','command':'nonsense'}");
+        ask(Topics.DOMAIN_MANAGER, "mine", "{'domain':'north','type':'request','requestId':'r-1'}");
 
         assertThat(only(Topics.DOMAIN_MANAGER).key()).isEqualTo("r-1");
         assertThat(read(Topics.DOMAINS)).hasSize(1);
+    }
+
+    /** Else whoever asks for something new would take the answer of something old for its own. */
+    @Test
+    void refusesAnotherRequestUnderTheSameId() {
+        ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        assertThat(response(only(Topics.DOMAIN_MANAGER)).status()).isEqualTo("created");
+        for (String other : List.of(
+                "'user':'ann','domain':'south'",
+                "'user':'bob','domain':'north'",
+                "'user':'ann','command':'nonsense','domain':'north'")) {
+            ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1'," + other + "}");
+            assertThat(error(only(Topics.DOMAIN_MANAGER))).isEqualTo("request-id-reused");
+        }
+        ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
+        assertThat(read(Topics.DOMAIN_MANAGER)).isEmpty();
+        assertThat(read(Topics.DOMAINS)).hasSize(1);
+    }
+
+    @Test
+    void refusesARequestThatIsTooLarge() {
+        String domain = "{'type':'request','requestId':'r-1','domain':'north','description':'%s'}"
+                .formatted("x".repeat(Limits.REQUEST_BYTES));
+        ask(Topics.DOMAIN_MANAGER, null, domain);
+        ask(Topics.DOMAIN_MANAGER, null, domain);
+
+        TestRecord<String, byte[]> answer = only(Topics.DOMAIN_MANAGER);
+        assertThat(error(answer)).isEqualTo("too-large");
+        assertThat(response(answer).json().path("domain").asText()).isEqualTo("north");
+        assertThat(response(answer).json().path("reason").asText())
+                .contains(Integer.toString(domain.length()), "524288");
+        assertThat(read(Topics.DOMAINS)).isEmpty();
+        assertThat(read(Topics.AUDIT)).hasSize(1);
     }
 
     @Test
@@ -223,6 +256,8 @@ class ControlTopologyTest {
                         "missions",
                         "mission-statuses",
                         "devices",
+                        "mission-device-lists",
+                        "mission-rollouts",
                         "templates",
                         "template-versions",
                         "mission-answers",

@@ -14,13 +14,9 @@ import java.util.Properties;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpServer;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -29,6 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.alarm.StopRobots;
 import io.furrow.control.alarm.Webhook;
+import io.furrow.control.readiness.PartStatus;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.Requests;
@@ -40,6 +37,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
 import static org.awaitility.Awaitility.await;
 
 /** The farm watch against a real Kafka, with a webhook that does not always answer. */
@@ -74,7 +72,7 @@ class FarmWatchIT {
         hook.start();
         URI url = URI.create("http://127.0.0.1:" + hook.getAddress().getPort());
         options = WatchOptions.DEFAULT
-                .with(Webhook.Settings.of(url))
+                .with(Webhook.Settings.of(url).withGroupWait(Duration.ZERO))
                 .with(StopRobots.Settings.of((device, type, command, value) -> sent.add(device + " " + command)));
     }
 
@@ -95,19 +93,53 @@ class FarmWatchIT {
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
             });
-            hookIsUp = false;
             await().atMost(PATIENCE).until(() -> state("silent-device").equals("open"));
+            await().atMost(PATIENCE).until(() -> !posted.isEmpty());
             await().atMost(PATIENCE).until(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });
-            hookIsUp = true;
             await().atMost(PATIENCE).until(() -> posted.size() >= 2);
         }
         assertThat(posted)
                 .extracting(alarm -> alarm.path("id").asText())
                 .startsWith("silent-device-1:1", "silent-device-1:2")
                 .doesNotHaveDuplicates();
+    }
+
+    @Test
+    void deliversWhatOpenedAndClosedWhileTheWebhookAndThenTheWatchWereAway() throws Exception {
+        hookIsUp = false;
+        try (FarmWatch watch = watch("one")) {
+            encounter("started");
+            await().atMost(PATIENCE).until(() -> state("collision").equals("open"));
+            encounter("ended");
+            await().atMost(PATIENCE).until(() -> state("collision").equals("closed"));
+            await().atMost(PATIENCE)
+                    .until(() -> watch.followers().get(0).detail().contains("it answers 503"));
+            assertThat(watch.followers())
+                    .extracting(PartStatus::name, PartStatus::state)
+                    .containsExactly(
+                            tuple("webhook", PartStatus.State.UP),
+                            tuple("device-types", PartStatus.State.UP),
+                            tuple("stop-on-predicted", PartStatus.State.UP));
+            assertThat(watch.followers().get(0).lastSuccess()).isNull();
+        }
+        hookIsUp = true;
+        try (FarmWatch watch = watch("two")) {
+            await().atMost(PATIENCE).until(() -> !posted.isEmpty());
+            await().atMost(PATIENCE).until(() -> watch.followers().get(0).lastSuccess() != null);
+        }
+        assertThat(posted).extracting(alarm -> alarm.path("id").asText()).containsExactly("collision-1:2");
+        try (FarmWatch watch = watch("three")) {
+            encounter("started");
+            await().atMost(PATIENCE).until(() -> posted.size() > 1);
+            assertThat(watch.followers().get(0).detail()).contains("0 refused");
+        }
+        assertThat(posted)
+                .as("what was delivered is not delivered again")
+                .extracting(alarm -> alarm.path("id").asText())
+                .containsExactly("collision-1:2", "collision-3:3");
     }
 
     @Test
@@ -123,8 +155,10 @@ class FarmWatchIT {
             predict();
             await().atMost(PATIENCE).until(() -> audited().size() == 2);
         }
-        assertThat(audited().get(0)).contains(ROBOT, "\"result\":\"sent\"");
-        assertThat(audited().get(1)).contains("somebody", "nobody knows what type of entity it is");
+        assertThat(audited())
+                .satisfiesExactlyInAnyOrder(
+                        entry -> assertThat(entry).contains(ROBOT, "\"result\":\"sent\""),
+                        entry -> assertThat(entry).contains("somebody", "the type of its entity is unknown"));
         assertThat(sent).containsExactly(ROBOT + " Stop");
 
         String alarm = "predicted-encounter-1";
@@ -133,6 +167,11 @@ class FarmWatchIT {
             predict();
             producer.send(new ProducerRecord<>(
                     Topics.ALARM_MANAGER, Requests.write("r", new AlarmCommand.Acknowledge(alarm, "ann"))));
+            await().atMost(PATIENCE)
+                    .until(() -> audited().stream()
+                                    .filter(entry -> entry.contains("somebody"))
+                                    .count()
+                            == 2); // so it has seen the prediction
             await().atMost(PATIENCE).until(() -> state("predicted-encounter").equals("acknowledged"));
             await().atMost(PATIENCE)
                     .until(() -> posted.stream()
@@ -190,9 +229,13 @@ class FarmWatchIT {
     }
 
     private void predict() {
-        EntityBuilder entity = Entity.builder("Analytics:Collision:1:predicted", "Analytics:Collision")
+        encounter("predicted");
+    }
+
+    private void encounter(String phase) {
+        EntityBuilder entity = Entity.builder("Analytics:Collision:1:" + phase, "Analytics:Collision")
                 .text("encounter", "e-1")
-                .text("phase", "predicted")
+                .text("phase", phase)
                 .text("Device1_ID", ROBOT)
                 .text("Device2_ID", "somebody")
                 .number("distance", 12)
@@ -223,20 +266,7 @@ class FarmWatchIT {
     }
 
     private List<ConsumerRecord<String, byte[]>> records(String topic) {
-        Properties settings = client();
-        settings.setProperty("isolation.level", "read_committed");
-        try (KafkaConsumer<String, byte[]> consumer =
-                new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
-            TopicPartition only = new TopicPartition(topic, 0);
-            consumer.assign(List.of(only));
-            consumer.seekToBeginning(List.of(only));
-            long end = consumer.endOffsets(List.of(only)).get(only);
-            List<ConsumerRecord<String, byte[]>> all = new ArrayList<>();
-            while (consumer.position(only) < end) {
-                consumer.poll(Duration.ofMillis(100)).forEach(all::add);
-            }
-            return all;
-        }
+        return new TopicContent(client(), topic).records();
     }
 
     private Properties client() {

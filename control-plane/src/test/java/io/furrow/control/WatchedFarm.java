@@ -93,6 +93,13 @@ final class WatchedFarm implements AutoCloseable {
                 .readRecordsToList();
     }
 
+    /** Keys of the signs that those who listen to reports sent. */
+    List<String> signs() {
+        return read(FarmWatch.APPLICATION + "-device-signs-repartition").stream()
+                .map(TestRecord::key)
+                .toList();
+    }
+
     List<JsonNode> all(String topic) throws Exception {
         List<JsonNode> all = new ArrayList<>();
         for (TestRecord<String, byte[]> record : read(topic)) {

@@ -8,7 +8,10 @@ import java.util.Map;
 import org.apache.kafka.connect.cli.ConnectDistributed;
 import org.apache.kafka.connect.runtime.Connect;
 
-/** One distributed Connect worker in this JVM, with its REST API on 127.0.0.1. */
+import io.furrow.http.AllowedNames;
+import io.furrow.http.connect.AccessExtension;
+
+/** One distributed Connect worker in this JVM, with its REST API on 127.0.0.1 behind the access rule. */
 public final class EmbeddedConnect implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
 
@@ -30,8 +33,16 @@ public final class EmbeddedConnect implements AutoCloseable {
      */
     public static EmbeddedConnect start(
             String bootstrapServers, Path pluginPath, int restPort, Map<String, String> extra) {
+        return start(bootstrapServers, pluginPath, restPort, extra, AllowedNames.NONE);
+    }
+
+    /** @param allowed hosts and origins of the REST API beside its own */
+    public static EmbeddedConnect start(
+            String bootstrapServers, Path pluginPath, int restPort, Map<String, String> extra, AllowedNames allowed) {
         int port = FreePort.orFree(restPort);
         Map<String, String> settings = new HashMap<>(defaults(bootstrapServers, pluginPath, port));
+        settings.put(AccessExtension.ALLOWED_HOSTS, String.join(",", allowed.hosts()));
+        settings.put(AccessExtension.ALLOWED_ORIGINS, String.join(",", allowed.origins()));
         settings.putAll(extra);
         Connect<?> worker = new ConnectDistributed().startConnect(settings);
         return new EmbeddedConnect(worker, URI.create("http://" + HOST + ":" + port));
@@ -56,6 +67,7 @@ public final class EmbeddedConnect implements AutoCloseable {
                 Map.entry("plugin.discovery", "service_load"),
                 Map.entry("listeners", "http://" + HOST + ":" + port),
                 Map.entry("rest.advertised.host.name", HOST),
+                Map.entry("rest.extension.classes", AccessExtension.class.getName()),
                 Map.entry("key.converter", "org.apache.kafka.connect.storage.StringConverter"),
                 Map.entry("value.converter", "org.apache.kafka.connect.converters.ByteArrayConverter"),
                 Map.entry("header.converter", "org.apache.kafka.connect.storage.StringConverter"),

@@ -10,12 +10,20 @@ import org.apache.flink.api.common.JobStatus;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.MemorySize;
 import org.apache.flink.configuration.RestOptions;
+import org.apache.flink.configuration.SecurityOptions;
 import org.apache.flink.configuration.TaskManagerOptions;
+import org.apache.flink.configuration.WebOptions;
 import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.runtime.minicluster.MiniClusterConfiguration;
 import org.apache.flink.streaming.api.graph.ExecutionPlan;
 
-/** A Flink cluster of one job manager and one task manager in this JVM, with the web UI on 127.0.0.1. */
+import io.furrow.http.AllowedNames;
+import io.furrow.http.flink.AccessOptions;
+
+/**
+ * A Flink cluster of one job manager and one task manager in this JVM, with the web UI on 127.0.0.1. The web UI and its REST API show
+ * the jobs and change nothing; jobs come and go through this class.
+ */
 public final class EmbeddedFlink implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
     private static final long START_SECONDS = 30;
@@ -36,10 +44,24 @@ public final class EmbeddedFlink implements AutoCloseable {
      * @param webPort 0 for a free one
      */
     public static EmbeddedFlink start(int slots, int webPort) {
+        return start(slots, webPort, AllowedNames.NONE);
+    }
+
+    /** @param allowed hosts and origins of the web UI beside its own */
+    public static EmbeddedFlink start(int slots, int webPort, AllowedNames allowed) {
         Configuration configuration = new Configuration();
         configuration.set(RestOptions.BIND_PORT, Integer.toString(webPort));
         configuration.set(RestOptions.BIND_ADDRESS, HOST);
         configuration.set(RestOptions.ADDRESS, HOST);
+        configuration.set(AccessOptions.READ_ONLY, true);
+        configuration.set(AccessOptions.ALLOWED_HOSTS, allowed.hosts());
+        configuration.set(AccessOptions.ALLOWED_ORIGINS, allowed.origins());
+        // One process needs no tokens to speak with itself, and Flink would warn that there are none.
+        configuration.set(SecurityOptions.DELEGATION_TOKENS_ENABLED, false);
+        // What the web UI would otherwise offer.
+        configuration.set(WebOptions.SUBMIT_ENABLE, false);
+        configuration.set(WebOptions.CANCEL_ENABLE, false);
+        configuration.set(WebOptions.RESCALE_ENABLE, false);
         configuration.set(TaskManagerOptions.MANAGED_MEMORY_SIZE, MemorySize.ofMebiBytes(32));
         configuration.set(TaskManagerOptions.NETWORK_MEMORY_MIN, MemorySize.ofMebiBytes(96));
         configuration.set(TaskManagerOptions.NETWORK_MEMORY_MAX, MemorySize.ofMebiBytes(96));

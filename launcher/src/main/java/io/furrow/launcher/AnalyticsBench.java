@@ -146,9 +146,9 @@ final class AnalyticsBench implements Callable<Integer> {
     private boolean measure(Part part, RunDirectory directory) throws Exception {
         return switch (part) {
             case MEMORY -> memory(directory);
-            case KAFKA -> onKafka(directory.resolve("kafka"), this::kafka);
-            case HELD -> onKafka(directory.resolve("held"), this::held);
-            case EAGER -> eager() & onKafka(directory.resolve("eager"), this::alarms);
+            case KAFKA -> onKafka(directory, "kafka", this::kafka);
+            case HELD -> onKafka(directory, "held", this::held);
+            case EAGER -> eager() & onKafka(directory, "eager", this::alarms);
             case FIELDS -> fields();
         };
     }
@@ -259,10 +259,14 @@ final class AnalyticsBench implements Callable<Integer> {
         boolean measure(TopicMeasurement measurement) throws Exception;
     }
 
-    private boolean onKafka(Path data, OnKafka part) throws Exception {
+    private boolean onKafka(RunDirectory directory, String folder, OnKafka part) throws Exception {
         Progress progress = new Progress(spec.commandLine().getOut());
-        try (EmbeddedKafka kafka = progress.step("Kafka", () -> EmbeddedKafka.start(data.resolve("broker")));
-                EmbeddedFlink flink = progress.step("Flink", () -> EmbeddedFlink.start(most(cores), 0))) {
+        Path data = directory.resolve(folder);
+        try (Parts engines = directory.closingFirst(new Parts())) {
+            EmbeddedKafka kafka =
+                    engines.add("Kafka", progress.step("Kafka", () -> EmbeddedKafka.start(data.resolve("broker"))));
+            EmbeddedFlink flink =
+                    engines.add("Flink", progress.step("Flink", () -> EmbeddedFlink.start(most(cores), 0)));
             Properties client = new Properties();
             client.setProperty("bootstrap.servers", kafka.bootstrapServers());
             return part.measure(new TopicMeasurement(

@@ -10,11 +10,12 @@ import io.furrow.embedded.EmbeddedKafka;
 
 /** A broker and a Connect worker with our connectors on free ports, for measurements that need no more. */
 final class BenchCluster implements AutoCloseable {
-    private final Parts parts = new Parts();
+    private final Parts parts;
     private final KafkaAccess kafka;
     private final Connectors connectors;
 
     private BenchCluster(RunDirectory directory, Map<String, String> worker, Progress progress) throws Exception {
+        parts = directory.closingFirst(new Parts());
         LogFile.writeTo(directory.resolve("furrow.log"));
         EmbeddedKafka broker =
                 parts.add("Kafka", progress.step("Kafka", () -> EmbeddedKafka.start(directory.resolve("kafka"))));

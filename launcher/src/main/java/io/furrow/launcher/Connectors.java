@@ -12,6 +12,7 @@ import java.util.Map;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.http.AllowedNames;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Puts the two NGSI connectors into a Connect cluster through its REST API. */
@@ -28,12 +29,19 @@ final class Connectors {
     }
 
     /**
-     * Creates or changes the source; returns when it listens for notifications and has subscribed to every change.
+     * How the source listens.
      *
      * @param journal folder for what Kafka does not have yet
+     * @param allowed hosts and origins beside its own
+     */
+    record Source(int port, Path journal, AllowedNames allowed) {}
+
+    /**
+     * Creates or changes the source; returns when it listens for notifications and has subscribed to every change.
+     *
      * @throws SuiteNotStartedException if the context broker is away or refuses
      */
-    void source(int port, Path journal, URI contextBroker, String service) {
+    void source(Source source, URI contextBroker, String service) {
         put(
                 "ngsi-source",
                 Map.of(
@@ -42,14 +50,18 @@ final class Connectors {
                         "tasks.max",
                         "1",
                         "listen.port",
-                        Integer.toString(port),
+                        Integer.toString(source.port()),
                         "journal.dir",
-                        journal.toAbsolutePath().toString(),
+                        source.journal().toAbsolutePath().toString(),
+                        "allowed.hosts",
+                        String.join(",", source.allowed().hosts()),
+                        "allowed.origins",
+                        String.join(",", source.allowed().origins()),
                         "context.broker.url",
                         contextBroker.toString(),
                         "subscription.tenants",
                         service.isEmpty() ? "-" : service));
-        awaitSubscribed(URI.create("http://127.0.0.1:" + port + "/health"), contextBroker);
+        awaitSubscribed(URI.create("http://127.0.0.1:" + source.port() + "/health"), contextBroker);
     }
 
     private void awaitSubscribed(URI health, URI contextBroker) {

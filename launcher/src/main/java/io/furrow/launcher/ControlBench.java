@@ -1,6 +1,7 @@
 package io.furrow.launcher;
 
 import java.io.PrintWriter;
+import java.time.Clock;
 import java.time.Duration;
 import java.util.Properties;
 import java.util.UUID;
@@ -25,6 +26,7 @@ import io.furrow.bench.control.KafkaControlClient;
 import io.furrow.bench.control.RestControlClient;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.embedded.EmbeddedKafka;
@@ -89,7 +91,7 @@ final class ControlBench implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         Progress progress = new Progress(out);
         try (RunDirectory directory = RunDirectory.open(null);
-                Parts parts = new Parts()) {
+                Parts parts = directory.closingFirst(new Parts())) {
             LogFile.writeTo(directory.resolve("furrow.log"));
             EmbeddedKafka kafka =
                     parts.add("Kafka", progress.step("Kafka", () -> EmbeddedKafka.start(directory.resolve("kafka"))));
@@ -99,7 +101,10 @@ final class ControlBench implements Callable<Integer> {
             ControlSettings settings = ControlSettings.of(client);
             ControlPlane plane = parts.add("managers", progress.step("managers", () -> ControlPlane.start(settings)));
             RestApi api = parts.add(
-                    "REST", progress.step("REST", () -> RestApi.start(settings, RestSettings.on(0), plane::state)));
+                    "REST",
+                    progress.step(
+                            "REST",
+                            () -> RestApi.start(settings, RestSettings.on(0), new Readiness(Clock.systemUTC()))));
             makeDomains(client);
             for (int i = 0; i < LOOKS && !(plane.isHealthy() && api.isReady()); i++) {
                 Pause.of(LOOK);

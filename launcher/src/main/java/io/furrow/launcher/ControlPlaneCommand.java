@@ -18,9 +18,12 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.provisioning.AgentSettings;
 import io.furrow.control.provisioning.ProvisioningSettings;
+import io.furrow.control.rest.CertificateFiles;
+import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
-import io.furrow.model.device.FarmSecret;
+import io.furrow.control.secret.SecretFile;
 import io.furrow.model.event.FiwareScope;
 
 /** {@code ./furrow control-plane}. */
@@ -61,7 +64,8 @@ final class ControlPlaneCommand implements Callable<Integer> {
             paramLabel = "ADDRESS",
             defaultValue = "127.0.0.1",
             description =
-                    "Address of the REST API; another than this machine's needs --api-tokens. Default: ${DEFAULT-VALUE}.")
+                    "Address of the REST API; another than this machine's needs --api-tokens, and --api-certificate or "
+                            + "--api-insecure. Default: ${DEFAULT-VALUE}.")
     private String host;
 
     @Option(
@@ -72,9 +76,19 @@ final class ControlPlaneCommand implements Callable<Integer> {
     private int port;
 
     @Option(
+            names = "--health-port",
+            paramLabel = "PORT",
+            defaultValue = "8086",
+            description =
+                    "Port of the pages /health, /ready and /metrics, plain HTTP without tokens also where the API has both; 0 for a "
+                            + "free one. Default: ${DEFAULT-VALUE}.")
+    private int healthPort;
+
+    @Option(
             names = "--orion",
             paramLabel = "URL",
             defaultValue = "http://127.0.0.1:1026",
+            converter = HttpUri.class,
             description = "Context broker, through which commands reach devices. Default: ${DEFAULT-VALUE}.")
     private URI orion;
 
@@ -96,6 +110,12 @@ final class ControlPlaneCommand implements Callable<Integer> {
     private ProvisioningOptions provisioning;
 
     @Mixin
+    private AccessFlags access;
+
+    @Mixin
+    private TlsOptions tls;
+
+    @Mixin
     private WatchFlags watch;
 
     @Mixin
@@ -108,7 +128,25 @@ final class ControlPlaneCommand implements Callable<Integer> {
                     spec.commandLine(),
                     "--iot-agent needs --farm-secret: all instances and the host of the devices make passwords of the same.");
         }
+        watch.watch(null); // refuses what cannot be used before anything starts
+        provisioning.agent(fiwareService); // the same
+        CertificateFiles certificate = tls.certificate();
         LogFile.writeTo(log);
+        SecretFile secret = provisioning.secret == null
+                ? null
+                : FarmSecretFile.open(provisioning.secret, settings().client(), provisioning.replacedSecret);
+        RestSettings rest = RestSettings.on(port)
+                .withHost(host)
+                .withTokens(provisioning.tokens)
+                .withCertificate(certificate)
+                .withInsecure(tls.insecure)
+                .withContextBroker(orion)
+                .withSecret(secret)
+                .withAllowed(access.allowed());
+        return runUntilStopped(rest, secret);
+    }
+
+    private int runUntilStopped(RestSettings rest, SecretFile secret) throws InterruptedException {
         CountDownLatch stop = new CountDownLatch(1);
         CountDownLatch stopped = new CountDownLatch(1);
         Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(stop, stopped), "stop"));
@@ -116,8 +154,10 @@ final class ControlPlaneCommand implements Callable<Integer> {
             PrintWriter out = spec.commandLine().getOut();
             out.println("The control plane starts; Ctrl-C stops it.");
             out.flush();
+            RestApi.check(settings(), rest);
             service.startManagers();
-            out.println("REST API: " + serve(service) + "/openapi.json");
+            out.println("REST API: " + serve(service, rest, secret) + "/openapi.json");
+            out.println("Health: " + service.health() + "/ready");
             out.flush();
             stop.await();
             return 0;
@@ -133,26 +173,23 @@ final class ControlPlaneCommand implements Callable<Integer> {
         return ControlSettings.of(client).withTenant(fiwareService).withStandbyReplicas(standbyReplicas);
     }
 
-    private URI serve(ControlService service) throws IOException {
-        FarmSecret secret = provisioning.secret == null ? null : FarmSecretFile.readOrMake(provisioning.secret);
+    private URI serve(ControlService service, RestSettings rest, SecretFile secret) throws IOException {
         ControlSettings settings = settings();
         FiwareScope scope = settings.missions().scope();
-        RestSettings rest = RestSettings.on(port)
-                .withHost(host)
-                .withTokens(provisioning.tokens)
-                .withContextBroker(orion)
-                .withSecret(secret);
+        AgentSettings agent = provisioning.agent(fiwareService);
         return service.serve(
                 rest,
+                healthPort,
                 watch.watch(null).options(new DeviceCommands(orion, scope)),
-                provisioning.iotAgent == null
+                agent == null
                         ? null
                         : new ProvisioningSettings(
                                 settings.client(),
                                 scope,
                                 secret,
-                                provisioning.iotAgent,
-                                provisioning.accounts().accounts()));
+                                agent,
+                                provisioning.accounts().accounts(),
+                                provisioning.gateways));
     }
 
     private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {

@@ -31,13 +31,13 @@ final class FarmOptions {
             description = "Simulate none of the devices that missions ask for: something else hosts them.")
     private boolean hostedElsewhere;
 
-    SuiteSettings.Farm farm() {
+    SuiteSettings.Farm farm(String fiwareService) {
         return new SuiteSettings.Farm(
-                provisioning.iotAgent,
+                provisioning.agent(fiwareService),
                 mqtt,
                 mqttTrusted,
                 provisioning.accounts(),
-                provisioning.secret,
+                provisioning.secret(),
                 provisioning.tokens,
                 !hostedElsewhere);
     }

@@ -1,50 +1,89 @@
 package io.furrow.launcher;
 
 import java.io.IOException;
-import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.attribute.FileAttribute;
-import java.nio.file.attribute.PosixFilePermissions;
-import java.security.SecureRandom;
-import java.util.Base64;
+import java.util.Properties;
 
+import io.furrow.control.secret.SecretFile;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.FarmSecretCodec;
+import io.furrow.model.file.PrivateFile;
 
-/** The file of a farm's secret; where there is none one is made that only its owner can read. */
+/** Where the farm's secret is. It is made where a farm begins, and never where one goes on: another shuts every device out. */
 final class FarmSecretFile {
-    private static final int BYTES = 32;
+    private static final String NAME = "farm-secret";
 
     private FarmSecretFile() {}
 
-    /** @throws SuiteNotStartedException if it cannot be read or made, or holds too little */
-    static FarmSecret readOrMake(Path file) {
+    /**
+     * The file of a suite: the one that is named, else that in its directory, where it is made if nothing else is there yet.
+     *
+     * @param named null for the one in the directory
+     * @throws SuiteNotStartedException if it is not there; the message says what to do
+     */
+    static Path of(RunDirectory directory, Path named) {
+        Path file = named == null ? directory.resolve(NAME) : named;
         try {
-            if (!Files.exists(file)) {
+            if (named == null && directory.isFresh()) {
                 make(file);
+            } else if (named == null && !Files.exists(file)) {
+                throw new SuiteNotStartedException(
+                        ("%s has the data of a farm but not its secret, %s. Copy that file back, or name it with --farm-secret. If it is lost,"
+                                        + " make another with ./furrow secret new %s, and give every device new credentials.")
+                                .formatted(directory.path(), file, file));
             }
-            return FarmSecret.read(file);
+            FarmSecret.read(file);
+            return file;
         } catch (IOException e) {
-            throw new SuiteNotStartedException(
-                    "The farm's secret cannot be used: %s. Name a file with --farm-secret.".formatted(e.getMessage()),
-                    e);
+            throw unusable(e);
         }
     }
 
-    private static void make(Path file) throws IOException {
-        byte[] secret = new byte[BYTES];
-        new SecureRandom().nextBytes(secret);
-        FileAttribute<?>[] forItsOwner =
-                file.getFileSystem().supportedFileAttributeViews().contains("posix")
-                        ? new FileAttribute<?>[] {
-                            PosixFilePermissions.asFileAttribute(PosixFilePermissions.fromString("rw-------"))
-                        }
-                        : new FileAttribute<?>[0];
-        try {
-            Files.createFile(file, forItsOwner);
-        } catch (FileAlreadyExistsException e) {
-            return; // made by somebody else in this moment
+    /**
+     * Refuses to make a secret that ends with the suite while something that knows it goes on: the next start would have another.
+     *
+     * @throws SuiteNotStartedException saying what to name
+     */
+    static void requireLasting(RunDirectory directory, SuiteSettings settings) {
+        SuiteSettings.Farm farm = settings.farm();
+        boolean lasts = !directory.isTemporary() || farm.secret().file() != null;
+        boolean outlived = settings.kafka() != null
+                || farm.iotAgent() != null
+                || farm.accounts().passwords() != null;
+        if (!lasts && outlived) {
+            throw new SuiteNotStartedException(
+                    "Without --data the farm's secret would be deleted at the end, but Kafka, the IoT Agent or the MQTT broker that already run keep"
+                            + " what is made with it. Name a directory with --data, or a secret with --farm-secret; ./furrow secret new FILE makes one.");
         }
-        Files.writeString(file, Base64.getEncoder().encodeToString(secret) + "\n");
+    }
+
+    /** Creates the file with a new secret. @throws FileAlreadyExistsException if there is such a file */
+    static FarmSecret make(Path file) throws IOException {
+        FarmSecret secret = FarmSecret.generate();
+        PrivateFile.create(file, FarmSecretCodec.write(secret));
+        return secret;
+    }
+
+    /**
+     * Opens a file that is followed while the process runs.
+     *
+     * @param client settings of Kafka clients
+     * @param replaced fingerprint of a secret of the farm that this one takes the place of; null for none
+     * @throws SuiteNotStartedException if it cannot be read or is no secret; the message says what to do
+     */
+    static SecretFile open(Path file, Properties client, String replaced) {
+        try {
+            return SecretFile.open(file, client, replaced);
+        } catch (IOException e) {
+            throw unusable(e);
+        }
+    }
+
+    private static SuiteNotStartedException unusable(IOException cause) {
+        return new SuiteNotStartedException(
+                "The farm's secret cannot be used: %s."
+                        .formatted(cause.getMessage().replaceFirst("\\.$", "")),
+                cause);
     }
 }

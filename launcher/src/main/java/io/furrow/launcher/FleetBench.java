@@ -87,7 +87,7 @@ final class FleetBench implements Callable<Integer> {
                 Duration.ofSeconds(warmup),
                 Duration.ofSeconds(seconds));
         try (RunDirectory directory = RunDirectory.open(null);
-                Parts parts = new Parts()) {
+                Parts parts = directory.closingFirst(new Parts())) {
             LogFile.writeTo(directory.resolve("furrow.log"));
             EmbeddedKafka kafka = parts.add("Kafka", EmbeddedKafka.start(directory.resolve("kafka")));
             EmbeddedMqtt mqtt = parts.add("MQTT", EmbeddedMqtt.start(passwords(plan)));

@@ -27,6 +27,7 @@ import io.furrow.simulators.host.DeviceHostCommand;
             MissionCommand.class,
             TemplateCommand.class,
             DeviceCommand.class,
+            SecretCommand.class,
             AlarmCommand.class,
             ReplayCommand.class,
             ImagesCommand.class,

@@ -123,8 +123,11 @@ final class IngestBench implements Callable<Integer> {
                 records, devices, missions, payload, turns, parallelism, Duration.ofMillis(checkpointMillis));
         try (RunDirectory directory = RunDirectory.open(null)) {
             LogFile.writeTo(directory.resolve("furrow.log"));
-            try (EmbeddedKafka kafka = progress.step("Kafka", () -> EmbeddedKafka.start(directory.resolve("kafka")));
-                    EmbeddedFlink flink = progress.step("Flink", () -> EmbeddedFlink.start(parallelism, 0))) {
+            try (Parts parts = directory.closingFirst(new Parts())) {
+                EmbeddedKafka kafka = parts.add(
+                        "Kafka", progress.step("Kafka", () -> EmbeddedKafka.start(directory.resolve("kafka"))));
+                EmbeddedFlink flink =
+                        parts.add("Flink", progress.step("Flink", () -> EmbeddedFlink.start(parallelism, 0)));
                 Properties client = new Properties();
                 client.setProperty("bootstrap.servers", kafka.bootstrapServers());
                 IngestMeasurement measurement = new IngestMeasurement(

@@ -1,6 +1,7 @@
 package io.furrow.launcher;
 
 import java.nio.file.Path;
+import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.concurrent.CompletableFuture;
@@ -23,6 +24,8 @@ import io.furrow.embedded.EmbeddedFlink;
 final class Jobs {
     private static final Logger LOG = LoggerFactory.getLogger(Jobs.class);
     private static final long SAVEPOINT_SECONDS = 4;
+    private static final Duration CHECKPOINT = Duration.ofSeconds(1);
+    private static final Duration BETWEEN_CHECKS = Duration.ofMillis(10);
 
     private final EmbeddedFlink flink;
     private final Path directory;
@@ -51,12 +54,35 @@ final class Jobs {
     /** Stops each job with a savepoint, so that nothing is done twice after the next start. */
     void stop() {
         Map<String, CompletableFuture<String>> savepoints = new LinkedHashMap<>();
-        running.forEach((name, job) -> savepoints.put(
-                name,
-                flink.cluster()
-                        .stopWithSavepoint(
-                                job, directory.resolve(name).toUri().toString(), false, SavepointFormatType.NATIVE)));
+        long end = System.nanoTime() + CHECKPOINT.toNanos();
+        running.forEach((name, job) -> {
+            awaitCheckpoint(job, end);
+            savepoints.put(name, stopWithSavepoint(name, job));
+        });
         savepoints.forEach(Jobs::await);
+    }
+
+    private CompletableFuture<String> stopWithSavepoint(String name, JobID job) {
+        String savepoints = directory.resolve(name).toUri().toString();
+        return flink.cluster().stopWithSavepoint(job, savepoints, false, SavepointFormatType.NATIVE);
+    }
+
+    /** Waits for a checkpoint that is under way: a stop would abort it, which Flink reports as a failure. */
+    private void awaitCheckpoint(JobID job, long end) {
+        while (System.nanoTime() < end && isTakingCheckpoint(job)) {
+            Pause.of(BETWEEN_CHECKS);
+        }
+    }
+
+    private boolean isTakingCheckpoint(JobID job) {
+        return flink.cluster()
+                        .getExecutionGraph(job)
+                        .thenApply(graph ->
+                                graph.getCheckpointStatsSnapshot().getCounts().getNumberOfInProgressCheckpoints())
+                        .completeOnTimeout(0, CHECKPOINT.toMillis(), TimeUnit.MILLISECONDS)
+                        .exceptionally(failure -> 0) // of a job that is gone; its stop says so
+                        .join()
+                > 0;
     }
 
     private static void await(String name, CompletableFuture<String> savepoint) {

@@ -28,7 +28,6 @@ import io.furrow.model.topic.Topics;
         })
 final class MissionBench implements Callable<Integer> {
     private static final String DOMAIN = "bench";
-    private static final Duration PATIENCE = Duration.ofSeconds(30);
     private static final Duration PROMISED = Duration.ofSeconds(5);
 
     @Spec
@@ -38,8 +37,22 @@ final class MissionBench implements Callable<Integer> {
             names = "--devices",
             paramLabel = "N",
             defaultValue = "100",
-            description = "Devices of a mission, each with a measure a second. Default: ${DEFAULT-VALUE}.")
+            description = "Devices of a mission. Default: ${DEFAULT-VALUE}.")
     private int devices;
+
+    @Option(
+            names = "--period",
+            paramLabel = "DURATION",
+            defaultValue = "1s",
+            description = "Between two measures of a device. Default: ${DEFAULT-VALUE}.")
+    private Duration period;
+
+    @Option(
+            names = "--timeout",
+            paramLabel = "DURATION",
+            defaultValue = "30s",
+            description = "Longest wait for the next sign of a mission. Default: ${DEFAULT-VALUE}.")
+    private Duration timeout;
 
     @Option(
             names = "--missions",
@@ -70,10 +83,11 @@ final class MissionBench implements Callable<Integer> {
                         "answer", "first raw", "all raw", "routed", "running");
                 for (int i = 1; i <= missions; i++) {
                     String mission = "bench-" + i;
-                    MissionStart.Delays delays = start.run(mission, devices, PATIENCE);
+                    MissionStart.Delays delays = start.run(new MissionStart.Plan(mission, devices, period), timeout);
                     print(out, "mission %d of %d devices".formatted(i, devices), delays);
                     kept &= delays.firstRaw().compareTo(PROMISED) <= 0;
-                    start.stop(mission);
+                    out.printf(
+                            Locale.ROOT, "  %-28s %8.2f%n", "  stopped after", seconds(start.stop(mission, timeout)));
                 }
             }
         }

@@ -11,16 +11,23 @@ final class Parts implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Parts.class);
 
     private final Deque<Part> started = new ArrayDeque<>();
+    private boolean closed;
 
     private record Part(String name, AutoCloseable closeable) {}
 
+    /** @throws IllegalStateException once these parts have been closed; the part is closed then, too */
     synchronized <T extends AutoCloseable> T add(String name, T part) {
         started.push(new Part(name, part));
+        if (closed) {
+            close();
+            throw new IllegalStateException(name + " came up while everything stops");
+        }
         return part;
     }
 
     @Override
     public synchronized void close() {
+        closed = true;
         while (!started.isEmpty()) {
             Part part = started.pop();
             try {

@@ -9,6 +9,27 @@ import java.net.ServerSocket;
 final class PortCheck {
     private PortCheck() {}
 
+    /** @throws SuiteNotStartedException if somebody listens on a port that a suite of these settings needs */
+    static void free(SuiteSettings settings) {
+        SuiteSettings.Ports ports = settings.ports();
+        if (settings.kafka() == null) {
+            free(ports.kafka(), "Kafka", "--kafka-port");
+        }
+        free(ports.connect(), "Connect", "--connect-port");
+        free(ports.flink(), "Flink's web UI", "--flink-port");
+        free(ports.listener(), "the listener for notifications", "--notify-port");
+        free(ports.control(), "the control plane", "--control-port");
+        free(ports.health(), "the control plane's health", "--health-port");
+        if (settings.mongo() == null) {
+            free(ports.mongo(), "the server for missions", "--mongo-port");
+        }
+        if (settings.orion() == null) {
+            free(ports.mqtt(), "the MQTT broker", "--mqtt-port");
+            free(ports.orion(), "the context broker", "--orion-port");
+            free(ports.iotAgent(), "the IoT Agent", "--iot-agent-port");
+        }
+    }
+
     /**
      * @param option the option that sets the port
      * @throws SuiteNotStartedException if somebody listens there

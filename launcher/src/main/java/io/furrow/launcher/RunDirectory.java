@@ -8,20 +8,44 @@ import java.nio.channels.OverlappingFileLockException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
+import java.time.Duration;
 import java.util.Comparator;
+import java.util.Deque;
 import java.util.List;
+import java.util.Set;
+import java.util.concurrent.ConcurrentLinkedDeque;
 import java.util.stream.Stream;
 
-/** The directory of one running suite, locked against a second one; a temporary one is deleted when it is closed. */
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * The directory of one running suite, locked against a second one. A temporary one is deleted when it is closed, and also when the
+ * JVM is told to end (SIGINT, SIGTERM, SIGHUP) before that.
+ */
 public final class RunDirectory implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(RunDirectory.class);
+    private static final int DELETIONS = 100;
+    private static final Duration BETWEEN_DELETIONS = Duration.ofMillis(20);
+    private static final String LOCK = "lock";
+    /** What a start that was refused leaves. */
+    private static final Set<String> WITHOUT_DATA = Set.of(LOCK, "furrow.log");
+
     private final Path path;
     private final boolean temporary;
+    private final boolean fresh;
     private final FileChannel lock;
+    private final Deque<AutoCloseable> writers = new ConcurrentLinkedDeque<>();
+    private final Thread atShutdown = new Thread(this::closeAtShutdown, "delete");
 
-    private RunDirectory(Path path, boolean temporary, FileChannel lock) {
+    private RunDirectory(Path path, boolean temporary, boolean fresh, FileChannel lock) {
         this.path = path;
         this.temporary = temporary;
+        this.fresh = fresh;
         this.lock = lock;
+        if (temporary) {
+            Runtime.getRuntime().addShutdownHook(atShutdown);
+        }
     }
 
     /**
@@ -33,7 +57,8 @@ public final class RunDirectory implements AutoCloseable {
             Path path = kept == null
                     ? Files.createTempDirectory("furrow-")
                     : Files.createDirectories(kept.toAbsolutePath());
-            return new RunDirectory(path, kept == null, lock(path));
+            FileChannel lock = lock(path);
+            return new RunDirectory(path, kept == null, isFresh(path), lock);
         } catch (IOException e) {
             throw new SuiteNotStartedException(
                     "Cannot write in %s (%s). Name a directory that you may write with --data."
@@ -54,8 +79,51 @@ public final class RunDirectory implements AutoCloseable {
         return temporary;
     }
 
+    /** Closes a part that writes here before the directory is deleted in the JVM's shutdown, the newest part first. */
+    <T extends AutoCloseable> T closingFirst(T part) {
+        writers.push(part);
+        return part;
+    }
+
+    /** For an owner who has a shutdown hook and closes this directory in it. */
+    void leaveToItsOwner() {
+        forgetShutdown();
+    }
+
+    private void closeAtShutdown() {
+        while (!writers.isEmpty()) {
+            try {
+                writers.pop().close();
+            } catch (Exception e) { // AutoCloseable declares no narrower type
+                LOG.warn("what writes to {} did not stop cleanly", path, e);
+            }
+        }
+        close();
+    }
+
+    private void forgetShutdown() {
+        try {
+            Runtime.getRuntime().removeShutdownHook(atShutdown);
+        } catch (IllegalStateException e) {
+            LOG.debug("the JVM shuts down already", e);
+        }
+    }
+
+    /** Whether no suite has kept anything in it before this one. */
+    boolean isFresh() {
+        return fresh;
+    }
+
+    private static boolean isFresh(Path directory) throws IOException {
+        try (Stream<Path> files = Files.list(directory)) {
+            return files.allMatch(
+                    file -> WITHOUT_DATA.contains(file.getFileName().toString()));
+        }
+    }
+
     @Override
     public void close() {
+        forgetShutdown();
         try {
             lock.close();
             if (temporary) {
@@ -68,7 +136,7 @@ public final class RunDirectory implements AutoCloseable {
 
     private static FileChannel lock(Path directory) throws IOException {
         FileChannel channel =
-                FileChannel.open(directory.resolve("lock"), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
+                FileChannel.open(directory.resolve(LOCK), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
         FileLock lock;
         try {
             lock = channel.tryLock();
@@ -83,7 +151,21 @@ public final class RunDirectory implements AutoCloseable {
         return channel;
     }
 
+    /** Again and again while something that has not stopped yet still writes or deletes here. */
     private void delete() throws IOException {
+        for (int attempt = 1; Files.exists(path); attempt++) {
+            try {
+                deleteWhatIsThere();
+            } catch (IOException | UncheckedIOException e) {
+                if (attempt == DELETIONS) {
+                    throw e;
+                }
+                Pause.of(BETWEEN_DELETIONS);
+            }
+        }
+    }
+
+    private void deleteWhatIsThere() throws IOException {
         List<Path> deepestFirst;
         try (Stream<Path> all = Files.walk(path)) {
             deepestFirst = all.sorted(Comparator.reverseOrder()).toList();

@@ -59,6 +59,14 @@ final class ScenarioCommand implements Callable<Integer> {
     private URI iotAgent;
 
     @Option(
+            names = "--iot-agent-resource",
+            paramLabel = "PATH",
+            defaultValue = FleetSettings.DEFAULT_RESOURCE,
+            description =
+                    "Default resource of the IoT Agent (IOTA_DEFAULT_RESOURCE), \"\" where it is empty. Default: ${DEFAULT-VALUE}.")
+    private String iotAgentResource;
+
+    @Option(
             names = "--mqtt",
             paramLabel = "URI",
             defaultValue = "tcp://127.0.0.1:1883",
@@ -165,7 +173,8 @@ final class ScenarioCommand implements Callable<Integer> {
         String password = passwordFile == null
                 ? Suite.MQTT_PASSWORD
                 : Files.readString(passwordFile).lines().findFirst().orElse("").strip();
-        FleetSettings fiware = new FleetSettings(orion, iotAgent, mqtt, user, password, service, "/");
+        FleetSettings fiware = new FleetSettings(orion, iotAgent, mqtt, user, password, service, "/")
+                .withIotAgentResource(iotAgentResource);
         return new FleetAccess(
                 fiware,
                 new MqttAccess(mqtt, trusted, qos),

@@ -40,6 +40,7 @@ final class Session {
         out.println("Furrow starts; Ctrl-C stops it.");
         try (RunDirectory directory = RunDirectory.open(data)) {
             Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(directory), "stop"));
+            directory.leaveToItsOwner();
             try (Suite suite = Suite.start(settings, directory, new Progress(out));
                     AutoCloseable joined = guest.join(suite)) {
                 started = true;

@@ -1,5 +1,6 @@
 package io.furrow.launcher;
 
+import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
@@ -18,7 +19,6 @@ import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.fiware.FiwareSettings;
 import io.furrow.simulators.fiware.FiwareStandIn;
-import io.furrow.simulators.mqtt.MqttAccess;
 
 /**
  * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, unless
@@ -36,6 +36,9 @@ public final class Suite implements AutoCloseable {
     private final RunDirectory directory;
     private final Progress progress;
     private final Parts parts = new Parts();
+    private final Parts farm = new Parts();
+    private final Parts workers = new Parts();
+    private final Parts analysis = new Parts();
     private KafkaAccess kafka;
     private EmbeddedConnect connect;
     private EmbeddedFlink flink;
@@ -61,7 +64,7 @@ public final class Suite implements AutoCloseable {
      * @throws SuiteNotStartedException if something cannot be had; nothing is left running then
      */
     public static Suite start(SuiteSettings settings, RunDirectory directory, Progress progress) throws Exception {
-        Suite suite = new Suite(settings, directory, progress);
+        Suite suite = directory.closingFirst(new Suite(settings, directory, progress));
         boolean started = false;
         try {
             suite.start();
@@ -77,31 +80,31 @@ public final class Suite implements AutoCloseable {
     }
 
     private void start() throws Exception {
-        checkPorts();
+        SuiteFields.requireUsable(settings);
+        FarmSecretFile.requireLasting(directory, settings);
+        PortCheck.free(settings);
         LogFile.writeTo(directory.resolve("furrow.log"));
+        // Before anything is kept, so that a directory with data has its secret.
+        Path secret = FarmSecretFile.of(directory, settings.farm().secret().file());
         startKafka();
-        control = parts.add("control plane", new SuiteControl(settings, kafka, directory));
-        Together.run(this::startConnect, this::startFlink, this::startFiware, this::startControl);
+        // Stopped the other way round: devices, jobs, connectors, and then what these write to.
+        parts.add("MQTT and FIWARE", farm);
+        parts.add("Connect", workers);
+        parts.add("Flink and MongoDB", analysis);
+        control = parts.add("control plane", new SuiteControl(settings, kafka, directory, secret));
+        Together.run(
+                this::startFiwareAndConnect,
+                this::startFlink,
+                () -> progress.step("control plane", control::startManagers));
         connectThem();
-        progress.step("devices of missions", () -> control.join(ends()));
+        progress.step("devices of missions", this::joinControl);
     }
 
-    private void checkPorts() {
-        SuiteSettings.Ports ports = settings.ports();
-        if (settings.kafka() == null) {
-            PortCheck.free(ports.kafka(), "Kafka", "--kafka-port");
-        }
-        PortCheck.free(ports.connect(), "Connect", "--connect-port");
-        PortCheck.free(ports.flink(), "Flink's web UI", "--flink-port");
-        PortCheck.free(ports.listener(), "the listener for notifications", "--notify-port");
-        PortCheck.free(ports.control(), "the control plane", "--control-port");
-        if (settings.mongo() == null) {
-            PortCheck.free(ports.mongo(), "the server for missions", "--mongo-port");
-        }
-        if (settings.orion() == null) {
-            PortCheck.free(ports.mqtt(), "the MQTT broker", "--mqtt-port");
-            PortCheck.free(ports.orion(), "the context broker", "--orion-port");
-            PortCheck.free(ports.iotAgent(), "the IoT Agent", "--iot-agent-port");
+    private URI joinControl() {
+        try {
+            return control.join(ends());
+        } catch (IOException e) { // says what is away or refused, and what to do
+            throw new SuiteNotStartedException(e.getMessage(), e);
         }
     }
 
@@ -122,7 +125,7 @@ public final class Suite implements AutoCloseable {
     }
 
     private void startConnect() throws Exception {
-        connect = parts.add(
+        connect = workers.add(
                 "Connect",
                 progress.step(
                         "Kafka Connect",
@@ -130,14 +133,15 @@ public final class Suite implements AutoCloseable {
                                 kafka.bootstrapServers(),
                                 Path.of(System.getProperty("furrow.plugins")),
                                 settings.ports().connect(),
-                                kafka.connectSettings())));
+                                kafka.connectSettings(),
+                                settings.allowed())));
     }
 
     private void startMongo() throws Exception {
         mongo = settings.mongo();
         if (mongo == null) {
             Path documents = directory.resolve("mongo");
-            mongo = parts.add(
+            mongo = analysis.add(
                             "MongoDB",
                             progress.step(
                                     "the server for missions",
@@ -149,11 +153,11 @@ public final class Suite implements AutoCloseable {
 
     private void startFlink() throws Exception {
         startMongo();
-        flink = parts.add(
+        flink = analysis.add(
                 "Flink",
                 progress.step(
                         "Flink",
-                        () -> EmbeddedFlink.start(SLOTS, settings.ports().flink())));
+                        () -> EmbeddedFlink.start(SLOTS, settings.ports().flink(), settings.allowed())));
         SuiteFields fields = new SuiteFields(new FieldsTopic(kafka.clientProperties()));
         progress.step("fields", () -> fields.write(settings, directory));
         jobs = new Jobs(flink, directory.resolve("jobs"));
@@ -163,33 +167,28 @@ public final class Suite implements AutoCloseable {
         });
     }
 
+    /** In this order: kept connectors run as soon as their worker does. */
+    private void startFiwareAndConnect() throws Exception {
+        startFiware();
+        startConnect();
+    }
+
     private void startFiware() throws Exception {
         if (settings.orion() != null) {
             contextBroker = settings.orion();
             return;
         }
-        mqtt = parts.add(
+        mqtt = farm.add(
                 "MQTT",
                 EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD), new LiveUsers(accounts)));
-        fiware = parts.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
+        fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
     }
 
-    private void startControl() throws Exception {
-        progress.step("control plane", control::startManagers);
-    }
-
     private SuiteControl.Ends ends() {
-        SuiteSettings.Farm farm = settings.farm();
-        if (fiware != null) {
-            return new SuiteControl.Ends(
-                    contextBroker, fiware.iotAgent(), new MqttAccess(mqtt.uri(), null, 1), List.of(accounts));
-        }
-        return new SuiteControl.Ends(
-                contextBroker,
-                farm.iotAgent(),
-                farm.mqtt() == null ? null : new MqttAccess(farm.mqtt(), farm.mqttTrusted(), 1),
-                farm.accounts().accounts());
+        return fiware == null
+                ? SuiteControl.Ends.of(contextBroker, settings.farm())
+                : SuiteControl.Ends.of(fiware, mqtt, accounts);
     }
 
     private FiwareStandIn startStandIn() {
@@ -202,7 +201,8 @@ public final class Suite implements AutoCloseable {
 
     private FiwareSettings standIn() {
         FiwareSettings here = new FiwareSettings(
-                settings.ports().orion(), settings.ports().iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD);
+                        settings.ports().orion(), settings.ports().iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD)
+                .withAllowed(settings.allowed());
         return directory.isTemporary() ? here : here.withState(directory.resolve("fiware.json.gz"));
     }
 
@@ -211,7 +211,10 @@ public final class Suite implements AutoCloseable {
         listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
         Connectors connectors = new Connectors(connect.uri());
         progress.step("NGSI source and sink", () -> {
-            connectors.source(port, directory.resolve("journal"), contextBroker, settings.fiwareService());
+            connectors.source(
+                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()),
+                    contextBroker,
+                    settings.fiwareService());
             connectors.sink(
                     contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
             return listener;
@@ -265,6 +268,11 @@ public final class Suite implements AutoCloseable {
     /** Base of the control plane's REST API. */
     public URI control() {
         return control.api();
+    }
+
+    /** Base of the pages {@code /health}, {@code /ready} and {@code /metrics}. */
+    public URI health() {
+        return control.health();
     }
 
     public String fiwareService() {

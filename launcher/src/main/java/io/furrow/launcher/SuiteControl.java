@@ -2,16 +2,22 @@ package io.furrow.launcher;
 
 import java.io.IOException;
 import java.net.URI;
+import java.nio.file.Path;
 import java.util.List;
 import java.util.Properties;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.provisioning.AgentSettings;
+import io.furrow.control.provisioning.LiveAccounts;
 import io.furrow.control.provisioning.MqttAccounts;
 import io.furrow.control.provisioning.ProvisioningSettings;
+import io.furrow.control.readiness.PartStatus;
 import io.furrow.control.rest.RestSettings;
-import io.furrow.model.device.FarmSecret;
+import io.furrow.control.secret.SecretFile;
+import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.simulators.fiware.FiwareStandIn;
 import io.furrow.simulators.host.DeviceHost;
 import io.furrow.simulators.host.HostSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
@@ -19,7 +25,7 @@ import io.furrow.simulators.mqtt.MqttAccess;
 /** The control plane of a suite, and who simulates the devices of its missions. */
 final class SuiteControl implements AutoCloseable {
     private final SuiteSettings suite;
-    private final RunDirectory directory;
+    private final Path secret;
     private final Properties client;
     private final ControlSettings settings;
     private final ControlService service;
@@ -33,11 +39,30 @@ final class SuiteControl implements AutoCloseable {
      * @param mqtt null where none are simulated
      * @param accounts of the MQTT broker
      */
-    record Ends(URI contextBroker, URI iotAgent, MqttAccess mqtt, List<MqttAccounts> accounts) {}
+    record Ends(URI contextBroker, AgentSettings iotAgent, MqttAccess mqtt, List<MqttAccounts> accounts) {
+        /** Those of this suite. */
+        static Ends of(FiwareStandIn fiware, EmbeddedMqtt mqtt, LiveAccounts accounts) {
+            return new Ends(
+                    fiware.contextBroker(),
+                    AgentSettings.at(fiware.iotAgent()),
+                    new MqttAccess(mqtt.uri(), null, 1),
+                    List.of(accounts));
+        }
 
-    SuiteControl(SuiteSettings suite, KafkaAccess kafka, RunDirectory directory) {
+        /** Those that were there before. */
+        static Ends of(URI contextBroker, SuiteSettings.Farm farm) {
+            return new Ends(
+                    contextBroker,
+                    farm.iotAgent(),
+                    farm.mqtt() == null ? null : new MqttAccess(farm.mqtt(), farm.mqttTrusted(), 1),
+                    farm.accounts().accounts());
+        }
+    }
+
+    /** @param secret file of the farm's secret */
+    SuiteControl(SuiteSettings suite, KafkaAccess kafka, RunDirectory directory, Path secret) {
         this.suite = suite;
-        this.directory = directory;
+        this.secret = secret;
         this.client = kafka.clientProperties();
         Properties streams = kafka.clientProperties();
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
@@ -53,22 +78,41 @@ final class SuiteControl implements AutoCloseable {
     /** Begins to take commands, and to run the devices of missions. */
     URI join(Ends ends) throws IOException {
         SuiteSettings.Farm farm = suite.farm();
-        FarmSecret secret =
-                FarmSecretFile.readOrMake(farm.secret() == null ? directory.resolve("farm-secret") : farm.secret());
+        SecretFile source = FarmSecretFile.open(secret, client, farm.secret().replaced());
+        boolean simulates = ends.mqtt() != null && farm.simulates();
         FiwareScope scope = settings.missions().scope();
         api = service.serve(
                 RestSettings.on(suite.ports().control())
                         .withContextBroker(ends.contextBroker())
-                        .withSecret(secret)
-                        .withTokens(farm.tokens()),
+                        .withSecret(source)
+                        .withTokens(farm.tokens())
+                        .withAllowed(suite.allowed()),
+                suite.ports().health(),
                 suite.watch().options(new DeviceCommands(ends.contextBroker(), scope)),
                 ends.iotAgent() == null
                         ? null
-                        : new ProvisioningSettings(client, scope, secret, ends.iotAgent(), ends.accounts()));
-        if (ends.mqtt() != null && farm.simulates()) {
-            devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), secret));
+                        : new ProvisioningSettings(
+                                client,
+                                scope,
+                                source,
+                                ends.iotAgent(),
+                                ends.accounts(),
+                                simulates || farm.accounts().gateways()));
+        if (simulates) {
+            devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), source));
+            service.require(this::deviceHost);
         }
         return api;
+    }
+
+    private PartStatus deviceHost() {
+        PartStatus.State state = devices.isAlive() ? PartStatus.State.UP : PartStatus.State.DEAD;
+        return new PartStatus("deviceHost", state, devices.lastPoll(), devices.lastFailure());
+    }
+
+    /** Base of the pages for probes. */
+    URI health() {
+        return service.health();
     }
 
     URI api() {

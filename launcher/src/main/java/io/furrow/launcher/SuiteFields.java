@@ -32,6 +32,17 @@ final class SuiteFields {
     }
 
     /**
+     * Reads the settings' file before anything is started for it.
+     *
+     * @throws SuiteNotStartedException if the file cannot be used wholly
+     */
+    static void requireUsable(SuiteSettings settings) {
+        if (settings.fields() != null) {
+            read(settings.fields());
+        }
+    }
+
+    /**
      * Writes the fields of the settings' file; without one those of the demonstration farm, if the broker is the suite's own and
      * has no fields yet.
      *

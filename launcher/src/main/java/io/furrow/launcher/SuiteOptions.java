@@ -111,6 +111,16 @@ final class SuiteOptions {
             description = PORT_OF + "the control plane's REST API" + DEFAULT)
     int controlPort;
 
+    @Option(
+            names = "--health-port",
+            paramLabel = "PORT",
+            defaultValue = "8086",
+            description = PORT_OF + "the control plane's pages /health, /ready and /metrics" + DEFAULT)
+    int healthPort;
+
+    @Mixin
+    AccessFlags access;
+
     @Mixin
     WatchFlags watch;
 
@@ -134,8 +144,19 @@ final class SuiteOptions {
                 orionPort,
                 iotAgentPort,
                 mongoPort,
-                controlPort);
+                controlPort,
+                healthPort);
         return new SuiteSettings(
-                kafkaProperties, fiwareService, window, fields, ports, orion, kafka, mongo, farm, watch.watch(horizon));
+                kafkaProperties,
+                fiwareService,
+                window,
+                fields,
+                ports,
+                orion,
+                kafka,
+                mongo,
+                farm,
+                watch.watch(horizon),
+                access.allowed());
     }
 }

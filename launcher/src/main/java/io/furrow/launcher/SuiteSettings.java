@@ -9,8 +9,10 @@ import io.furrow.control.alarm.StopRobots;
 import io.furrow.control.alarm.Webhook;
 import io.furrow.control.device.CommandSender;
 import io.furrow.control.health.HealthOptions;
+import io.furrow.control.provisioning.AgentSettings;
 import io.furrow.control.provisioning.MosquittoFiles;
 import io.furrow.control.provisioning.MqttAccounts;
+import io.furrow.http.AllowedNames;
 
 /**
  * How a suite is to be started.
@@ -24,6 +26,7 @@ import io.furrow.control.provisioning.MqttAccounts;
  * @param mongo URI of a MongoDB that already runs; null to start a server
  * @param farm how devices of missions are provisioned and hosted
  * @param watch what is done about alarms
+ * @param allowed hosts and origins of every HTTP server beside their own
  */
 public record SuiteSettings(
         Path kafkaProperties,
@@ -35,7 +38,8 @@ public record SuiteSettings(
         String kafka,
         String mongo,
         Farm farm,
-        Watch watch) {
+        Watch watch,
+        AllowedNames allowed) {
 
     /** Ports on 127.0.0.1, each 0 for a free one. */
     public record Ports(
@@ -47,10 +51,11 @@ public record SuiteSettings(
             int orion,
             int iotAgent,
             int mongo,
-            int control) {
+            int control,
+            int health) {
         /** All free ones. */
         public static Ports free() {
-            return new Ports(0, 0, 0, 0, 0, 0, 0, 0, 0);
+            return new Ports(0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
         }
     }
 
@@ -61,22 +66,30 @@ public record SuiteSettings(
      * @param mqtt MQTT broker that already runs, likewise
      * @param mqttTrusted PEM file with the certificates to trust there; null for those that Java trusts
      * @param accounts files in which that broker finds the accounts of devices
-     * @param secret file with the farm's secret; null for one in the suite's directory
+     * @param secret of the farm
      * @param tokens file of those who may command; null for all who reach the API
      * @param simulates whether the devices are simulated here
      */
     public record Farm(
-            URI iotAgent,
+            AgentSettings iotAgent,
             URI mqtt,
             Path mqttTrusted,
             AccountFiles accounts,
-            Path secret,
+            Secret secret,
             Path tokens,
             boolean simulates) {
         /** Simulated devices on the stand-in and the suite's own MQTT broker. */
-        public static final Farm SIMULATED =
-                new Farm(null, null, null, new AccountFiles(null, null, null), null, null, true);
+        public static final Farm SIMULATED = new Farm(
+                null, null, null, new AccountFiles(null, null, null, false), new Secret(null, null), null, true);
     }
+
+    /**
+     * The farm's secret.
+     *
+     * @param file null for one in the suite's directory
+     * @param replaced fingerprint of the secret that it takes the place of; null for none
+     */
+    public record Secret(Path file, String replaced) {}
 
     /**
      * Mosquitto's files of users and their rights.
@@ -84,8 +97,9 @@ public record SuiteSettings(
      * @param passwords null for none
      * @param rules null for none
      * @param reload run after a change; null for nothing
+     * @param gateways whether each mission has an account that speaks for all its devices
      */
-    public record AccountFiles(Path passwords, Path rules, String reload) {
+    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways) {
         /** The accounts of an MQTT broker that has these files; none where none are named. */
         List<MqttAccounts> accounts() {
             if (passwords == null && rules == null) {
@@ -101,22 +115,21 @@ public record SuiteSettings(
     }
 
     /**
-     * What is done about alarms.
+     * When there are alarms, and what is done about them.
      *
      * @param webhook where alarms are posted; null for nowhere
-     * @param silentAfter periods without a sign of life after which a device counts as silent
+     * @param health when a device counts as silent
      * @param horizon how far ahead encounters are predicted, as the job {@code collision} takes it
      * @param stops whether robots are told to stop that are predicted to meet
      */
-    public record Watch(URI webhook, int silentAfter, String horizon, boolean stops) {
-        public static final Watch DEFAULT = new Watch(null, 3, "0s", false);
+    public record Watch(Webhook.Settings webhook, HealthOptions health, String horizon, boolean stops) {
+        public static final Watch DEFAULT = new Watch(null, HealthOptions.DEFAULT, "0s", false);
 
         /** @param robots how Stop reaches robots */
         WatchOptions options(CommandSender robots) {
-            WatchOptions options =
-                    WatchOptions.DEFAULT.with(new HealthOptions(silentAfter, HealthOptions.DEFAULT.period()));
+            WatchOptions options = WatchOptions.DEFAULT.with(health);
             if (webhook != null) {
-                options = options.with(Webhook.Settings.of(webhook));
+                options = options.with(webhook);
             }
             return stops ? options.with(StopRobots.Settings.of(robots)) : options;
         }
@@ -125,6 +138,16 @@ public record SuiteSettings(
     /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
     public static SuiteSettings onFreePorts(String window) {
         return new SuiteSettings(
-                null, "farm", window, null, Ports.free(), null, null, null, Farm.SIMULATED, Watch.DEFAULT);
+                null,
+                "farm",
+                window,
+                null,
+                Ports.free(),
+                null,
+                null,
+                null,
+                Farm.SIMULATED,
+                Watch.DEFAULT,
+                AllowedNames.NONE);
     }
 }

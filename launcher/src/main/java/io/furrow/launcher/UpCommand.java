@@ -26,6 +26,7 @@ final class UpCommand implements Callable<Integer> {
     @Option(
             names = "--orion",
             paramLabel = "URL",
+            converter = HttpUri.class,
             description =
                     "Use this context broker, for instance http://127.0.0.1:1026, and start neither the stand-in nor an "
                             + "MQTT broker. It must reach the listener for notifications.")
@@ -43,6 +44,6 @@ final class UpCommand implements Callable<Integer> {
     @Override
     public Integer call() throws Exception {
         return new Session(spec.commandLine().getOut())
-                .run(options.settings(orion, kafka, farm.farm()), options.data, suite -> () -> {});
+                .run(options.settings(orion, kafka, farm.farm(options.fiwareService)), options.data, suite -> () -> {});
     }
 }

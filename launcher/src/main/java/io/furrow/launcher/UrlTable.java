@@ -15,6 +15,7 @@ final class UrlTable {
         row(out, "Notifications (NGSI source)", suite.listener());
         row(out, "Context broker (NGSI-v2)", suite.contextBroker() + "/v2/entities");
         row(out, "Control plane (REST)", suite.control() + "/openapi.json");
+        row(out, "Health and metrics", suite.health() + "/ready");
         if (suite.hasStandIn()) {
             row(out, "IoT Agent", suite.devices().iotAgent() + "/iot/devices");
             row(

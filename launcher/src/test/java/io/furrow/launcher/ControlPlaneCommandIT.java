@@ -21,6 +21,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -84,6 +85,42 @@ class ControlPlaneCommandIT {
         assertThat(Files.readString(directory.resolve("out"))).contains("--iot-agent needs --farm-secret");
     }
 
+    @Test
+    void startsNoProcessWithoutTheSecretOrWithAnother() throws Exception {
+        Path missing = directory.resolve("missing");
+        Process process = run(directory.resolve("one"), "--farm-secret", missing.toString());
+        assertThat(process.waitFor()).isNotZero();
+        assertThat(Files.readString(directory.resolve("one")))
+                .contains("there is no file " + missing, "./furrow secret new")
+                .doesNotContain("Exception");
+        assertThat(missing).doesNotExist();
+
+        Path first = directory.resolve("first");
+        Path second = directory.resolve("second");
+        FarmSecretFile.make(first);
+        FarmSecret another = FarmSecretFile.make(second);
+        run(directory.resolve("two"), "--farm-secret", first.toString());
+        await().atMost(PATIENCE).until(() -> api(directory.resolve("two")), Optional::isPresent);
+        process = run(directory.resolve("three"), "--farm-secret", second.toString());
+
+        assertThat(process.waitFor()).isNotZero();
+        assertThat(Files.readString(directory.resolve("three")))
+                .contains("this farm has another secret", another.toString(), "--replace-farm-secret")
+                .doesNotContain("Exception");
+        assertThat(Files.readString(directory.resolve("three.log"))).doesNotContain("REBALANCING");
+    }
+
+    @Test
+    void disturbsNoOtherProcessWhereItMayNotListen() throws Exception {
+        Process process = run(directory.resolve("open"), "--control-host", "0.0.0.0");
+
+        assertThat(process.waitFor()).isNotZero();
+        assertThat(Files.readString(directory.resolve("open")))
+                .contains("only with tokens")
+                .doesNotContain("Exception");
+        assertThat(Files.readString(directory.resolve("open.log"))).doesNotContain("REBALANCING");
+    }
+
     /** Whether it is there now; a request is repeated under the same key until it is answered. */
     private boolean create(URI api, String domain) {
         JsonNode body = NgsiJson.mapper().createObjectNode().put("domain", domain);
@@ -108,6 +145,8 @@ class ControlPlaneCommandIT {
                 "--kafka",
                 kafka.bootstrapServers(),
                 "--control-port",
+                "0",
+                "--health-port",
                 "0",
                 "--log",
                 output + ".log"));

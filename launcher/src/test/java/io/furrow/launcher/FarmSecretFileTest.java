@@ -3,9 +3,12 @@ package io.furrow.launcher;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.PosixFilePermissions;
+import java.util.Properties;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.model.device.FarmSecret;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -15,27 +18,60 @@ class FarmSecretFileTest {
     Path directory;
 
     @Test
-    void makesASecretOnceThatOnlyItsOwnerReads() throws Exception {
-        Path file = directory.resolve("secret");
+    void makesASecretWhereADirectoryIsFreshAndFindsItThereLater() throws Exception {
+        Path kept = directory.resolve("data");
+        Path made;
+        try (RunDirectory first = RunDirectory.open(kept)) {
+            made = FarmSecretFile.of(first, null);
+        }
+        FarmSecret secret = FarmSecret.read(made);
+        Files.createDirectory(kept.resolve("kafka"));
 
-        String first = FarmSecretFile.readOrMake(file).apiKey("weeding");
+        try (RunDirectory second = RunDirectory.open(kept)) {
+            assertThat(FarmSecretFile.of(second, null)).isEqualTo(made);
+        }
 
-        assertThat(FarmSecretFile.readOrMake(file).apiKey("weeding")).isEqualTo(first);
-        assertThat(FarmSecretFile.readOrMake(directory.resolve("other")).apiKey("weeding"))
-                .isNotEqualTo(first);
-        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(file)))
+        assertThat(FarmSecret.read(made)).isEqualTo(secret);
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(made)))
                 .isEqualTo("rw-------");
     }
 
     @Test
-    void refusesASecretThatIsTooShortAndOneThatCannotBeMade() throws Exception {
+    void makesNoSecretWhereThereIsDataOfAFarm() throws Exception {
+        Path kept = Files.createDirectories(directory.resolve("data/kafka")).getParent();
+
+        try (RunDirectory directory = RunDirectory.open(kept)) {
+            assertThatThrownBy(() -> FarmSecretFile.of(directory, null))
+                    .isInstanceOf(SuiteNotStartedException.class)
+                    .hasMessageContainingAll(
+                            kept + " has the data of a farm but not its secret",
+                            "--farm-secret",
+                            "./furrow secret new");
+        }
+        assertThat(kept.resolve("farm-secret")).doesNotExist();
+    }
+
+    @Test
+    void makesNoSecretWhereThePathIsWrong() {
+        Path missing = directory.resolve("not-mounted");
+
+        try (RunDirectory fresh = RunDirectory.open(null)) {
+            assertThatThrownBy(() -> FarmSecretFile.of(fresh, missing))
+                    .isInstanceOf(SuiteNotStartedException.class)
+                    .hasMessageContainingAll(missing.toString(), "./furrow secret new");
+        }
+        assertThatThrownBy(() -> FarmSecretFile.open(missing, new Properties(), null))
+                .isInstanceOf(SuiteNotStartedException.class)
+                .hasMessageContainingAll(missing.toString(), "./furrow secret new");
+        assertThat(missing).doesNotExist();
+    }
+
+    @Test
+    void refusesASecretThatIsTooShort() throws Exception {
         Path tooShort = Files.writeString(directory.resolve("short"), "secret\n");
 
-        assertThatThrownBy(() -> FarmSecretFile.readOrMake(tooShort))
+        assertThatThrownBy(() -> FarmSecretFile.open(tooShort, new Properties(), null))
                 .isInstanceOf(SuiteNotStartedException.class)
-                .hasMessageContainingAll(tooShort.toString(), "at least 16 bytes", "--farm-secret");
-        assertThatThrownBy(() -> FarmSecretFile.readOrMake(directory.resolve("nosuch/secret")))
-                .isInstanceOf(SuiteNotStartedException.class)
-                .hasMessageContainingAll("nosuch", "--farm-secret");
+                .hasMessageContainingAll(tooShort.toString(), "at least 16 bytes, this one 6");
     }
 }

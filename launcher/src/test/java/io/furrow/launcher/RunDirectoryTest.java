@@ -33,4 +33,21 @@ class RunDirectoryTest {
             assertThat(again.isTemporary()).isFalse();
         }
     }
+
+    @Test
+    void knowsWhetherASuiteHasKeptSomethingInIt() throws Exception {
+        try (RunDirectory temporary = RunDirectory.open(null)) {
+            assertThat(temporary.isFresh()).isTrue();
+        }
+        Path kept = parent.resolve("kept");
+        RunDirectory.open(kept).close();
+        Files.createFile(kept.resolve("furrow.log"));
+        try (RunDirectory refusedBefore = RunDirectory.open(kept)) {
+            assertThat(refusedBefore.isFresh()).isTrue();
+        }
+        Files.createDirectory(kept.resolve("kafka"));
+        try (RunDirectory used = RunDirectory.open(kept)) {
+            assertThat(used.isFresh()).isFalse();
+        }
+    }
 }

@@ -10,6 +10,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.field.FieldsTopic;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.http.AllowedNames;
 import io.furrow.model.field.FieldVersion;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -104,7 +105,8 @@ class SuiteFieldsIT {
                 kafka,
                 null,
                 SuiteSettings.Farm.SIMULATED,
-                SuiteSettings.Watch.DEFAULT);
+                SuiteSettings.Watch.DEFAULT,
+                AllowedNames.NONE);
     }
 
     private Path file(String... features) throws Exception {

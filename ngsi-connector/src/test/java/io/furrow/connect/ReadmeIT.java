@@ -52,7 +52,7 @@ class ReadmeIT {
                         .singleElement()
                         .satisfies(record -> assertThat(record.key()).isEqualTo("urn:ngsi-ld:Thermometer:1"));
             }
-            await().atMost(Duration.ofSeconds(30))
+            await().atMost(Duration.ofSeconds(60))
                     .untilAsserted(() -> assertThat(run("curl http://127.0.0.1:" + port + "/health"))
                             .contains("\"produced\":1"));
         }
@@ -74,7 +74,7 @@ class ReadmeIT {
                 .redirectErrorStream(true)
                 .start();
         String said = new String(shell.getInputStream().readAllBytes());
-        assertThat(shell.waitFor(30, TimeUnit.SECONDS)).isTrue();
+        assertThat(shell.waitFor(120, TimeUnit.SECONDS)).isTrue();
         assertThat(shell.exitValue()).as(command + "\n" + said).isZero();
         return said;
     }

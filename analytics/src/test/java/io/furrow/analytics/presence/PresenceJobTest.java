@@ -6,14 +6,16 @@ import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.eventtime.Watermark;
 import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.api.common.functions.FilterFunction;
+import org.apache.flink.api.common.functions.RichFilterFunction;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.metrics.Gauge;
+import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
@@ -39,18 +41,24 @@ import io.furrow.model.ngsi.UnreadableException;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
+import static org.awaitility.Awaitility.await;
 
 class PresenceJobTest {
     private static final Logger LOG = LoggerFactory.getLogger(PresenceJobTest.class);
 
+    private static final InMemoryReporter METRICS = InMemoryReporter.create();
+
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
             .setNumberTaskManagers(1)
             .setNumberSlotsPerTaskManager(4)
             .build());
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
-    private static volatile CountDownLatch fieldsHoldUp;
+    /** Time of a record whose watermark is the first that there is. */
+    private static final long FIRST = Long.MIN_VALUE + Story.BOUND + 2;
+
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
     /** In any order of arrival, at any parallelism: what the definition says of several stories after each other. */
@@ -160,20 +168,21 @@ class PresenceJobTest {
 
     private static List<TopicRecord> run(PresenceOptions options, List<Plot> plots, TopicRecord... records)
             throws Exception {
-        fieldsHoldUp = new CountDownLatch(1);
         StreamExecutionEnvironment env = TestEnvironment.of(options);
         env.setBufferTimeout(0); // what was sent first is there first
         env.setParallelism(options.parallelism().orElse(2));
-        DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
+        List<TopicRecord> all = new ArrayList<>(List.of(record("the first", FIRST, null)));
+        all.addAll(Arrays.asList(records));
+        DataStream<TopicRecord> source = env.fromData(all)
                 .setParallelism(1)
                 .uid("records")
-                .filter(new AfterFields())
-                .setParallelism(1)
-                .uid("after-fields")
                 .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachRecord())
                         .withTimestampAssigner((record, ignored) -> record.timestamp()))
                 .setParallelism(1)
-                .uid("timestamps");
+                .uid("timestamps")
+                .filter(new AfterFields(options.parallelism().orElse(2)))
+                .setParallelism(1)
+                .uid("after-fields");
         ArrayList<Plot> known = new ArrayList<>(plots);
         DataStream<TopicRecord> versions = env.fromData(records(known))
                 .setParallelism(1)
@@ -207,14 +216,43 @@ class PresenceJobTest {
         public void onPeriodicEmit(WatermarkOutput output) {}
     }
 
-    /** The fields say first that they hold event time up no more: which position is late would else depend on chance. */
-    private static final class AfterFields implements FilterFunction<TopicRecord> {
+    /**
+     * Holds records up until all who follow devices have heard that the fields hold event time up no more: which position is late
+     * would else depend on which of their two inputs they read first. They have where the first watermark is their event time.
+     */
+    private static final class AfterFields extends RichFilterFunction<TopicRecord> {
         private static final long serialVersionUID = 1L;
 
+        private final int followers;
+        private transient boolean open;
+
+        AfterFields(int followers) {
+            this.followers = followers;
+        }
+
         @Override
-        public boolean filter(TopicRecord record) throws InterruptedException {
-            assertThat(fieldsHoldUp.await(1, TimeUnit.MINUTES)).isTrue();
+        public boolean filter(TopicRecord record) {
+            if (record.timestamp() == FIRST) {
+                return false;
+            }
+            if (!open) {
+                String job = getRuntimeContext().getJobInfo().getJobId().toString();
+                await().atMost(1, TimeUnit.MINUTES).until(() -> unhindered(job) == followers);
+                open = true;
+            }
             return true;
+        }
+
+        private static long unhindered(String job) {
+            return METRICS.getMetricsByGroup().entrySet().stream()
+                    .filter(group -> {
+                        Map<String, String> names = group.getKey().getAllVariables();
+                        return job.equals(names.get("<job_id>"))
+                                && "Follow devices through fields".equals(names.get("<operator_name>"));
+                    })
+                    .map(group -> group.getValue().get("currentInputWatermark"))
+                    .filter(metric -> metric instanceof Gauge<?> gauge && (Long) gauge.getValue() > Long.MIN_VALUE)
+                    .count();
         }
     }
 
@@ -222,7 +260,6 @@ class PresenceJobTest {
         @Override
         public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
             output.emitWatermark(new Watermark(Long.MAX_VALUE - 1));
-            fieldsHoldUp.countDown();
         }
 
         @Override

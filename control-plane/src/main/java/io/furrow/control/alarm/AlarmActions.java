@@ -1,67 +1,104 @@
 package io.furrow.control.alarm;
 
+import java.io.IOException;
 import java.time.Clock;
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Properties;
-
-import org.apache.kafka.clients.producer.KafkaProducer;
-import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.model.topic.Topics;
+import io.furrow.control.readiness.PartStatus;
+import io.furrow.control.readiness.RestartingWorker;
 
-/** What is done when alarms change: a webhook is told, robots are stopped. Several instances share the work. */
+/**
+ * Acts on alarms: delivers them to a webhook, and stops robots that are predicted to meet. The two share no thread, so that neither
+ * delays the other. Several instances share the work.
+ */
 public final class AlarmActions implements AutoCloseable {
-    private static final String WEBHOOK = "furrow-alarm-webhook";
-    private static final String STOP = "furrow-stop-on-predicted";
+    private static final int STOP_THREADS = 8;
+    private static final int MAX_STOPS_WAITING = 1000;
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(5);
 
-    private static final Logger LOG = LoggerFactory.getLogger(AlarmActions.class);
+    private final List<RestartingWorker> followers = new ArrayList<>();
+    private ThreadPoolExecutor stops;
+    private AuditLog audit;
 
-    private final List<AlarmFollower> followers = new ArrayList<>();
-    private final KafkaProducer<String, byte[]> audit;
-
-    private AlarmActions(KafkaProducer<String, byte[]> audit) {
-        this.audit = audit;
-    }
+    private AlarmActions() {}
 
     /**
      * @param client settings of Kafka clients
      * @param webhook null for none
      * @param stop null to stop nothing
+     * @throws IOException if the webhook's secret cannot be used; the message says what to do
      */
-    public static AlarmActions start(Properties client, Webhook.Settings webhook, StopRobots.Settings stop) {
-        KafkaProducer<String, byte[]> audit =
-                stop == null ? null : new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
-        AlarmActions actions = new AlarmActions(audit);
+    public static AlarmActions start(Properties client, Webhook.Settings webhook, StopRobots.Settings stop)
+            throws IOException {
+        AlarmActions actions = new AlarmActions();
+        Clock clock = Clock.systemUTC();
         if (webhook != null) {
-            actions.followers.add(AlarmFollower.start(WEBHOOK, client, new Webhook(webhook, Clock.systemUTC())));
+            AlarmDelivery delivery = new AlarmDelivery(client, webhook, new Webhook(webhook, clock), clock);
+            actions.followers.add(new RestartingWorker(AlarmDelivery.NAME, clock).start(delivery, delivery::detail));
         }
         if (stop != null) {
-            StopRobots robots = new StopRobots(stop, actions::note, Clock.systemUTC());
-            actions.followers.add(AlarmFollower.start(STOP, client, robots));
+            actions.stopRobots(client, stop, clock);
         }
         return actions;
     }
 
-    /** Comes back when it is on the topic, or cannot come there. */
-    private void note(AuditEntry entry) {
-        audit.send(new ProducerRecord<>(Topics.AUDIT, entry.toBytes()), (written, failure) -> {
-            if (failure != null) {
-                LOG.error("not on the audit topic: {} {}, {}", entry.command(), entry.about(), entry.result(), failure);
-            }
-        });
-        audit.flush();
+    private void stopRobots(Properties client, StopRobots.Settings settings, Clock clock) {
+        audit = new AuditLog(client);
+        stops = new ThreadPoolExecutor(
+                STOP_THREADS,
+                STOP_THREADS,
+                1,
+                TimeUnit.MINUTES,
+                new ArrayBlockingQueue<>(MAX_STOPS_WAITING),
+                task -> new Thread(task, "furrow-stop"));
+        RestartingWorker follower = new RestartingWorker(StopFollower.NAME, clock);
+        DeviceTypes types = new DeviceTypes(client);
+        StopRobots robots = new StopRobots(settings, types, entry -> note(entry, follower), stops, clock);
+        followers.add(new RestartingWorker(DeviceTypes.NAME, clock).start(types, types::detail));
+        followers.add(follower.start(new StopFollower(client, robots, types, clock), () -> stopsWaiting(types)));
+    }
+
+    private void note(AuditEntry entry, RestartingWorker follower) {
+        if (entry.reason() == null) {
+            follower.succeeded();
+        } else {
+            follower.failed(entry.about() + " " + entry.reason());
+        }
+        audit.accept(entry);
+    }
+
+    private String stopsWaiting(DeviceTypes types) {
+        if (!types.isLoaded()) {
+            return "waits until the types of devices are read";
+        }
+        return "%d robots are being stopped, %d wait"
+                .formatted(stops.getActiveCount(), stops.getQueue().size());
+    }
+
+    /** How it is with each thread that acts, for a health page. */
+    public List<PartStatus> followers() {
+        return followers.stream().map(RestartingWorker::status).toList();
     }
 
     @Override
     public void close() {
-        followers.forEach(AlarmFollower::close);
-        if (audit != null) {
+        followers.forEach(RestartingWorker::close);
+        if (stops != null) {
+            stops.shutdown();
+            try {
+                if (!stops.awaitTermination(CLOSE_TIMEOUT.toMillis(), TimeUnit.MILLISECONDS)) {
+                    stops.shutdownNow();
+                }
+            } catch (InterruptedException e) {
+                Thread.currentThread().interrupt();
+            }
             audit.close();
         }
     }

@@ -2,7 +2,12 @@ package io.furrow.control.alarm;
 
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HashSet;
 import java.util.List;
+import java.util.Set;
+import java.util.concurrent.atomic.AtomicInteger;
+import java.util.function.Predicate;
 
 import io.furrow.control.manager.Desk;
 import io.furrow.control.manager.Outbox;
@@ -10,16 +15,19 @@ import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.Response;
 import io.furrow.model.topic.Topics;
 
 /**
- * Raises alarms, takes them through their life as causes and people say, and keeps {@code service.alarms}: of a kind and subject
- * there is one that is not closed. A closed one is kept for a day, then taken away.
+ * Raises alarms, takes them through their life as causes and people say, and publishes them on {@code service.alarms}: of a kind
+ * and subject there is one that is not closed. A closed one is stored for a day, of more than {@value #MAX_CLOSED} the newest,
+ * then removed.
  */
 public final class AlarmDesk implements Desk<AlarmCommand> {
     static final Duration CLOSED_KEPT = Duration.ofDays(1);
+    static final int MAX_CLOSED = 10_000;
 
     private static final long CLEARING_EVERY = Duration.ofMinutes(1).toMillis();
     private static final String ALL = "";
@@ -27,31 +35,77 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
     private final AlarmRecords records;
     private final Sequence sequence;
     private final Outbox outbox;
+    private final AlarmLimit limit;
     private long nextClearing;
 
     AlarmDesk(AlarmRecords records, Sequence sequence, Outbox outbox) {
         this.records = records;
         this.sequence = sequence;
         this.outbox = outbox;
+        this.limit = new AlarmLimit(records.groups(), records.counted());
     }
 
-    /** Raises an alarm, or takes note that one is right still. */
+    /** Raises an alarm, or takes note that one is right still; where its group has many, the cause is only counted. */
     public void raise(Cause cause, long now) {
-        String known = records.current().get(cause.key());
-        if (known == null) {
+        Alarm known = current(cause.kind(), cause.subject());
+        if (known != null) {
+            records.alarms().put(known.alarm(), sure(known, new AlarmEvent.Repeated(cause.until(now)), now));
+        } else if (!limit.take(cause, now)) {
             keep(Alarm.raised(cause, mutedUntil(cause.kind(), cause.subject(), now), sequence.next(), now));
-        } else {
-            Alarm alarm = records.alarms().get(known);
-            records.alarms().put(known, sure(alarm, new AlarmEvent.Repeated(cause.until(now)), now));
         }
     }
 
     /** Closes the alarm of a kind and subject where there is one. */
     public void end(AlarmKind kind, String subject, String reason, long now) {
-        String known = records.current().get(Cause.key(kind, subject));
+        Alarm known = current(kind, subject);
         if (known != null) {
-            change(records.alarms().get(known), new AlarmEvent.Ended(reason), now);
+            change(known, new AlarmEvent.Ended(reason), now);
+        } else {
+            limit.end(kind, subject);
         }
+    }
+
+    /**
+     * Raises the alarm of a cause that stands for many, or brings it up to date.
+     *
+     * @param inhibitor what says more, reported before; because of its alarm this one is not delivered; null for none
+     */
+    public void report(Cause cause, Cause inhibitor, long now) {
+        String by = inhibitor == null ? null : records.current().get(inhibitor.key());
+        Alarm known = current(cause.kind(), cause.subject());
+        if (known == null) {
+            Long muted = mutedUntil(cause.kind(), cause.subject(), now);
+            Alarm raised = Alarm.raised(cause, muted, sequence.next(), now);
+            keep(by == null ? raised : raised.inhibitedFromStart(by));
+        } else {
+            change(known, new AlarmEvent.Reported(cause, by), now);
+        }
+    }
+
+    /** Closes the alarms of some kinds that none of the causes is the cause of. */
+    public void endOthers(Set<AlarmKind> kinds, List<Cause> causes, String reason, long now) {
+        endOthers(alarm -> kinds.contains(alarm.kind()), causes, reason, now);
+    }
+
+    private void endOthers(Predicate<Alarm> some, List<Cause> causes, String reason, long now) {
+        Set<String> lasting = new HashSet<>();
+        causes.forEach(cause -> lasting.add(cause.key()));
+        for (Alarm alarm : current()) {
+            if (some.test(alarm) && !lasting.contains(alarm.key())) {
+                change(alarm, new AlarmEvent.Ended(reason), now);
+            }
+        }
+    }
+
+    /** Whether there is an alarm of a kind and subject that is not closed. */
+    public boolean isRaised(AlarmKind kind, String subject) {
+        return records.current().get(Cause.key(kind, subject)) != null;
+    }
+
+    /** Whether a kind is muted for one subject. */
+    public boolean isMuted(AlarmKind kind, String subject, long now) {
+        AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, subject));
+        return mute != null && mute.until() > now;
     }
 
     @Override
@@ -59,8 +113,7 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
         if (command instanceof AlarmCommand.Acknowledge acknowledge) {
             return answer(acknowledge.alarm(), new AlarmEvent.Acknowledged(acknowledge.user()), "acknowledged", now);
         } else if (command instanceof AlarmCommand.Close close) {
-            String by = close.user() == null ? "somebody" : close.user();
-            return answer(close.alarm(), new AlarmEvent.Ended("closed by " + by), "closed", now);
+            return answer(close.alarm(), new AlarmEvent.Dismissed(close.user()), "closed", now);
         } else if (command instanceof AlarmCommand.Mute mute) {
             long until = now + mute.time().toMillis();
             return muted(mute.target(), until, now).with("until", until);
@@ -90,6 +143,7 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
         }
         AlarmCommand.OfKind of = (AlarmCommand.OfKind) target;
         String key = Cause.key(of.kind(), of.subject() == null ? ALL : of.subject());
+        requireRoomFor(key, until);
         records.mutes().put(key, until == null ? null : new AlarmRecords.Mute(key, until));
         for (Alarm alarm : current()) {
             if (alarm.kind() == of.kind()
@@ -98,6 +152,19 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
             }
         }
         return Response.of(status).with("kind", of.kind().code()).with("subject", of.subject());
+    }
+
+    private void requireRoomFor(String key, Long until) throws RefusedException {
+        if (until == null || records.mutes().contains(key)) {
+            return;
+        }
+        AtomicInteger count = new AtomicInteger();
+        records.mutes().forEach(mute -> count.incrementAndGet());
+        if (count.get() >= Limits.MUTES) {
+            throw new RefusedException(
+                    ErrorCode.QUOTA_EXCEEDED,
+                    "%d subjects are muted already; unmute some, or mute all of a kind".formatted(Limits.MUTES));
+        }
     }
 
     private Long mutedUntil(AlarmKind kind, String subject, long now) {
@@ -116,6 +183,13 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
         for (Alarm alarm : current()) {
             change(alarm, new AlarmEvent.TimePassed(), now);
         }
+        List<Cause> beyondLimit = limit.causes(now);
+        beyondLimit.forEach(cause -> report(cause, null, now));
+        endOthers(
+                alarm -> alarm.isOfGroup() && AlarmLimit.KINDS.contains(alarm.kind()),
+                beyondLimit,
+                "no more than have an alarm of their own",
+                now);
         if (now >= nextClearing) {
             nextClearing = now + CLEARING_EVERY;
             clear(now);
@@ -123,15 +197,18 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
     }
 
     private void clear(long now) {
-        List<String> over = new ArrayList<>();
+        List<Alarm> closed = new ArrayList<>();
         records.alarms().forEach(alarm -> {
-            if (alarm.state() == AlarmState.CLOSED && alarm.changed() + CLOSED_KEPT.toMillis() <= now) {
-                over.add(alarm.alarm());
+            if (alarm.state() == AlarmState.CLOSED) {
+                closed.add(alarm);
             }
         });
-        for (String id : over) {
-            records.alarms().put(id, null);
-            outbox.put(Topics.ALARMS, id, null);
+        closed.sort(Comparator.comparingLong(Alarm::changed).reversed());
+        for (int i = 0; i < closed.size(); i++) {
+            if (i >= MAX_CLOSED || closed.get(i).changed() + CLOSED_KEPT.toMillis() <= now) {
+                records.alarms().put(closed.get(i).alarm(), null);
+                outbox.put(Topics.ALARMS, closed.get(i).alarm(), null);
+            }
         }
         List<String> passed = new ArrayList<>();
         records.mutes().forEach(mute -> {
@@ -140,6 +217,12 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
             }
         });
         passed.forEach(key -> records.mutes().put(key, null));
+    }
+
+    /** Null where there is none that is not closed. */
+    private Alarm current(AlarmKind kind, String subject) {
+        String known = records.current().get(Cause.key(kind, subject));
+        return known == null ? null : records.alarms().get(known);
     }
 
     /** A list, because the records change while one goes through it. */
@@ -160,13 +243,18 @@ public final class AlarmDesk implements Desk<AlarmCommand> {
         try {
             return AlarmLife.next(alarm, event, now);
         } catch (RefusedException e) {
-            throw new IllegalStateException("an alarm that is not closed takes all but a second acknowledgement", e);
+            throw new IllegalStateException("an alarm that is not closed takes all but what people ask of it", e);
         }
     }
 
     private void keep(Alarm alarm) {
+        boolean known = records.alarms().get(alarm.alarm()) != null;
+        boolean closed = alarm.state() == AlarmState.CLOSED;
+        if (!known || closed) {
+            limit.changed(alarm, closed ? -1 : 1);
+        }
         records.alarms().put(alarm.alarm(), alarm);
-        records.current().put(alarm.key(), alarm.state() == AlarmState.CLOSED ? null : alarm.alarm());
+        records.current().put(alarm.key(), closed ? null : alarm.alarm());
         outbox.put(Topics.ALARMS, alarm.alarm(), alarm.toBytes());
     }
 }

@@ -9,13 +9,23 @@ public sealed interface AlarmEvent {
      */
     record Repeated(Long until) implements AlarmEvent {}
 
+    /**
+     * How it is with the many that a group alarm stands for.
+     *
+     * @param inhibitedBy id of the alarm that says more; null where none does
+     */
+    record Reported(Cause cause, String inhibitedBy) implements AlarmEvent {}
+
     /** @param reason why it is over */
     record Ended(String reason) implements AlarmEvent {}
 
-    /** @param user who looks at it; null where nobody says so */
+    /** A user asks to close it. @param user null where none is named */
+    record Dismissed(String user) implements AlarmEvent {}
+
+    /** @param user null where none is named */
     record Acknowledged(String user) implements AlarmEvent {}
 
-    /** @param until when it is told again, epoch ms */
+    /** @param until end of the mute, epoch ms */
     record Muted(long until) implements AlarmEvent {}
 
     record Unmuted() implements AlarmEvent {}

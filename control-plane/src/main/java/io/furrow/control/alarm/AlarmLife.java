@@ -1,10 +1,18 @@
 package io.furrow.control.alarm;
 
+import java.time.Duration;
+import java.util.Objects;
+
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 
 /** The life of an alarm: open, acknowledged, closed. Pure: an alarm, what happens, the alarm after that. */
 final class AlarmLife {
+    /** A cause that was seen within this time is taken to last, so that its alarm cannot be closed by hand. */
+    static final Duration CAUSE_LASTS = Duration.ofMinutes(1);
+    /** The least time between two updates of a group alarm whose extent changes all the time. */
+    static final Duration UPDATE_INTERVAL = Duration.ofSeconds(10);
+
     private AlarmLife() {}
 
     /**
@@ -20,9 +28,13 @@ final class AlarmLife {
             throw wrongState(alarm);
         }
         if (event instanceof AlarmEvent.Repeated repeated) {
-            return alarm.repeated(repeated.until());
+            return alarm.repeated(repeated.until(), now);
+        } else if (event instanceof AlarmEvent.Reported reported) {
+            return reported(alarm, reported, now);
         } else if (event instanceof AlarmEvent.Ended ended) {
             return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), ended.reason(), now);
+        } else if (event instanceof AlarmEvent.Dismissed by) {
+            return dismissed(alarm, by.user(), now);
         } else if (event instanceof AlarmEvent.Acknowledged by) {
             if (!alarm.state().canBecome(AlarmState.ACKNOWLEDGED)) {
                 throw wrongState(alarm);
@@ -32,6 +44,29 @@ final class AlarmLife {
             return alarm.muted(muted.until(), now);
         }
         return alarm.mutedUntil() == null ? alarm : alarm.muted(null, now);
+    }
+
+    private static Alarm reported(Alarm alarm, AlarmEvent.Reported reported, long now) {
+        boolean inhibition = !Objects.equals(alarm.inhibitedBy(), reported.inhibitedBy());
+        boolean extent = !alarm.says(reported.cause()) && now - alarm.changed() >= UPDATE_INTERVAL.toMillis();
+        if (!inhibition && !extent) {
+            return alarm;
+        }
+        Alarm updated = alarm.updated(reported.cause(), now);
+        return inhibition ? updated.inhibited(reported.inhibitedBy(), now) : updated;
+    }
+
+    private static Alarm dismissed(Alarm alarm, String user, long now) throws RefusedException {
+        Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
+        if (alarm.isOfGroup() || ago != null && ago.compareTo(CAUSE_LASTS) < 0) {
+            String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
+            throw new RefusedException(
+                    ErrorCode.WRONG_STATE,
+                    "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."
+                            .formatted(alarm.alarm(), alarm.text(), seen));
+        }
+        String by = user == null ? "somebody" : user;
+        return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), "closed by " + by, now);
     }
 
     private static Alarm afterTime(Alarm alarm, long now) {

@@ -26,13 +26,15 @@ public final class AlarmManager {
     private static final String CURRENT = "current-alarms";
     private static final String MUTES = "alarm-mutes";
     private static final String SEQUENCE = "alarm-sequence";
+    private static final String GROUPS = "alarm-groups";
+    private static final String COUNTED = "alarm-counted";
     private static final ManagerTopic<AlarmCommand> TOPIC = ManagerTopic.ALARM;
 
     private AlarmManager() {}
 
     /** Stores that whoever uses {@link #desk} needs. */
     public static List<String> stores() {
-        return List.of(ALARMS, CURRENT, MUTES, SEQUENCE);
+        return List.of(ALARMS, CURRENT, MUTES, SEQUENCE, GROUPS, COUNTED);
     }
 
     /** Alarms as they are in the stores of a processor. */
@@ -40,7 +42,9 @@ public final class AlarmManager {
         AlarmRecords records = new AlarmRecords(
                 StoreRecords.of(context, ALARMS, Alarm.class),
                 StoreRecords.of(context, CURRENT, String.class),
-                StoreRecords.of(context, MUTES, AlarmRecords.Mute.class));
+                StoreRecords.of(context, MUTES, AlarmRecords.Mute.class),
+                StoreRecords.of(context, GROUPS, AlarmLimit.Group.class),
+                StoreRecords.of(context, COUNTED, AlarmLimit.Counted.class));
         return new AlarmDesk(records, new Sequence(StoreRecords.of(context, SEQUENCE, Long.class)), outbox);
     }
 

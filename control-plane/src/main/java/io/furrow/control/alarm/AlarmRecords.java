@@ -8,8 +8,15 @@ import io.furrow.control.manager.Records;
  * @param alarms by id; closed ones for a while
  * @param current ids of those that are not closed, by kind and subject
  * @param mutes until when, epoch ms, by kind and subject; no subject stands for all of a kind
+ * @param groups how many alarms and causes without an alarm there are, by kind and group
+ * @param counted causes without an alarm, by kind and subject
  */
-record AlarmRecords(Records<Alarm> alarms, Records<String> current, Records<Mute> mutes) {
+record AlarmRecords(
+        Records<Alarm> alarms,
+        Records<String> current,
+        Records<Mute> mutes,
+        Records<AlarmLimit.Group> groups,
+        Records<AlarmLimit.Counted> counted) {
     /**
      * That nobody is told of alarms, those to come too.
      *

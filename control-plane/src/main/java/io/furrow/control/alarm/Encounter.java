@@ -48,6 +48,11 @@ public record Encounter(
         return List.of(first, second);
     }
 
+    /** Of the first that is on one; empty where neither is. */
+    String mission() {
+        return first.mission().isEmpty() ? second.mission() : first.mission();
+    }
+
     /** For people. */
     String metres() {
         double said = Double.isNaN(minDistance) ? distance : minDistance;

@@ -16,8 +16,8 @@ public enum Severity {
 
     static Severity of(AlarmKind kind) {
         return switch (kind) {
-            case COLLISION -> CRITICAL;
-            case PREDICTED_ENCOUNTER -> MAJOR;
+            case COLLISION, SILENT_FARM -> CRITICAL;
+            case PREDICTED_ENCOUNTER, SILENT_MISSION -> MAJOR;
             case SILENT_DEVICE -> MINOR;
             case SUSPECT_SENSOR -> WARNING;
         };

@@ -3,32 +3,56 @@ package io.furrow.control.alarm;
 import java.io.IOException;
 import java.time.Clock;
 import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.Map;
 import java.util.Set;
+import java.util.concurrent.Executor;
+import java.util.concurrent.RejectedExecutionException;
 import java.util.function.Consumer;
+import java.util.function.Function;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
-import io.furrow.model.control.AlarmKind;
 
 /**
- * Sends {@code Stop} to the robots of a predicted encounter, once when that is new. This is no safety function: messages may be
- * late or lost, a robot may not obey, and positions may be wrong. Every attempt is on the audit topic, and so is what was left
- * undone: a prediction that is older than ten seconds, a device of which the type is not known.
+ * Sends {@code Stop} to the robots of a predicted encounter, one to each. This is no safety function: messages may be late or lost, a
+ * robot may not obey, and positions may be wrong. Every attempt is on the audit topic, and so is what was left undone: a prediction
+ * that is older than ten seconds in event time, a device of unknown type. Where all attempts failed, the next record
+ * of the same prediction begins anew.
+ *
+ * <p>Deciding never waits; the sending is done by the executor.
  */
-public final class StopRobots implements AlarmFollower.Action {
+public final class StopRobots {
     static final Duration FRESH = Duration.ofSeconds(10);
     static final int ATTEMPTS = 3;
+    static final int MAX_REMEMBERED = 10_000;
+    static final String USER = "alarms";
+    static final String STOP = "Stop";
+    static final String DEVICE = "device";
+    static final String ENCOUNTER = "encounter";
 
-    private static final String USER = "alarms";
-    private static final String STOP = "Stop";
+    private static final String PREDICTED = "predicted";
     private static final Duration PAUSE = Duration.ofMillis(500);
+    private static final String SENT = "sent";
 
     private final Settings settings;
+    private final Function<String, String> types;
     private final Consumer<AuditEntry> audit;
+    private final Executor executor;
     private final Clock clock;
+    /** What was done, or why not, by encounter and device; the oldest is forgotten. */
+    private final Map<String, String> handled = new LinkedHashMap<>() {
+        private static final long serialVersionUID = 1L;
+
+        @Override
+        protected boolean removeEldestEntry(Map.Entry<String, String> eldest) {
+            return size() > MAX_REMEMBERED;
+        }
+    };
 
     /**
      * Who is stopped, and how.
@@ -41,39 +65,86 @@ public final class StopRobots implements AlarmFollower.Action {
         }
     }
 
-    StopRobots(Settings settings, Consumer<AuditEntry> audit, Clock clock) {
+    /** @param types of what type an entity is, by tenant, service path and id; null where that is not known */
+    StopRobots(
+            Settings settings,
+            Function<String, String> types,
+            Consumer<AuditEntry> audit,
+            Executor executor,
+            Clock clock) {
         this.settings = settings;
+        this.types = types;
         this.audit = audit;
+        this.executor = executor;
         this.clock = clock;
     }
 
-    @Override
-    public void take(Alarm alarm) throws InterruptedException {
-        if (alarm.kind() != AlarmKind.PREDICTED_ENCOUNTER || alarm.change() != Alarm.Change.OPENED) {
+    /** An entry of the audit topic: a Stop that was sent, perhaps by another instance, is not sent again. */
+    void remember(JsonNode entry) {
+        if (STOP.equals(entry.path("command").textValue())
+                && USER.equals(entry.path("user").textValue())
+                && SENT.equals(entry.path("result").textValue())) {
+            JsonNode about = entry.path("about");
+            put(key(about.path(ENCOUNTER).asText(), about.path(DEVICE).asText()), SENT);
+        }
+    }
+
+    /** @param time event time of the prediction, epoch ms */
+    void take(Encounter encounter, long time) {
+        if (!encounter.phase().equals(PREDICTED)) {
             return;
         }
-        boolean fresh = clock.millis() - alarm.raised() <= FRESH.toMillis();
-        for (Cause.Device device : alarm.devices()) {
-            if (device.type() == null) {
-                note(alarm, device, "nobody knows what type of entity it is; put it on a mission");
-            } else if (settings.types().contains(device.type())) {
-                note(
-                        alarm,
-                        device,
-                        fresh ? stop(device) : "the prediction was older than %d s".formatted(FRESH.toSeconds()));
+        for (Encounter.Member member : encounter.members()) {
+            String type = types.apply(encounter.scope().identity(member.id()));
+            if (type == null) {
+                leave(encounter, member, "the type of its entity is unknown; add it to a mission");
+            } else if (settings.types().contains(type)) {
+                decide(encounter, member, type, time);
             }
         }
     }
 
+    private void decide(Encounter encounter, Encounter.Member robot, String type, long time) {
+        if (!isFresh(time)) {
+            leave(encounter, robot, stale());
+        } else if (!SENT.equals(put(key(encounter.id(), robot.id()), SENT))) {
+            try {
+                executor.execute(() -> stop(encounter, robot, type, time));
+            } catch (RejectedExecutionException e) {
+                forget(encounter, robot);
+                leave(encounter, robot, "too many robots are being stopped at once");
+            }
+        }
+    }
+
+    private void stop(Encounter encounter, Encounter.Member robot, String type, long time) {
+        String failure = "it was not tried";
+        try {
+            failure = tryToStop(robot, type, time);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            failure = "the control plane was stopped meanwhile";
+        } catch (RuntimeException e) { // whatever it is, it belongs on the audit topic
+            failure = e.toString();
+        }
+        if (failure != null) {
+            forget(encounter, robot);
+        }
+        note(encounter, robot, failure);
+    }
+
     /** Answers why it failed, null where the context broker took it. */
-    private String stop(Cause.Device device) throws InterruptedException {
+    private String tryToStop(Encounter.Member robot, String type, long time) throws InterruptedException {
         String failure = null;
         for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
             if (attempt > 1) {
                 Thread.sleep(PAUSE.toMillis());
             }
+            if (!isFresh(time)) {
+                return failure == null ? stale() : stale() + " after this: " + failure;
+            }
             try {
-                settings.sender().send(device.id(), device.type(), STOP, "");
+                settings.sender().send(robot.id(), type, STOP, "");
                 return null;
             } catch (IOException e) {
                 failure = e.getMessage();
@@ -82,9 +153,46 @@ public final class StopRobots implements AlarmFollower.Action {
         return failure;
     }
 
-    private void note(Alarm alarm, Cause.Device device, String failure) {
+    private boolean isFresh(long time) {
+        return clock.millis() - time <= FRESH.toMillis();
+    }
+
+    private static String stale() {
+        return "the prediction was older than %d s".formatted(FRESH.toSeconds());
+    }
+
+    /** Audits once that it was left undone. */
+    private void leave(Encounter encounter, Encounter.Member member, String reason) {
+        String key = key(encounter.id(), member.id());
+        synchronized (handled) {
+            String before = handled.get(key);
+            if (SENT.equals(before) || reason.equals(before)) {
+                return;
+            }
+            handled.put(key, reason);
+        }
+        note(encounter, member, reason);
+    }
+
+    private void note(Encounter encounter, Encounter.Member member, String failure) {
         ObjectNode about = JsonNodeFactory.instance.objectNode();
-        about.put("device", device.id()).put("alarm", alarm.alarm());
+        about.put(DEVICE, member.id()).put(ENCOUNTER, encounter.id());
         audit.accept(AuditEntry.ofDevice(clock.millis(), USER, STOP, about, failure));
+    }
+
+    private void forget(Encounter encounter, Encounter.Member robot) {
+        synchronized (handled) {
+            handled.remove(key(encounter.id(), robot.id()));
+        }
+    }
+
+    private String put(String key, String what) {
+        synchronized (handled) {
+            return handled.put(key, what);
+        }
+    }
+
+    private static String key(String encounter, String device) {
+        return encounter + "|" + device;
     }
 }

@@ -7,7 +7,8 @@ import java.util.function.Function;
 import io.furrow.model.control.AlarmKind;
 
 /**
- * Makes alarms of encounters. A collision lasts until the encounter has ended. There is no record of the end of a prediction:
+ * Makes alarms of encounters. A collision lasts until the encounter has ended; whatever says that it goes on raises it too, where it
+ * was closed by hand or began before anybody watched. There is no record of the end of a prediction:
  * it is over when it is not told again for a while, or when it came true.
  */
 public final class WatchEncounters {
@@ -33,6 +34,7 @@ public final class WatchEncounters {
                 alarms.end(AlarmKind.PREDICTED_ENCOUNTER, pair, "it came true", now);
                 alarms.raise(cause(AlarmKind.COLLISION, encounter, null), now);
             }
+            case "ongoing" -> alarms.raise(cause(AlarmKind.COLLISION, encounter, null), now);
             case "ended" -> alarms.end(AlarmKind.COLLISION, pair, "the encounter has ended", now);
             case "predicted" -> alarms.raise(cause(AlarmKind.PREDICTED_ENCOUNTER, encounter, predictionHolds), now);
             default -> {} // the others neither begin nor end anything
@@ -46,10 +48,12 @@ public final class WatchEncounters {
                         member.id(), types.apply(encounter.scope().identity(member.id()))))
                 .toList();
         return new Cause(
-                kind,
-                encounter.pair(),
-                text.formatted(encounter.first().id(), encounter.second().id(), encounter.metres()),
-                devices,
-                holds);
+                        kind,
+                        encounter.pair(),
+                        text.formatted(
+                                encounter.first().id(), encounter.second().id(), encounter.metres()),
+                        devices,
+                        holds)
+                .inGroup(AlarmGroup.of(encounter.mission(), ""));
     }
 }

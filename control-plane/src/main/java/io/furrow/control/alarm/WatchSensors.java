@@ -27,7 +27,8 @@ public final class WatchSensors {
             String text = "%s shows what the others in field %s do not".formatted(suspect, window.field());
             Cause.Device device = new Cause.Device(suspect, types.apply(scope.identity(suspect)));
             Duration atLeast = holds.compareTo(LEAST) < 0 ? LEAST : holds;
-            alarms.raise(new Cause(AlarmKind.SUSPECT_SENSOR, suspect, text, List.of(device), atLeast), now);
+            Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, suspect, text, List.of(device), atLeast);
+            alarms.raise(cause.inGroup(AlarmGroup.ofField(window.field())), now);
         }
     }
 }

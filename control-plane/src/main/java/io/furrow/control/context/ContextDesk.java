@@ -6,6 +6,7 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.Objects;
 import java.util.TreeSet;
+import java.util.concurrent.atomic.AtomicInteger;
 
 import io.furrow.control.alarm.Encounter;
 import io.furrow.control.alarm.FieldWindow;
@@ -42,7 +43,7 @@ final class ContextDesk {
 
     /** @param domain null where it was deleted */
     void domain(String name, Domain domain) {
-        records.domains().put(name, domain);
+        records.domains().put(name, domain == null ? null : domain.withoutArea());
         outdate(ContextEntity.domainId(name));
     }
 
@@ -135,10 +136,10 @@ final class ContextDesk {
     }
 
     private EntityBuilder entity(Domain domain) {
-        List<String> missions = new ArrayList<>();
+        AtomicInteger missions = new AtomicInteger();
         records.missions().forEach(mission -> {
             if (mission.domain().equals(domain.domain())) {
-                missions.add(mission.mission());
+                missions.incrementAndGet();
             }
         });
         List<FieldState> fields = new ArrayList<>();
@@ -147,7 +148,7 @@ final class ContextDesk {
                 fields.add(field);
             }
         });
-        return ContextEntity.of(domain, missions, fields);
+        return ContextEntity.of(domain, missions.get(), fields);
     }
 
     /** As the domain says, or as the field does. */

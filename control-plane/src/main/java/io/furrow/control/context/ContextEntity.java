@@ -1,6 +1,5 @@
 package io.furrow.control.context;
 
-import java.util.ArrayList;
 import java.util.List;
 import java.util.TreeSet;
 
@@ -10,13 +9,15 @@ import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.mission.Mission;
+import io.furrow.control.mission.MissionState;
 import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
 /**
  * Domains and missions as entities, {@code urn:ngsi-ld:Domain:<name>} and {@code urn:ngsi-ld:Mission:<name>}. An entity always has
- * all of its attributes, null where there is nothing to say, so that no older value stands beside a newer one.
+ * all of its attributes, null where there is nothing to say, so that no older value stands beside a newer one. It counts what there may be
+ * many of, and lists none: an entity stays small whatever a mission holds.
  */
 final class ContextEntity {
     private static final String DOMAIN = "Domain";
@@ -35,15 +36,17 @@ final class ContextEntity {
     }
 
     /**
-     * @param missions names of those that there are in it
+     * @param missions how many there are in it
      * @param fields what is known of its fields
      */
-    static EntityBuilder of(Domain domain, List<String> missions, List<FieldState> fields) {
+    static EntityBuilder of(Domain domain, int missions, List<FieldState> fields) {
         EntityBuilder entity = Entity.builder(domainId(domain.domain()), DOMAIN);
         freeText(entity, "name", domain.name() == null ? domain.domain() : domain.name());
         freeText(entity, "description", domain.description());
-        entity.texts("fields", domain.fields() == null ? List.of() : domain.fields())
-                .texts("missions", missions);
+        entity.integer(
+                        "fieldCount",
+                        domain.fields() == null ? 0 : domain.fields().size())
+                .integer("missionCount", missions);
         number(
                 entity,
                 "averageTemperature",
@@ -57,7 +60,7 @@ final class ContextEntity {
                         .orElse(null));
         TreeSet<String> suspects = new TreeSet<>();
         fields.forEach(field -> suspects.addAll(field.suspects()));
-        return entity.texts("suspects", suspects)
+        return entity.integer("suspectCount", suspects.size())
                 .integer("created", domain.created())
                 .integer("changed", domain.changed());
     }
@@ -69,11 +72,7 @@ final class ContextEntity {
                 .text("domain", mission.domain())
                 .text("status", status == null ? "created" : status.state().word())
                 .number("progress", status == null ? 0 : progress(status));
-        List<String> missing = new ArrayList<>();
-        if (status != null) {
-            status.missing().forEach(device -> missing.add(device.id()));
-        }
-        entity.texts("devices", mission.deviceIds()).texts("missing", missing);
+        entity.integer("deviceCount", mission.deviceCount()).integer("missingCount", missing(status));
         freeText(entity, "reason", status == null ? null : status.reason());
         freeText(entity, "template", mission.template());
         time(entity, "start", mission.start());
@@ -87,6 +86,12 @@ final class ContextEntity {
     /** Share of its devices that are as wanted; 1 where it has none. */
     private static double progress(MissionStatus status) {
         return status.devices() == 0 ? 1 : (double) status.confirmed() / status.devices();
+    }
+
+    /** Hosted devices that are not as they are wanted; 0 while it starts, stops or does not run. */
+    private static int missing(MissionStatus status) {
+        boolean runs = status != null && status.state() == MissionState.RUNNING;
+        return runs ? status.devices() - status.confirmed() : 0;
     }
 
     private static void freeText(EntityBuilder entity, String name, String value) {

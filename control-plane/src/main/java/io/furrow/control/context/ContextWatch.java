@@ -6,7 +6,6 @@ import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.function.BiFunction;
 import java.util.function.Function;
 
 import org.apache.kafka.streams.AutoOffsetReset;
@@ -14,6 +13,7 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.KStream;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.ProcessorSupplier;
 import org.apache.kafka.streams.processor.api.Record;
 
 import io.furrow.control.alarm.Encounter;
@@ -22,7 +22,6 @@ import io.furrow.control.domain.Domain;
 import io.furrow.control.manager.Inlet;
 import io.furrow.control.manager.ObserveRecords;
 import io.furrow.control.manager.ObserveRecords.Observer;
-import io.furrow.control.manager.Outbox;
 import io.furrow.control.manager.Outgoing;
 import io.furrow.control.manager.RecordScope;
 import io.furrow.control.manager.StateJson;
@@ -83,13 +82,13 @@ public final class ContextWatch {
                 watch.wanted(Topics.MISSIONS_STATUS, "mission-statuses"),
                 desk -> (record, now) -> desk.status(record.key(), read(record, MissionStatus.class)));
 
-        watch.send("encounters", results.collisions(), desk -> (record, now) -> {
+        watch.sendResults("encounters", results.collisions(), desk -> (record, now) -> {
             if (record.value() != null) {
                 desk.encounter(Encounter.read(record.value(), RecordScope.of(record)));
             }
         });
 
-        watch.send("fields", results.temperatures(), desk -> (record, now) -> {
+        watch.sendResults("fields", results.temperatures(), desk -> (record, now) -> {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
             if (window != null) {
                 desk.window(window, now);
@@ -102,13 +101,20 @@ public final class ContextWatch {
     }
 
     private void send(String name, KStream<String, byte[]> records, Function<ContextDesk, Observer> observing) {
-        BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening =
-                (context, outbox) -> observing.apply(desk(context));
+        send(name, records, () -> new ObserveRecords((context, outbox) -> observing.apply(desk(context))));
+    }
+
+    /** Results have dead letters already, of the processors that make alarms of them. */
+    private void sendResults(String name, KStream<String, byte[]> results, Function<ContextDesk, Observer> observing) {
+        send(name, results, () -> ObserveRecords.besideAnother((context, outbox) -> observing.apply(desk(context))));
+    }
+
+    private void send(
+            String name,
+            KStream<String, byte[]> records,
+            ProcessorSupplier<String, byte[], String, Outgoing> observers) {
         Outgoing.send(
-                records.process(
-                        () -> new ObserveRecords(opening),
-                        Named.as("context-of-" + name),
-                        STORES.toArray(String[]::new)),
+                records.process(observers, Named.as("context-of-" + name), STORES.toArray(String[]::new)),
                 "context-of-" + name + "-out");
     }
 

@@ -8,6 +8,10 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionException;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.Semaphore;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -18,17 +22,23 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Sends commands as updates of the command's attribute at the context broker, which hands them to the IoT Agent. A robot that
- * FIROS speaks for has one attribute for all, {@code cmd}, whose value is the command.
+ * FIROS speaks for has one attribute for all, {@code cmd}, whose value is the command; one that has none yet is given it, where an
+ * update would be refused.
  */
 public final class DeviceCommands implements CommandSender {
-    private static final Duration PATIENCE = Duration.ofSeconds(5);
+    private static final Duration TIMEOUT = Duration.ofSeconds(5);
+    /** Commands that may wait for the context broker at a time. */
+    private static final int MAX_PENDING = 64;
+
     private static final String ROBOT = "Robot";
     private static final int LONGEST_QUOTE = 200;
+    private static final int NOT_FOUND = 404;
 
+    private final Semaphore pending = new Semaphore(MAX_PENDING);
     private final URI contextBroker;
     private final FiwareScope scope;
     private final HttpClient client =
-            HttpClient.newBuilder().connectTimeout(PATIENCE).build();
+            HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
 
     /**
      * @param contextBroker for instance {@code http://localhost:1026}
@@ -39,13 +49,73 @@ public final class DeviceCommands implements CommandSender {
         this.scope = scope;
     }
 
+    /**
+     * A command to a device, as {@link CommandSender#send} has it.
+     *
+     * @param value empty for nothing
+     */
+    public record Order(String deviceId, String type, String command, String value) {}
+
     @Override
     public void send(String deviceId, String type, String command, String value)
             throws IOException, InterruptedException {
-        HttpResponse<byte[]> answer = exchange(request(deviceId, type, body(type, command, value)));
+        HttpResponse<byte[]> answer;
+        Order order = new Order(deviceId, type, command, value);
+        try {
+            answer = client.send(request(order), HttpResponse.BodyHandlers.ofByteArray());
+        } catch (IOException e) {
+            throw away(e);
+        }
+        check(order, answer);
+    }
+
+    /**
+     * The same without waiting for it.
+     *
+     * @return completes once the context broker has taken the command, exceptionally with the {@link IOException} of {@link
+     *     CommandSender#send}, or at once with {@link RejectedExecutionException} where too many commands wait for it
+     */
+    public CompletableFuture<Void> send(Order order) {
+        if (!pending.tryAcquire()) {
+            return CompletableFuture.failedFuture(new RejectedExecutionException(
+                    "%d commands wait for the context broker at %s".formatted(MAX_PENDING, contextBroker)));
+        }
+        return client.sendAsync(request(order), HttpResponse.BodyHandlers.ofByteArray())
+                .whenComplete((answer, failure) -> pending.release())
+                .handle((answer, failure) -> {
+                    try {
+                        if (failure != null) {
+                            throw away(failure instanceof CompletionException ? failure.getCause() : failure);
+                        }
+                        check(order, answer);
+                        return null;
+                    } catch (IOException e) {
+                        throw new CompletionException(e);
+                    }
+                });
+    }
+
+    private IOException away(Throwable failure) {
+        return new IOException(
+                "The context broker at %s does not answer (%s). Check that it runs, and whether the device obeyed."
+                        .formatted(contextBroker, failure),
+                failure);
+    }
+
+    private void check(Order order, HttpResponse<byte[]> answer) throws IOException {
+        if (answer.statusCode() == NOT_FOUND) {
+            throw new IOException(
+                    "The context broker at %s knows no entity %s of type %s, so '%s' cannot be sent; a device takes commands once it has reported. Check that it reports."
+                            .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
+        }
         if (answer.statusCode() / 100 != 2) {
             throw new IOException("The context broker at %s refused '%s' for %s with %d: %s"
-                    .formatted(contextBroker, command, deviceId, answer.statusCode(), said(answer.body())));
+                    .formatted(
+                            contextBroker,
+                            order.command(),
+                            order.deviceId(),
+                            answer.statusCode(),
+                            said(answer.body())));
         }
     }
 
@@ -64,29 +134,21 @@ public final class DeviceCommands implements CommandSender {
         return body;
     }
 
-    private HttpRequest request(String deviceId, String type, ObjectNode body) {
+    private HttpRequest request(Order order) {
+        String deviceId = order.deviceId();
+        String type = order.type();
+        ObjectNode body = body(type, order.command(), order.value());
         String query = isRobot(type) ? "" : "?type=" + encoded(type);
         HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("%s/v2/entities/%s/attrs%s"
                         .formatted(contextBroker.toString().replaceAll("/+$", ""), encoded(deviceId), query)))
-                .timeout(PATIENCE)
+                .timeout(TIMEOUT)
                 .header("Content-Type", "application/json")
                 .header("Fiware-Servicepath", scope.servicePath())
-                .method("PATCH", HttpRequest.BodyPublishers.ofByteArray(NgsiJson.write(body)));
+                .method(isRobot(type) ? "POST" : "PATCH", HttpRequest.BodyPublishers.ofByteArray(NgsiJson.write(body)));
         if (!scope.service().isEmpty()) {
             request.header("Fiware-Service", scope.service());
         }
         return request.build();
-    }
-
-    private HttpResponse<byte[]> exchange(HttpRequest request) throws IOException, InterruptedException {
-        try {
-            return client.send(request, HttpResponse.BodyHandlers.ofByteArray());
-        } catch (IOException e) {
-            throw new IOException(
-                    "The context broker at %s does not answer (%s). Check that it runs, and whether the device obeyed."
-                            .formatted(contextBroker, e),
-                    e);
-        }
     }
 
     /** What NGSI errors have as {@code description}. */

@@ -38,6 +38,11 @@ public record Domain(
         return new Domain(domain, all.name(), all.description(), all.area(), all.fields(), created, now, newSequence);
     }
 
+    /** The same for readers who need no area, which is most of what a domain takes. */
+    public Domain withoutArea() {
+        return new Domain(domain, name, description, null, fields, created, changed, sequence);
+    }
+
     byte[] toBytes() {
         return StateJson.write(this);
     }

@@ -3,6 +3,7 @@ package io.furrow.control.domain;
 import java.util.List;
 
 import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.DomainCommand;
@@ -16,12 +17,22 @@ public final class DomainDesk {
     private final Records<Domain> domains;
     private final DomainMissions missions;
     private final Sequence sequence;
+    private final Quota quota;
     private final Outbox outbox;
 
-    public DomainDesk(Records<Domain> domains, DomainMissions missions, Sequence sequence, Outbox outbox) {
+    /**
+     * What is shared with missions.
+     *
+     * @param sequence of all that is wanted
+     * @param quota room for all definitions
+     */
+    record Means(Sequence sequence, Quota quota) {}
+
+    DomainDesk(Records<Domain> domains, DomainMissions missions, Means means, Outbox outbox) {
         this.domains = domains;
         this.missions = missions;
-        this.sequence = sequence;
+        this.sequence = means.sequence();
+        this.quota = means.quota();
         this.outbox = outbox;
     }
 
@@ -35,24 +46,25 @@ public final class DomainDesk {
             throw new RefusedException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + command.domain() + "'");
         }
         if (command instanceof DomainCommand.Change change) {
-            keep(known.changed(change.details(), now, sequence.next()));
+            keep(known, known.changed(change.details(), now, sequence.next()));
             return about(known.domain(), "changed");
         }
-        delete(known.domain(), ((DomainCommand.Delete) command).force(), now);
+        delete(known, ((DomainCommand.Delete) command).force(), now);
         return Response.of("deleted").with("domain", known.domain());
     }
 
     private Response create(DomainCommand.Create create, long now) throws RefusedException {
-        if (domains.get(create.domain()) != null) {
+        if (domains.contains(create.domain())) {
             throw new RefusedException(
                     ErrorCode.DOMAIN_EXISTS,
                     "there is a domain '%s' already; 'change' changes it".formatted(create.domain()));
         }
-        keep(Domain.of(create.domain(), create.details(), now, sequence.next()));
+        keep(null, Domain.of(create.domain(), create.details(), now, sequence.next()));
         return about(create.domain(), "created");
     }
 
-    private void delete(String domain, boolean force, long now) throws RefusedException {
+    private void delete(Domain known, boolean force, long now) throws RefusedException {
+        String domain = known.domain();
         List<String> active = missions.activeIn(domain);
         if (!active.isEmpty() && !force) {
             throw new RefusedException(
@@ -61,13 +73,17 @@ public final class DomainDesk {
                             .formatted(active.size(), domain, active.get(0)));
         }
         active.forEach(mission -> missions.stop(mission, now));
+        quota.use(-known.toBytes().length);
         domains.put(domain, null);
         outbox.put(Topics.DOMAINS, domain, null);
     }
 
-    private void keep(Domain domain) {
+    /** @param before null where there was none */
+    private void keep(Domain before, Domain domain) throws RefusedException {
+        byte[] value = domain.toBytes();
+        quota.replace(before == null ? null : before.toBytes(), value);
         domains.put(domain.domain(), domain);
-        outbox.put(Topics.DOMAINS, domain.domain(), domain.toBytes());
+        outbox.put(Topics.DOMAINS, domain.domain(), value);
     }
 
     private static Response about(String domain, String status) {

@@ -16,10 +16,12 @@ import io.furrow.control.manager.Inlet;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.Outbox;
 import io.furrow.control.manager.Outgoing;
+import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StoreRecords;
 import io.furrow.model.control.DomainCommand;
+import io.furrow.model.control.Limits;
 
 /**
  * Answers {@code service.domainmanager} and keeps {@code service.domains}. It shares its stores with the manager of missions, in one
@@ -31,6 +33,12 @@ public final class DomainManager {
     private static final ManagerTopic<DomainCommand> TOPIC = ManagerTopic.DOMAIN;
 
     private DomainManager() {}
+
+    /** Domains as they are in the stores of a processor. */
+    public static DomainDesk desk(ProcessorContext<?, ?> context, DomainMissions missions, Outbox outbox) {
+        return new DomainDesk(
+                domains(context), missions, new DomainDesk.Means(sequence(context), quota(context)), outbox);
+    }
 
     /** Stores that others may use. */
     public static List<String> stores() {
@@ -47,6 +55,11 @@ public final class DomainManager {
         return new Sequence(StoreRecords.of(context, SEQUENCE, Long.class));
     }
 
+    /** Room for all definitions of domains, missions and templates together. */
+    public static Quota quota(ProcessorContext<?, ?> context) {
+        return new Quota(StoreRecords.of(context, SEQUENCE, Long.class), Limits.DEFINITIONS_BYTES);
+    }
+
     /**
      * @param remembered how long ids of requests are
      * @param missions makes what stops missions, which needs further stores; these and {@link #stores()} are there already
@@ -57,8 +70,8 @@ public final class DomainManager {
             BiFunction<ProcessorContext<?, ?>, Outbox, DomainMissions> missions,
             List<String> storesOfMissions) {
         builder.addStateStore(AnsweredRequests.builder(TOPIC.answers(), remembered));
-        BiFunction<ProcessorContext<?, ?>, Outbox, Desk<DomainCommand>> opening = (context, outbox) ->
-                new DomainDesk(domains(context), missions.apply(context, outbox), sequence(context), outbox)::answer;
+        BiFunction<ProcessorContext<?, ?>, Outbox, Desk<DomainCommand>> opening =
+                (context, outbox) -> desk(context, missions.apply(context, outbox), outbox)::answer;
         String[] stores = Stream.of(stores(), storesOfMissions, List.of(TOPIC.answers()))
                 .flatMap(List::stream)
                 .toArray(String[]::new);

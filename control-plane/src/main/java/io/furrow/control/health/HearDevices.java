@@ -26,10 +26,14 @@ import io.furrow.model.ngsi.UnreadableException;
 final class HearDevices extends ContextualProcessor<String, byte[], String, byte[]> {
     private static final Logger LOG = LoggerFactory.getLogger(HearDevices.class);
     private static final Duration TICK = Duration.ofSeconds(1);
+    /** How exactly it is known since when nothing arrives. */
+    private static final Duration PULSE = Duration.ofSeconds(5);
+
     private static final Set<String> ATTRIBUTES = Set.of(Battery.ATTRIBUTE, Listener.STATUS);
 
     private final HealthOptions options;
     private Listener listener;
+    private long pulsed;
 
     HearDevices(HealthOptions options) {
         this.options = options;
@@ -38,11 +42,7 @@ final class HearDevices extends ContextualProcessor<String, byte[], String, byte
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        listener = new Listener(
-                options,
-                HealthWatch.wanted(context),
-                (key, sign) ->
-                        context.forward(new Record<>(key, StateJson.write(sign), context.currentSystemTimeMs())));
+        listener = new Listener(options, HealthWatch.wanted(context), this::forward);
         context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, listener::passTime);
     }
 
@@ -58,9 +58,17 @@ final class HearDevices extends ContextualProcessor<String, byte[], String, byte
         }
         try {
             Entity entity = Entity.parse(record.value(), ATTRIBUTES);
-            listener.hear(key, entity, record.timestamp(), context().currentSystemTimeMs());
+            long now = context().currentSystemTimeMs();
+            if (listener.hear(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
+                pulsed = now;
+                forward(Sign.PULSE_KEY, Sign.pulse(now));
+            }
         } catch (UnreadableException e) {
             LOG.debug("a report of {} cannot be read", record.key(), e);
         }
+    }
+
+    private void forward(String key, Sign sign) {
+        context().forward(new Record<>(key, StateJson.write(sign), context().currentSystemTimeMs()));
     }
 }

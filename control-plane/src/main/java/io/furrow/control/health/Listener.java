@@ -80,12 +80,13 @@ final class Listener {
      *
      * @param reported event time, epoch ms
      * @param now epoch ms
+     * @return whether that is a sign of life
      */
-    void hear(String key, Entity entity, long reported, long now) {
+    boolean hear(String key, Entity entity, long reported, long now) {
         Heard known = devices.get(key);
         boolean first = known.newest == null;
         if (!first && known.newest.reported() == reported) {
-            return;
+            return false;
         }
         Double battery = Battery.chargeOf(entity);
         boolean off = entity.value(STATUS)
@@ -99,6 +100,7 @@ final class Listener {
             known.silent = false;
             told.tell(key, known.newest);
         }
+        return true;
     }
 
     /** Called about once a second. After a pause, in which reports were not read either, nobody is judged before they are. */

@@ -1,32 +1,42 @@
 package io.furrow.control.manager;
 
+import java.util.Map;
+
 import org.apache.kafka.common.serialization.Serdes;
 import org.apache.kafka.streams.AutoOffsetReset;
 import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.kstream.Branched;
 import org.apache.kafka.streams.kstream.Consumed;
 import org.apache.kafka.streams.kstream.KStream;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.kstream.Repartitioned;
 
+import io.furrow.model.control.Limits;
+import io.furrow.model.ngsi.Reason;
+
 /**
  * How records come to a manager: each once, all in one line. One partition orders the requests of all clients, so that of two
- * that ask for one name the second is told; a manager therefore runs on one instance at a time.
+ * that ask for one name the second is told; a manager therefore runs on one instance at a time. What is larger than {@link
+ * Limits#RECORD_BYTES} becomes a dead letter.
  */
 public final class Inlet {
+    private static final String FITS = "-fits";
+    private static final String OVERSIZED = "-oversized";
+
     private Inlet() {}
 
     /** The requests to a manager; a missing key is empty. */
     public static KStream<String, byte[]> requests(StreamsBuilder builder, ManagerTopic<?> manager) {
         builder.addStateStore(StoreRecords.builder(manager.positions()));
-        KStream<String, byte[]> noted = builder.stream(manager.topic(), from(manager.name() + "-requests-in"))
-                .process(() -> new NoteOrigin(manager), Named.as(manager.name() + "-note-origin"));
-        return inLine(noted, manager.name() + "-requests")
+        KStream<String, byte[]> accepted = builder.stream(manager.topic(), from(manager.name() + "-requests-in"))
+                .process(() -> new AcceptRequests(manager), Named.as(manager.name() + "-accept"));
+        return inLine(accepted, manager.name() + "-requests")
                 .process(() -> new TakeOnce(manager), Named.as(manager.name() + "-take-once"), manager.positions());
     }
 
     /** A topic on which executors say what is. */
     public static KStream<String, byte[]> statuses(StreamsBuilder builder, String topic, String name) {
-        return inLine(builder.stream(topic, from(name + "-in")), name);
+        return noted(builder.stream(topic, from(name + "-in")), name);
     }
 
     /**
@@ -36,17 +46,44 @@ public final class Inlet {
      */
     public static KStream<String, byte[]> observed(
             StreamsBuilder builder, String topic, String name, AutoOffsetReset start) {
-        return inLine(builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
+        return noted(builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
+    }
+
+    private static KStream<String, byte[]> noted(KStream<String, byte[]> stream, String name) {
+        return inLine(stream.process(NoteOrigin::new, Named.as(name + "-note-origin")), name);
     }
 
     /** In the order in which they come, all on one instance at a time. */
     public static KStream<String, byte[]> inLine(KStream<String, byte[]> stream, String name) {
-        return stream.repartition(Repartitioned.with(Serdes.String(), Serdes.ByteArray())
-                .withName(name)
-                .withNumberOfPartitions(1));
+        Map<String, KStream<String, byte[]>> bySize = stream.split(Named.as(name))
+                .branch(Inlet::fits, Branched.as(FITS))
+                .defaultBranch(Branched.as(OVERSIZED));
+        Outgoing.send(
+                bySize.get(name + OVERSIZED).process(RefuseOversized::new, Named.as(name + "-refuse-oversized")),
+                name + "-oversized-out");
+        return bySize.get(name + FITS)
+                .repartition(Repartitioned.with(Serdes.String(), Serdes.ByteArray())
+                        .withName(name)
+                        .withNumberOfPartitions(1));
+    }
+
+    private static boolean fits(String key, byte[] value) {
+        return OversizedRecordException.size(key, value) <= Limits.RECORD_BYTES;
     }
 
     private static Consumed<String, byte[]> from(String name) {
         return Consumed.with(Serdes.String(), Serdes.ByteArray()).withName(name);
+    }
+
+    /** Makes a dead letter of a record that is too large to be handled. */
+    private static final class RefuseOversized
+            extends org.apache.kafka.streams.processor.api.ContextualProcessor<String, byte[], String, Outgoing> {
+        @Override
+        public void process(org.apache.kafka.streams.processor.api.Record<String, byte[]> record) {
+            String message = "a record of %d bytes; the control plane handles at most %d"
+                    .formatted(OversizedRecordException.size(record.key(), record.value()), Limits.RECORD_BYTES);
+            RecordOrigin.of(record)
+                    .ifPresent(origin -> context().forward(DeadLetters.of(record, origin, Reason.TOO_LARGE, message)));
+        }
     }
 }

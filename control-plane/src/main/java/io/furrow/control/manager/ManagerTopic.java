@@ -1,6 +1,7 @@
 package io.furrow.control.manager;
 
 import java.util.function.Function;
+import java.util.stream.Stream;
 
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.DomainCommand;
@@ -25,6 +26,12 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Receiv
             new ManagerTopic<>("replay", Topics.REPLAY_MANAGER, Requests::replay);
     public static final ManagerTopic<AlarmCommand> ALARM =
             new ManagerTopic<>("alarm", Topics.ALARM_MANAGER, Requests::alarm);
+
+    /** Whether a topic is one of those to which requests come. */
+    static boolean isManager(String topic) {
+        return Stream.of(DOMAIN, MISSION, REPLAY, ALARM)
+                .anyMatch(each -> each.topic().equals(topic));
+    }
 
     Received<C> read(byte[] value) {
         return reader.apply(value);

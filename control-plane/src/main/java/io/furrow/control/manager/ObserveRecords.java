@@ -1,26 +1,26 @@
 package io.furrow.control.manager;
 
 import java.time.Duration;
+import java.util.List;
 import java.util.function.BiFunction;
 
 import org.apache.kafka.streams.processor.PunctuationType;
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
 
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Shows an observer what other parts of Furrow wrote, deletions too, and lets it know that time passes. What cannot be read
- * is passed over with a warning: it is the business of whoever wrote it.
+ * Shows an observer what other parts of Furrow wrote, deletions too, and lets it know that time passes. What cannot be read or
+ * handled changes nothing and becomes a dead letter.
  */
 public final class ObserveRecords extends ContextualProcessor<String, byte[], String, Outgoing> {
-    private static final Logger LOG = LoggerFactory.getLogger(ObserveRecords.class);
     private static final Duration TICK = Duration.ofSeconds(1);
 
     private final BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening;
+    private final boolean first;
+    private GuardedWork work;
     private Observer observer;
 
     /** Who is shown them. */
@@ -35,24 +35,34 @@ public final class ObserveRecords extends ContextualProcessor<String, byte[], St
         default void passTime(long now) {}
     }
 
+    private ObserveRecords(BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening, boolean first) {
+        this.opening = opening;
+        this.first = first;
+    }
+
     /** @param opening makes the observer, whose stores are those of the context */
     public ObserveRecords(BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening) {
-        this.opening = opening;
+        this(opening, true);
+    }
+
+    /** The same beside another observer of the same records, which writes the dead letters of what cannot be read. */
+    public static ObserveRecords besideAnother(
+            BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening) {
+        return new ObserveRecords(opening, false);
     }
 
     @Override
     public void init(ProcessorContext<String, Outgoing> context) {
         super.init(context);
-        observer = opening.apply(context, AnswerRequests.outbox(context));
-        context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, observer::passTime);
+        work = new GuardedWork(first, context);
+        observer = opening.apply(work.context(), AnswerRequests.outbox(work.context()));
+        Punctuations punctuations = new Punctuations(work.context());
+        context.schedule(
+                TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(List.of(() -> observer.passTime(now))));
     }
 
     @Override
     public void process(Record<String, byte[]> record) {
-        try {
-            observer.take(record, context().currentSystemTimeMs());
-        } catch (UnreadableException e) {
-            LOG.warn("a record with the key {} is passed over: {}", record.key(), e.getMessage());
-        }
+        work.run(record, () -> observer.take(record, context().currentSystemTimeMs()));
     }
 }

@@ -11,6 +11,9 @@ public interface Records<T> {
     /** Null where there is none. */
     T get(String key);
 
+    /** Whether there is one, without reading it. */
+    boolean contains(String key);
+
     /** @param value null takes it away */
     void put(String key, T value);
 

@@ -47,6 +47,11 @@ public final class StoreRecords<T> implements Records<T> {
     }
 
     @Override
+    public boolean contains(String key) {
+        return store.get(key) != null;
+    }
+
+    @Override
     public void put(String key, T value) {
         store.put(key, value == null ? null : writer.apply(value));
     }

@@ -47,14 +47,15 @@ final class TakeOnce extends ContextualProcessor<String, byte[], String, byte[]>
 
     @Override
     public void process(Record<String, byte[]> record) {
-        NoteOrigin.Origin origin = NoteOrigin.Origin.of(record);
-        Position known = positions.get(origin.partition());
+        RecordOrigin origin = RecordOrigin.of(record)
+                .orElseThrow(() -> new IllegalStateException("a request has no origin; AcceptRequests notes it"));
+        Position known = positions.get(origin.topicPartition());
         if (known != null && known.covers(origin.offset(), record.timestamp())) {
-            LOG.warn("{}@{} was read before and is passed over", origin.partition(), origin.offset());
+            LOG.warn("{} was read before and is passed over", origin);
             return;
         }
         Position now = new Position(origin.offset(), record.timestamp());
-        positions.put(origin.partition(), known == null ? now : known.with(origin.offset(), record.timestamp()));
+        positions.put(origin.topicPartition(), known == null ? now : known.with(origin.offset(), record.timestamp()));
         context().forward(record);
     }
 }

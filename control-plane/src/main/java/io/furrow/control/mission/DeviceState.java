@@ -12,11 +12,12 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param wanted the record of {@code service.devices}
  * @param confirmed whether its host says that it is so
  * @param reason why it is not, as its host says; null where it said nothing
+ * @param forgotten whether only its generation is remembered, because its mission was deleted
  */
-record DeviceState(JsonNode wanted, boolean confirmed, String reason) {
+record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean forgotten) {
     static DeviceState asked(WantedDevice device) {
         try {
-            return new DeviceState(NgsiJson.read(device.toBytes()), false, null);
+            return new DeviceState(NgsiJson.read(device.toBytes()), false, null, false);
         } catch (UnreadableException e) {
             throw new IllegalStateException("a device is not read as it was written", e);
         }
@@ -35,6 +36,15 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason) {
     }
 
     DeviceState reported(boolean asWanted, String why) {
-        return new DeviceState(wanted, asWanted, why);
+        return new DeviceState(wanted, asWanted, why, forgotten);
+    }
+
+    DeviceState asForgotten() {
+        return new DeviceState(wanted, confirmed, reason, true);
+    }
+
+    /** How often its credentials were rotated. */
+    int generation() {
+        return wanted.path("generation").asInt();
     }
 }

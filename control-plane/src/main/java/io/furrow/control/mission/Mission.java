@@ -1,58 +1,77 @@
 package io.furrow.control.mission;
 
-import java.util.List;
-
 import com.fasterxml.jackson.databind.node.ArrayNode;
 
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.MissionDevices;
-import io.furrow.model.event.FiwareScope;
 
 /**
- * What is wanted of a mission: remembered, and a record of {@code service.missions} under its name.
+ * What is wanted of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
+ * service.missions.devices}, see {@link MissionLists}.
  *
  * @param domain that it belongs to for good
  * @param template {@code <name>@<version>} that its devices were taken from; null where they were listed
- * @param devices as requests have them; owned by the mission
+ * @param parts how many parts its device list has
+ * @param deviceCount how many devices the list has
  * @param running whether it shall run, now or from {@code start} on
  * @param start when it was or is to be started, epoch ms; null where it never was
  * @param duration after which it is stopped, ms; null for never
  * @param created when, epoch ms
  * @param sequence grows with every change of anything that is wanted
+ * @param devices the device list of a mission that was written before lists had parts; else null
  */
 public record Mission(
         String mission,
         String domain,
         String template,
-        ArrayNode devices,
+        int parts,
+        int deviceCount,
         boolean running,
         Long start,
         Long duration,
         long created,
-        long sequence) {
+        long sequence,
+        ArrayNode devices) {
 
-    MissionDevices groups() {
-        return MissionDevices.of(devices);
+    /** How many devices the list has. */
+    @Override
+    public int deviceCount() {
+        return devices == null ? deviceCount : MissionDevices.of(devices).count();
     }
 
-    /** Ids of the entities of all its devices, in the order of its groups. */
-    public List<String> deviceIds() {
-        return Roster.of(this, FiwareScope.DEFAULT, 0).stream()
-                .map(device -> device.version().id())
-                .toList();
+    static Mission of(String mission, String domain, long now) {
+        return new Mission(mission, domain, null, 0, 0, false, null, null, now, 0, null);
     }
 
-    /** The same with other devices. */
-    Mission with(String newTemplate, ArrayNode newDevices) {
-        return new Mission(mission, domain, newTemplate, newDevices, running, start, duration, created, sequence);
+    Mission from(String newTemplate) {
+        return new Mission(
+                mission, domain, newTemplate, parts, deviceCount, running, start, duration, created, sequence, devices);
+    }
+
+    /** The same with a list that was written. */
+    Mission listing(int newParts, int newDeviceCount) {
+        return new Mission(
+                mission, domain, template, newParts, newDeviceCount, running, start, duration, created, sequence, null);
     }
 
     Mission wanted(Long newStart, Long newDuration, long newSequence) {
-        return new Mission(mission, domain, template, devices, true, newStart, newDuration, created, newSequence);
+        return new Mission(
+                mission,
+                domain,
+                template,
+                parts,
+                deviceCount,
+                true,
+                newStart,
+                newDuration,
+                created,
+                newSequence,
+                devices);
     }
 
     Mission unwanted(long newSequence) {
-        return new Mission(mission, domain, template, devices, false, start, duration, created, newSequence);
+        return new Mission(
+                mission, domain, template, parts, deviceCount, false, start, duration, created, newSequence, devices);
     }
 
     byte[] toBytes() {

@@ -4,15 +4,13 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Predicate;
 
-import com.fasterxml.jackson.databind.node.ArrayNode;
-
 import io.furrow.control.domain.DomainMissions;
 import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionDevices;
-import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.Response;
@@ -24,23 +22,24 @@ public final class MissionDesk implements DomainMissions {
     private final MissionRecords records;
     private final Predicate<String> isDomain;
     private final TemplateShelf templates;
+    private final MissionLists lists;
+    private final MissionPlanner planner;
     private final DeviceDesk devices;
     private final Sequence sequence;
+    private final Quota quota;
     private final long patience;
     private final Outbox outbox;
 
-    /** @param isDomain whether there is a domain of a name */
-    MissionDesk(
-            MissionRecords records,
-            Predicate<String> isDomain,
-            MissionOptions options,
-            Sequence sequence,
-            Outbox outbox) {
+    /** @param farm what there is besides missions */
+    MissionDesk(MissionRecords records, FarmContext farm, MissionOptions options, Outbox outbox) {
         this.records = records;
-        this.isDomain = isDomain;
-        this.templates = new TemplateShelf(records.templates(), records.versions(), outbox);
-        this.devices = new DeviceDesk(records.devices(), sequence, options.scope(), outbox);
-        this.sequence = sequence;
+        this.isDomain = farm.isDomain();
+        this.sequence = farm.sequence();
+        this.quota = farm.quota();
+        this.templates = new TemplateShelf(records.templates(), records.versions(), farm.quota(), outbox);
+        this.lists = new MissionLists(records.lists(), sequence, farm.quota(), outbox);
+        this.devices = new DeviceDesk(records, lists, options, farm, outbox);
+        this.planner = new MissionPlanner(farm, templates, lists, devices);
         this.patience = options.patience().toMillis();
         this.outbox = outbox;
     }
@@ -59,9 +58,14 @@ public final class MissionDesk implements DomainMissions {
             return stop(stop, now);
         } else if (command instanceof MissionCommand.Delete delete) {
             return delete(delete);
+        } else if (command instanceof MissionCommand.AddDevices add) {
+            return addDevices(add);
         } else if (command instanceof MissionCommand.SaveTemplate save) {
             MissionTemplate saved = templates.save(save.template());
             return Response.of("created").with("template", saved.name()).with("version", saved.version());
+        } else if (command instanceof MissionCommand.RotateCredentials rotate) {
+            int generation = devices.rotateCredentials(rotate.device());
+            return Response.of("rotated").with("device", rotate.device()).with("generation", generation);
         }
         MissionCommand.DeleteTemplate delete = (MissionCommand.DeleteTemplate) command;
         templates.delete(delete.template(), delete.version());
@@ -73,7 +77,7 @@ public final class MissionDesk implements DomainMissions {
             throw new RefusedException(
                     ErrorCode.MISSION_EXISTS, "there is a mission '" + create.mission() + "' already");
         }
-        Mission mission = planned(null, create.mission(), create.domain(), create.plan(), now)
+        Mission mission = planner.plan(null, create.mission(), create.domain(), create.plan(), now)
                 .unwanted(sequence.next());
         keep(mission, MissionStatus.created(mission, now));
         return created(mission);
@@ -89,44 +93,31 @@ public final class MissionDesk implements DomainMissions {
                             .formatted(start.mission(), status.state().word()));
         }
         String domain = start.domain() == null && known != null ? known.domain() : start.domain();
-        Mission planned = planned(known, start.mission(), domain, start.plan(), now);
+        Mission planned = planner.plan(known, start.mission(), domain, start.plan(), now);
         long begin = start.start() == null ? now : Math.max(now, start.start().toEpochMilli());
         Long duration =
                 start.duration() == null ? null : Long.valueOf(start.duration().toMillis());
-        int hosted = begin > now ? 0 : devices.ask(planned, now);
         Mission mission = planned.wanted(begin, duration, sequence.next());
+        int hosted = begin > now ? 0 : devices.ask(mission, now);
         MissionStatus before = status == null ? MissionStatus.created(mission, now) : status;
-        if (known != null && !known.devices().equals(mission.devices())) {
-            devices.forgetAllBut(known, mission);
-        }
         keep(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, hosted, patience, now));
         return created(mission);
     }
 
-    /** The mission with the devices that are asked for; those of a template as it is now. */
-    private Mission planned(Mission known, String name, String domain, MissionPlan plan, long now)
-            throws RefusedException {
-        if (domain == null) {
-            throw new RefusedException(ErrorCode.MISSING_MEMBER, "a new mission needs a member 'domain'");
+    private Response addDevices(MissionCommand.AddDevices add) throws RefusedException {
+        MissionStatus status = records.statuses().get(add.mission());
+        if (status == null) {
+            throw unknown(add.mission());
         }
-        if (known != null && !known.domain().equals(domain)) {
+        if (status.state().isActive()) {
             throw new RefusedException(
-                    ErrorCode.NAME_TAKEN,
-                    "mission '%s' belongs to domain '%s'; choose another name".formatted(name, known.domain()));
+                    ErrorCode.MISSION_RUNNING,
+                    "mission '%s' is %s; stop it before devices are added"
+                            .formatted(add.mission(), status.state().word()));
         }
-        if (!isDomain.test(domain)) {
-            throw new RefusedException(
-                    ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + domain + "'; create it first");
-        }
-        ArrayNode none = MissionDevices.NONE.toJson();
-        Mission mission = known != null ? known : new Mission(name, domain, null, none, false, null, null, now, 0);
-        if (plan instanceof MissionPlan.OfDevices of) {
-            return mission.with(null, of.devices().toJson());
-        } else if (plan instanceof MissionPlan.FromTemplate from) {
-            MissionTemplate template = templates.find(from.template(), from.version());
-            return mission.with(template.key(), template.devices().toJson());
-        }
-        return mission;
+        Mission mission = lists.append(records.missions().get(add.mission()), add.devices());
+        keep(mission);
+        return Response.of("changed").with("mission", mission.mission()).with("devices", mission.deviceCount());
     }
 
     private Response stop(MissionCommand.Stop stop, long now) throws RefusedException {
@@ -151,8 +142,8 @@ public final class MissionDesk implements DomainMissions {
         MissionStatus status = records.statuses().get(name);
         if (status.state() != MissionState.STOPPING) {
             Mission mission = records.missions().get(name).unwanted(sequence.next());
-            devices.dismiss(mission, now);
-            keep(mission, status.stopped(mission, patience, now));
+            int hosted = devices.dismiss(mission, now);
+            keep(mission, status.stopped(mission, hosted, patience, now));
         }
     }
 
@@ -178,7 +169,10 @@ public final class MissionDesk implements DomainMissions {
                     "mission '%s' is %s; stop it first"
                             .formatted(delete.mission(), status.state().word()));
         }
-        devices.forget(records.missions().get(delete.mission()));
+        Mission mission = records.missions().get(delete.mission());
+        devices.forget(mission);
+        lists.forget(mission);
+        quota.use(-Limits.MISSION_OVERHEAD_BYTES);
         records.missions().put(delete.mission(), null);
         records.statuses().put(delete.mission(), null);
         outbox.put(Topics.MISSIONS, delete.mission(), null);
@@ -186,7 +180,10 @@ public final class MissionDesk implements DomainMissions {
         return Response.of("deleted").with("mission", delete.mission());
     }
 
-    /** What the host of a device says; of a device or a state that is no longer wanted nothing is taken. */
+    /**
+     * What the host of a device says; of a device or a state that is no longer wanted nothing is taken. It counts for the mission where
+     * the device was written since that came to its state: while one is being written, some devices are still of the time before.
+     */
     public void reported(String key, DeviceStatus told, long now) {
         DeviceState known = records.devices().get(key);
         if (known == null || told.sequence() < known.device().version().sequence()) {
@@ -196,23 +193,44 @@ public final class MissionDesk implements DomainMissions {
         boolean asWanted = told.state() == wanted;
         records.devices().put(key, known.reported(asWanted, told.reason()));
         MissionStatus status = records.statuses().get(known.mission());
-        boolean counts =
-                known.device().isHosted() && status != null && status.state().isActive();
+        boolean counts = known.device().isHosted()
+                && status != null
+                && status.state().isActive()
+                && known.device().version().sequence() > status.sequence();
         if (counts && asWanted != known.confirmed()) {
             String id = known.device().version().id();
             keep(status.reported(new MissionStatus.Missing(id, told.reason()), asWanted, now));
         }
     }
 
-    /** Takes on what waits for no one but the time: start dates, durations, devices that are late. */
-    public void passTime(long now) {
-        List<MissionStatus> due = new ArrayList<>();
+    /** What waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
+    public List<Runnable> due(long now) {
+        List<Runnable> steps = new ArrayList<>();
         records.statuses().forEach(status -> {
-            if (status.isDue(now)) {
-                due.add(status);
+            boolean ends = status.ends() != null && status.ends() <= now;
+            if (status.isDue(now) && (ends || !devices.isBeingWritten(status.mission()))) {
+                steps.add(() -> goOn(status, now));
             }
         });
-        due.forEach(status -> goOn(status, now));
+        return steps;
+    }
+
+    /** The next devices of each mission of which some are still to be written. */
+    public List<Runnable> pending(long now) {
+        List<Runnable> steps = new ArrayList<>();
+        records.rollouts().forEach(rollout -> steps.add(() -> advance(rollout, now)));
+        return steps;
+    }
+
+    /** The time for coming up or going counts from the last device on. */
+    private void advance(Rollout rollout, long now) {
+        if (devices.advance(records.missions().get(rollout.mission()), rollout)) {
+            MissionStatus status = records.statuses().get(rollout.mission());
+            MissionStatus after = status.written(patience, now);
+            if (!after.equals(status)) {
+                keep(after);
+            }
+        }
     }
 
     private void goOn(MissionStatus status, long now) {
@@ -222,15 +240,25 @@ public final class MissionDesk implements DomainMissions {
         } else if (status.state() == MissionState.CREATED) {
             begin(mission, status, now);
         } else if (status.state() == MissionState.STARTING && status.confirmed() == 0) {
+            String said = saidOfMissing(mission);
             devices.dismiss(mission, now);
             fail(
                     mission,
                     status,
-                    "none of %d devices came up within %d s".formatted(status.devices(), patience / 1000),
+                    "none of %d devices came up within %d s%s".formatted(status.devices(), patience / 1000, said),
                     now);
         } else {
             keep(status.without(devices.missing(mission), now));
         }
+    }
+
+    /** What the host says of one of the devices; empty where it says nothing. */
+    private String saidOfMissing(Mission mission) {
+        return devices.missing(mission).stream()
+                .filter(device -> device.reason() != null)
+                .findFirst()
+                .map(device -> "; %s: %s".formatted(device.id(), device.reason()))
+                .orElse("");
     }
 
     private void begin(Mission mission, MissionStatus status, long now) {
@@ -251,9 +279,13 @@ public final class MissionDesk implements DomainMissions {
     }
 
     private void keep(Mission mission, MissionStatus status) {
+        keep(mission);
+        keep(status);
+    }
+
+    private void keep(Mission mission) {
         records.missions().put(mission.mission(), mission);
         outbox.put(Topics.MISSIONS, mission.mission(), mission.toBytes());
-        keep(status);
     }
 
     private void keep(MissionStatus status) {

@@ -2,8 +2,10 @@ package io.furrow.control.mission;
 
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.function.BiFunction;
+import java.util.function.Function;
 import java.util.stream.Stream;
 
 import org.apache.kafka.streams.StreamsBuilder;
@@ -37,6 +39,8 @@ public final class MissionManager {
     private static final String MISSIONS = "missions";
     private static final String STATUSES = "mission-statuses";
     private static final String DEVICES = "devices";
+    private static final String LISTS = "mission-device-lists";
+    private static final String ROLLOUTS = "mission-rollouts";
     private static final String TEMPLATES = "templates";
     private static final String VERSIONS = "template-versions";
     private static final ManagerTopic<MissionCommand> TOPIC = ManagerTopic.MISSION;
@@ -45,7 +49,7 @@ public final class MissionManager {
 
     /** Stores of its own; whoever uses {@link #desk} needs them, and those of {@link DomainManager}. */
     public static List<String> stores() {
-        return List.of(MISSIONS, STATUSES, DEVICES, TEMPLATES, VERSIONS);
+        return List.of(MISSIONS, STATUSES, LISTS, ROLLOUTS, DEVICES, TEMPLATES, VERSIONS);
     }
 
     /** Missions as they are in the stores of a processor. */
@@ -54,11 +58,14 @@ public final class MissionManager {
         MissionRecords records = new MissionRecords(
                 StoreRecords.of(context, MISSIONS, Mission.class),
                 StoreRecords.of(context, STATUSES, MissionStatus.class),
+                StoreRecords.of(context, LISTS, Function.identity(), Function.identity()),
+                StoreRecords.of(context, ROLLOUTS, Rollout.class),
                 StoreRecords.of(context, DEVICES, DeviceState.class),
                 StoreRecords.of(context, TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
                 StoreRecords.of(context, VERSIONS, TemplateShelf.Versions.class));
-        return new MissionDesk(
-                records, name -> domains.get(name) != null, options, DomainManager.sequence(context), outbox);
+        FarmContext farm =
+                new FarmContext(domains::contains, DomainManager.sequence(context), DomainManager.quota(context));
+        return new MissionDesk(records, farm, options, outbox);
     }
 
     /** Its stores and those of domains are there already. @param remembered how long ids of requests are */
@@ -81,10 +88,7 @@ public final class MissionManager {
 
         Outgoing.send(
                 Inlet.statuses(builder, Topics.DEVICES_STATUS, "device-statuses")
-                        .process(
-                                () -> new TakeStatus(Topics.DEVICES_STATUS, reports),
-                                Named.as("take-device-statuses"),
-                                storesWith()),
+                        .process(() -> new TakeStatus(reports), Named.as("take-device-statuses"), storesWith()),
                 "progress-out");
     }
 
@@ -111,9 +115,15 @@ public final class MissionManager {
         }
 
         @Override
-        public void passTime(long now) {
-            missions.templates().stock();
-            missions.passTime(now);
+        public List<Runnable> due(long now) {
+            List<Runnable> steps = new ArrayList<>(missions.due(now));
+            steps.add(0, missions.templates()::stock);
+            return steps;
+        }
+
+        @Override
+        public List<Runnable> pending(long now) {
+            return missions.pending(now);
         }
     }
 }

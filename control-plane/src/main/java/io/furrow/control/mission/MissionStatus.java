@@ -72,12 +72,12 @@ public record MissionStatus(
         return starting.advanced(now);
     }
 
-    /** Its devices were asked to go. Without devices it has stopped at once. */
-    MissionStatus stopped(Mission mission, long patience, long now) {
+    /** Its devices are asked to go, so many of them hosted. Without devices it has stopped at once. */
+    MissionStatus stopped(Mission mission, int hosted, long patience, long now) {
         MissionState next = state == MissionState.CREATED ? MissionState.STOPPED : MissionState.STOPPING;
         boolean stops = next == MissionState.STOPPING;
         return next(next, now, mission.sequence())
-                .progress(stops ? devices : 0, 0)
+                .progress(stops ? hosted : 0, 0)
                 .until(stops ? Long.valueOf(now + patience) : null, null)
                 .advanced(now);
     }
@@ -104,6 +104,12 @@ public record MissionStatus(
         boolean starts = state == MissionState.STARTING;
         MissionStatus next = next(starts ? MissionState.RUNNING : MissionState.STOPPED, now, sequence);
         return next.until(starts ? ends : null, starts ? ends : null).naming(late);
+    }
+
+    /** All of its devices were asked: from now on they have the time for coming up or going. */
+    MissionStatus written(long patience, long now) {
+        boolean waits = state == MissionState.STARTING || state == MissionState.STOPPING;
+        return waits ? until(earlier(now + patience, ends), ends) : this;
     }
 
     boolean isDue(long now) {

@@ -5,8 +5,12 @@ import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.GroupRef;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 
@@ -30,10 +34,10 @@ final class Roster {
     }
 
     /** All of them, wanted from a time on, with the sequence 0. */
-    static List<WantedDevice> of(Mission mission, FiwareScope scope, long from) {
+    static List<WantedDevice> of(Mission mission, List<ListedGroup> groups, FiwareScope scope, long from) {
         Roster roster = new Roster(mission, scope, from);
-        List<DeviceGroup> groups = mission.groups().groups();
-        List<List<String>> ids = groups.stream().map(roster::name).toList();
+        List<List<String>> ids =
+                groups.stream().map(each -> roster.name(each.group())).toList();
         for (int i = 0; i < groups.size(); i++) {
             roster.add(groups.get(i), ids.get(i));
         }
@@ -55,7 +59,9 @@ final class Roster {
         return mission.mission() + "-" + numbers.merge(group.type(), 1, Integer::sum);
     }
 
-    private void add(DeviceGroup group, List<String> ids) {
+    private void add(ListedGroup listed, List<String> ids) {
+        DeviceGroup group = listed.group();
+        GroupRef ref = group.settings().isEmpty() ? null : listed.ref();
         List<String> carriers = group.carriedBy() == null ? List.of() : idsByLabel.get(group.carriedBy());
         for (int i = 0; i < ids.size(); i++) {
             String carrier = carriers.isEmpty() ? null : carriers.get(i % carriers.size());
@@ -70,7 +76,8 @@ final class Roster {
                     0,
                     carrier);
             String device = group.isHosted() ? ids.get(i).replace("+", "%2B") : null;
-            devices.add(new WantedDevice(version, group.type(), device, true, group.period(), group.settings()));
+            ObjectNode none = JsonNodeFactory.instance.objectNode();
+            devices.add(new WantedDevice(version, group.type(), device, true, group.period(), none, ref, 0));
         }
     }
 }

@@ -7,6 +7,7 @@ import java.util.ArrayList;
 import java.util.List;
 
 import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionTemplate;
@@ -20,6 +21,7 @@ public final class TemplateShelf {
 
     private final Records<MissionTemplate> templates;
     private final Records<Versions> versions;
+    private final Quota quota;
     private final Outbox outbox;
 
     /**
@@ -33,17 +35,23 @@ public final class TemplateShelf {
     /**
      * @param templates by {@link MissionTemplate#key()}
      * @param versions by name
+     * @param quota room for all definitions
      */
-    public TemplateShelf(Records<MissionTemplate> templates, Records<Versions> versions, Outbox outbox) {
+    TemplateShelf(Records<MissionTemplate> templates, Records<Versions> versions, Quota quota, Outbox outbox) {
         this.templates = templates;
         this.versions = versions;
+        this.quota = quota;
         this.outbox = outbox;
     }
 
     /** Puts {@link #DEMO} there where it never was. */
     public void stock() {
         if (versions.get(DEMO) == null) {
-            save(demo());
+            try {
+                save(demo());
+            } catch (RefusedException e) {
+                throw new IllegalStateException("there is no room for the packaged template", e);
+            }
         }
     }
 
@@ -58,14 +66,16 @@ public final class TemplateShelf {
     }
 
     /** Keeps it as the next version, which it answers. */
-    MissionTemplate save(MissionTemplate template) {
+    MissionTemplate save(MissionTemplate template) throws RefusedException {
         Versions before = known(template.name());
         MissionTemplate saved = template.as(before.last() + 1);
         List<Integer> kept = new ArrayList<>(before.kept());
         kept.add(saved.version());
+        byte[] value = saved.toBytes();
+        quota.replace(null, value);
         versions.put(saved.name(), new Versions(saved.version(), kept));
         templates.put(saved.key(), saved);
-        outbox.put(Topics.TEMPLATES, saved.key(), saved.toBytes());
+        outbox.put(Topics.TEMPLATES, saved.key(), value);
         return saved;
     }
 
@@ -89,6 +99,7 @@ public final class TemplateShelf {
         for (int each : before.kept()) {
             if (version == 0 || version == each) {
                 kept.remove((Integer) each);
+                quota.use(-templates.get(name + "@" + each).toBytes().length);
                 templates.put(name + "@" + each, null);
                 outbox.put(Topics.TEMPLATES, name + "@" + each, null);
             }

@@ -22,7 +22,8 @@ final class Failures {
 
     private final WantedDevices wanted;
     private final Producer<String, byte[]> producer;
-    private final Map<String, Count> counts = new HashMap<>();
+    private final Map<String, Count> refusals = new HashMap<>();
+    private final Map<String, Count> absences = new HashMap<>();
 
     private record Count(long sequence, int attempts) {}
 
@@ -32,21 +33,27 @@ final class Failures {
     }
 
     void clear() {
-        counts.clear();
+        refusals.clear();
+        absences.clear();
     }
 
     /** @param reasons by key; whatever is not among them is well */
     void refused(Map<String, String> reasons) {
-        counts.keySet().retainAll(reasons.keySet());
-        reasons.forEach(this::count);
+        refusals.keySet().retainAll(reasons.keySet());
+        reasons.forEach((key, reason) -> count(refusals, key, reason));
     }
 
     /** Of those that were wanted before nothing is said: they may well run. */
     void away(String reason) {
-        wanted.all().keySet().stream().filter(wanted::isFresh).toList().forEach(key -> count(key, reason));
+        wanted.all().keySet().stream().filter(wanted::isFresh).toList().forEach(key -> count(absences, key, reason));
     }
 
-    private void count(String key, String reason) {
+    /** A step was done: the agent is not away, though it may be slow. */
+    void reached() {
+        absences.clear();
+    }
+
+    private void count(Map<String, Count> counts, String key, String reason) {
         WantedDevice device = wanted.all().get(key);
         long sequence = device.version().sequence();
         Count before = counts.get(key);

@@ -4,6 +4,7 @@ import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.function.Function;
 import java.util.stream.Collectors;
 
@@ -12,9 +13,17 @@ public final class LiveAccounts implements MqttAccounts {
     private volatile Map<String, MqttAccount> byUser = Map.of();
 
     @Override
-    public void replace(List<MqttAccount> accounts) {
+    public Map<String, String> replace(List<MqttAccount> accounts) {
         byUser = accounts.stream()
                 .collect(Collectors.toUnmodifiableMap(account -> account.login().user(), Function.identity()));
+        return Map.of();
+    }
+
+    @Override
+    public void retain(Set<String> users) {
+        replace(byUser.values().stream()
+                .filter(account -> users.contains(account.login().user()))
+                .toList());
     }
 
     public boolean knows(String user, byte[] password) {

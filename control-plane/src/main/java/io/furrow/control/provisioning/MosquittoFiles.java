@@ -5,10 +5,15 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.HashMap;
+import java.util.HashSet;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
 import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -22,6 +27,7 @@ import io.furrow.model.device.FarmSecret;
 public final class MosquittoFiles implements MqttAccounts {
     private static final Logger LOG = LoggerFactory.getLogger(MosquittoFiles.class);
     private static final long COMMAND_SECONDS = 10;
+    private static final Pattern USER_RULE = Pattern.compile("\\s*user\\s+(.*?)\\s*");
 
     private final OwnSection passwords;
     private final OwnSection rules;
@@ -29,12 +35,15 @@ public final class MosquittoFiles implements MqttAccounts {
     /** What was made or checked already, because a check takes as long as a login. */
     private Map<FarmSecret.Login, String> checked = Map.of();
 
-    private boolean reloadIsDue;
+    private Map<String, String> reported = Map.of();
+    /** At the start too: a process that died may have written the files and not told the broker. */
+    private boolean reloadIsDue = true;
 
     /**
      * @param passwords option {@code password_file} of the broker
      * @param rules option {@code acl_file} of the broker
-     * @param reload for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto.pid)}; null for none
+     * @param reload for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto.pid)}; null for none. It may hold a password,
+     *     so no message has it
      */
     public MosquittoFiles(Path passwords, Path rules, String reload) {
         this.passwords = new OwnSection(passwords);
@@ -43,10 +52,73 @@ public final class MosquittoFiles implements MqttAccounts {
     }
 
     @Override
-    public synchronized void replace(List<MqttAccount> accounts) throws IOException {
+    public synchronized Map<String, String> replace(List<MqttAccount> accounts) throws IOException {
+        Map<String, String> refused = refused(accounts);
+        List<MqttAccount> own = accounts.stream()
+                .filter(account -> !refused.containsKey(account.login().user()))
+                .toList();
         // The rules first: should only one of both be written, nobody gets in without them.
-        reloadIsDue |= write(rules, rules(accounts));
-        reloadIsDue |= write(passwords, passwords(accounts));
+        reloadIsDue |= write(rules, rules(own));
+        reloadIsDue |= write(passwords, passwords(own));
+        reloadIfDue();
+        return refused;
+    }
+
+    /** A user that stands elsewhere in the files is somebody else's: Mosquitto would take the later line of two. */
+    private Map<String, String> refused(List<MqttAccount> accounts) throws IOException {
+        Set<String> users = new HashSet<>();
+        accounts.forEach(account -> users.add(account.login().user()));
+        Map<String, String> refused = new TreeMap<>();
+        for (String line : passwords.readOthers()) {
+            refuse(MosquittoPassword.user(line), passwords, users, refused);
+        }
+        for (String line : rules.readOthers()) {
+            refuse(user(line), rules, users, refused);
+        }
+        if (!refused.isEmpty() && !refused.equals(reported)) {
+            refused.values().forEach(LOG::warn);
+        }
+        reported = refused;
+        return refused;
+    }
+
+    private static void refuse(String user, OwnSection file, Set<String> users, Map<String, String> refused) {
+        if (users.contains(user)) {
+            refused.put(
+                    user,
+                    "a user '%s' stands outside of Furrow's section of %s, and counts as somebody else's; remove it there"
+                            .formatted(user, file));
+        }
+    }
+
+    @Override
+    public synchronized void retain(Set<String> users) throws IOException {
+        List<String> lines = new ArrayList<>();
+        boolean retained = false;
+        for (String line : rules.read()) {
+            String user = user(line);
+            retained = user == null ? retained : users.contains(user);
+            if (retained) {
+                lines.add(line);
+            }
+        }
+        // The passwords first: should only one of both be written, nobody gets in who shall not.
+        reloadIsDue |= write(
+                passwords,
+                passwords.read().stream()
+                        .filter(line -> users.contains(MosquittoPassword.user(line)))
+                        .toList());
+        reloadIsDue |= write(rules, lines);
+        reloadIfDue();
+    }
+
+    /** The user with which a line of the rules begins; null where it begins none. */
+    private static String user(String rule) {
+        Matcher user = USER_RULE.matcher(rule);
+        return user.matches() ? user.group(1) : null;
+    }
+
+    private void reloadIfDue() throws IOException {
         if (reloadIsDue && reload != null) {
             reload();
         }
@@ -95,16 +167,18 @@ public final class MosquittoFiles implements MqttAccounts {
         try {
             if (!process.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
                 process.destroyForcibly();
-                throw new IOException("'%s' has not ended within %d s".formatted(reload, COMMAND_SECONDS));
+                throw new IOException(
+                        "the command of --mqtt-reload has not ended within %d s".formatted(COMMAND_SECONDS));
             }
         } catch (InterruptedException e) {
             process.destroyForcibly();
             Thread.currentThread().interrupt();
-            throw new IOException("interrupted while '" + reload + "' ran", e);
+            throw new IOException("interrupted while the command of --mqtt-reload ran", e);
         }
         if (process.exitValue() != 0) {
             String said = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
-            throw new IOException("'%s' ended with %d: %s".formatted(reload, process.exitValue(), said.strip()));
+            throw new IOException(
+                    "the command of --mqtt-reload ended with %d: %s".formatted(process.exitValue(), said.strip()));
         }
         LOG.debug("the MQTT broker was told to read its files again");
     }

@@ -17,12 +17,30 @@ public record MqttAccount(FarmSecret.Login login, List<String> writes, List<Stri
     /** The IoT Agent takes topics with either. */
     private static final List<String> PREFIXES = List.of("", "/json");
 
+    /** Of a device whose credentials were never rotated, with the newest key. */
     static MqttAccount device(FarmSecret secret, String mission, String device) {
         return of(secret.device(mission, device), secret.apiKey(mission), device);
     }
 
+    /** With the newest key. */
     static MqttAccount gateway(FarmSecret secret, String mission) {
         return of(secret.gateway(mission), secret.apiKey(mission), "+");
+    }
+
+    /** One for each key that is accepted. */
+    static List<MqttAccount> devices(FarmSecret secret, String mission, String device, int generation) {
+        String apiKey = secret.apiKey(mission);
+        return secret.devices(mission, device, generation).stream()
+                .map(login -> of(login, apiKey, device))
+                .toList();
+    }
+
+    /** One for each key that is accepted. */
+    static List<MqttAccount> gateways(FarmSecret secret, String mission) {
+        String apiKey = secret.apiKey(mission);
+        return secret.gateways(mission).stream()
+                .map(login -> of(login, apiKey, "+"))
+                .toList();
     }
 
     private static MqttAccount of(FarmSecret.Login login, String apiKey, String device) {

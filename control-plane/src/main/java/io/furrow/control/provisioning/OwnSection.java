@@ -37,6 +37,18 @@ final class OwnSection {
         return begin < 0 ? List.of() : List.copyOf(all.subList(begin + 1, end(all, begin)));
     }
 
+    /** The lines before and after the section. */
+    List<String> readOthers() throws IOException {
+        List<String> all = lines();
+        int begin = all.indexOf(BEGIN);
+        if (begin < 0) {
+            return all;
+        }
+        List<String> others = new ArrayList<>(all.subList(0, begin));
+        others.addAll(all.subList(Math.min(all.size(), end(all, begin) + 1), all.size()));
+        return others;
+    }
+
     void write(List<String> section) throws IOException {
         List<String> all = lines();
         int begin = all.indexOf(BEGIN);
@@ -90,5 +102,11 @@ final class OwnSection {
                     e);
         }
         view.setPermissions(old.permissions());
+    }
+
+    /** The file. */
+    @Override
+    public String toString() {
+        return file.toString();
     }
 }

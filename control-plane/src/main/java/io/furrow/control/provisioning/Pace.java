@@ -3,20 +3,21 @@ package io.furrow.control.provisioning;
 import java.time.Duration;
 import java.util.function.LongSupplier;
 
-/** When the provisioner goes to work again: at once where there is more, later and later while it fails, once a minute else. */
+/** When the provisioner goes to work again: at once where there is more, later and later while it fails, else at an interval. */
 final class Pace {
     static final Duration FIRST = Duration.ofMillis(200);
     static final Duration LONGEST = Duration.ofSeconds(10);
-    /** So that what an agent has lost in the meantime comes back. */
-    static final Duration REST = Duration.ofMinutes(1);
 
     private final LongSupplier nanos;
+    private final Duration interval;
     private long due;
     private int failures;
     private boolean again;
 
-    Pace(LongSupplier nanos) {
+    /** @param interval after which all is looked at again, so that what the agent has lost in the meantime comes back */
+    Pace(LongSupplier nanos, Duration interval) {
         this.nanos = nanos;
+        this.interval = interval;
         this.due = nanos.getAsLong();
     }
 
@@ -35,7 +36,7 @@ final class Pace {
 
     /** All is done. */
     void rest() {
-        due = nanos.getAsLong() + REST.toNanos();
+        due = nanos.getAsLong() + interval.toNanos();
         failures = 0;
         again = true;
     }

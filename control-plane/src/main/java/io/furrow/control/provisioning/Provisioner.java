@@ -1,183 +1,46 @@
 package io.furrow.control.provisioning;
 
-import java.io.IOException;
-import java.time.Duration;
-import java.util.Collection;
-import java.util.HashMap;
-import java.util.List;
-import java.util.Map;
-import java.util.Properties;
+import java.time.Clock;
 
-import org.apache.kafka.clients.consumer.ConsumerRebalanceListener;
-import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.ConsumerRecords;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.clients.producer.KafkaProducer;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.errors.WakeupException;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
-import org.apache.kafka.common.serialization.StringSerializer;
-import org.slf4j.Logger;
-import org.slf4j.LoggerFactory;
-
-import io.furrow.model.device.WantedDevice;
-import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.topic.Topics;
+import io.furrow.control.readiness.PartStatus;
+import io.furrow.control.readiness.RestartingWorker;
 
 /**
  * Provisions the devices that are wanted on {@code service.devices}, at the IoT Agent and at the MQTT brokers, and takes away what
- * is not. Of several instances one is at work, another takes over when it dies; each begins with reading all that is wanted, and
- * with asking the agent what it has. An agent that is away is tried again for ever; a device that it refuses, or a new one that
- * waits for it, is {@code failed} on {@code service.devices.status} with the reason.
+ * is not. Of several instances one is at work, another takes over when it dies. Whatever makes it fail, it begins anew.
  */
 public final class Provisioner implements AutoCloseable {
-    private static final Logger LOG = LoggerFactory.getLogger(Provisioner.class);
-    /** Name of the group; never changed, or two would be at work during an update. */
-    private static final String GROUP = "furrow-provisioner";
-
-    private static final String TAKEN_OVER_AFTER_MS = "10000";
-    private static final Duration LOOK = Duration.ofMillis(500);
-    private static final Duration STOP_WITHIN = Duration.ofSeconds(15);
-
-    private final KafkaConsumer<String, byte[]> consumer;
-    private final KafkaProducer<String, byte[]> producer;
-    private final WantedDevices wanted;
-    private final Provisioning provisioning;
-    private final Pace pace = new Pace(System::nanoTime);
-    private final Failures failures;
-    private final Map<TopicPartition, Long> unread = new HashMap<>();
-    private final Thread thread = new Thread(this::run, "provisioner");
-    private boolean active;
-    private volatile boolean closed;
+    private final RestartingWorker worker;
+    private volatile String detail = "starts";
 
     private Provisioner(ProvisioningSettings settings) {
-        this.wanted = new WantedDevices(settings.scope());
-        this.provisioning = new Provisioning(settings, wanted);
-        Properties client = settings.client();
-        this.consumer =
-                new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
-        this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
-        this.failures = new Failures(wanted, producer);
+        this.worker = new RestartingWorker("provisioner", Clock.systemUTC())
+                .start(self -> provision(settings, self), () -> detail);
     }
 
     /** Begins; {@code service.devices} must be there, {@code ControlPlane} makes it. */
     public static Provisioner start(ProvisioningSettings settings) {
-        Provisioner provisioner = new Provisioner(settings);
-        provisioner.thread.setDaemon(true);
-        provisioner.thread.start();
-        return provisioner;
+        return new Provisioner(settings);
+    }
+
+    private void provision(ProvisioningSettings settings, RestartingWorker self) throws InterruptedException {
+        try (ProvisioningLoop loop = new ProvisioningLoop(settings)) {
+            while (!self.isClosing()) {
+                loop.next();
+                self.succeeded();
+                detail = loop.detail();
+            }
+        }
+    }
+
+    /** For a health page: it works as long as it reads what is wanted, though the IoT Agent may be away. */
+    public PartStatus status() {
+        return worker.status();
     }
 
     /** Finishes the request that is under way, and leaves the rest to another instance or the next start. */
     @Override
     public void close() {
-        closed = true;
-        consumer.wakeup();
-        try {
-            thread.join(STOP_WITHIN.toMillis());
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        }
-    }
-
-    private static Properties consumerSettings(Properties client) {
-        Properties settings = new Properties();
-        settings.putAll(client);
-        settings.setProperty("group.id", GROUP);
-        settings.setProperty("isolation.level", "read_committed");
-        settings.setProperty("enable.auto.commit", "false");
-        settings.setProperty("auto.offset.reset", "earliest");
-        settings.setProperty("session.timeout.ms", TAKEN_OVER_AFTER_MS);
-        return settings;
-    }
-
-    private void run() {
-        try (consumer;
-                producer) {
-            consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
-            while (!closed) {
-                take(consumer.poll(pace.pause(LOOK)));
-                if (active && isCaughtUp() && pace.isDue()) {
-                    step();
-                }
-            }
-        } catch (WakeupException e) {
-            LOG.debug("the provisioner was closed", e);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-        } catch (RuntimeException e) {
-            LOG.error("no device is provisioned any more; start this instance again once the cause is removed", e);
-        }
-    }
-
-    private void take(ConsumerRecords<String, byte[]> records) {
-        for (ConsumerRecord<String, byte[]> record : records) {
-            try {
-                wanted.take(record.key(), record.value() == null ? null : WantedDevice.read(record.value()));
-            } catch (UnreadableException e) {
-                LOG.warn("{}@{} is no wanted device and is passed over", record.topic(), record.offset(), e);
-            }
-        }
-        if (!records.isEmpty()) {
-            pace.hurry();
-        }
-    }
-
-    private boolean isCaughtUp() {
-        if (unread.entrySet().removeIf(each -> consumer.position(each.getKey()) >= each.getValue())
-                && unread.isEmpty()) {
-            wanted.caughtUp();
-            pace.hurry();
-        }
-        return unread.isEmpty();
-    }
-
-    private void step() throws InterruptedException {
-        if (pace.looksAgain()) {
-            provisioning.lookAgain();
-        }
-        try {
-            Provisioning.Outcome outcome = provisioning.step();
-            if (!outcome.done()) {
-                pace.goOn();
-                return;
-            }
-            failures.refused(outcome.refused());
-            if (outcome.refused().isEmpty()) {
-                pace.rest();
-            } else {
-                pace.failed();
-            }
-        } catch (IOException e) {
-            if (pace.failed()) {
-                LOG.warn("devices wait to be provisioned: {}", e.getMessage(), e);
-            }
-            failures.away(e.getMessage());
-        }
-    }
-
-    private final class Assignment implements ConsumerRebalanceListener {
-        @Override
-        public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
-            if (partitions.isEmpty()) {
-                return;
-            }
-            active = true;
-            wanted.clear();
-            failures.clear();
-            provisioning.startAnew();
-            consumer.seekToBeginning(partitions);
-            unread.putAll(consumer.endOffsets(partitions));
-        }
-
-        @Override
-        public void onPartitionsRevoked(Collection<TopicPartition> partitions) {
-            if (!partitions.isEmpty()) {
-                active = false;
-                unread.clear();
-            }
-        }
+        worker.close();
     }
 }

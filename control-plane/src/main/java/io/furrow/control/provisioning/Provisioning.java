@@ -1,15 +1,20 @@
 package io.furrow.control.provisioning;
 
 import java.io.IOException;
-import java.util.Collection;
+import java.time.Duration;
 import java.util.HashMap;
-import java.util.HashSet;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.function.LongSupplier;
+import java.util.stream.Collectors;
 
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
@@ -19,73 +24,107 @@ import io.furrow.model.event.FiwareScope;
  * knows whose measure it gets, then the accounts, without which no measure comes. Unwanted ones: the other way round.
  */
 final class Provisioning {
+    private static final Logger LOG = LoggerFactory.getLogger(Provisioning.class);
+    /** With a request that takes its ten seconds at the end this is far from the consumer's {@code max.poll.interval.ms}. */
+    static final Duration STEP = Duration.ofSeconds(5);
+
     private final AgentClient agent;
     private final Registrations registrations;
-    private final FarmSecret secret;
-    private final List<MqttAccounts> brokers;
+    private final SecretSource secret;
+    private final DeviceAccounts accounts;
     private final WantedDevices wanted;
-    private final Map<FiwareScope, AgentBook> books = new HashMap<>();
+    private final LongSupplier nanos;
+    private final BatchSize batchSize = new BatchSize();
+    private final Map<FiwareScope, AgentRegistry> registries = new HashMap<>();
     private final Map<Registration, String> held = new HashMap<>();
-    private List<MqttAccount> known;
+    private FarmSecret used;
+    private boolean verified;
 
-    Provisioning(ProvisioningSettings settings, WantedDevices wanted) {
-        this.agent = new AgentClient(settings.iotAgent());
+    Provisioning(ProvisioningSettings settings, WantedDevices wanted, LongSupplier nanos) {
+        this.agent = new AgentClient(settings.agent());
         this.registrations = new Registrations(settings.secret());
         this.secret = settings.secret();
-        this.brokers = settings.accounts();
+        this.accounts = new DeviceAccounts(settings);
         this.wanted = wanted;
+        this.nanos = nanos;
     }
 
     /**
      * What came of a step.
      *
      * @param refused why, by key of the device
-     * @param done whether nothing is left to be done but what was refused
+     * @param stuck why something that is no longer wanted could not be removed; null where nothing was in the way
+     * @param done whether nothing is left to be done but what was refused or is stuck
      */
-    record Outcome(Map<String, String> refused, boolean done) {}
+    record Outcome(Map<String, String> refused, String stuck, boolean done) {}
 
     /** Asks the agent again before the next step, and offers it again what it has refused. */
     void lookAgain() {
-        books.clear();
+        registries.clear();
         held.clear();
+        accounts.retryRefused();
+        verified = false;
     }
 
     /** The same, and takes nothing of the accounts for granted. */
     void startAnew() {
         lookAgain();
-        known = null;
+        accounts.startAnew();
+    }
+
+    /** Whether the farm's secret is another than at the last step: it was rotated, or the time of an older key is over. */
+    boolean isSecretChanged() {
+        return !secret.get().equals(used);
     }
 
     /**
-     * Does some of what is to be done: at most a batch of devices in each scope.
+     * Does some of what is to be done: at most a batch of devices in each scope, and begins no request after {@link #STEP}.
      *
-     * @throws IOException if the agent or a broker is away, or does not let itself be asked
+     * @throws IOException if the agent or a broker is away, or does not let itself be asked, or the secret is not the farm's
      */
     Outcome step() throws IOException, InterruptedException {
+        if (!verified) {
+            secret.verify();
+            verified = true;
+        }
+        FarmSecret now = secret.get();
+        if (!now.equals(used)) {
+            LOG.info(
+                    "the MQTT brokers are to accept passwords of the keys {} of the farm's secret", now.acceptedKeys());
+        }
+        used = now;
+        accounts.revoke(wanted.all().values());
         Map<String, String> refused = new TreeMap<>();
         Map<String, Registration> there = new LinkedHashMap<>();
+        StepBudget budget = new StepBudget(STEP, nanos);
         boolean added = true;
         for (FiwareScope scope : wanted.scopes()) {
-            added &= add(scope, there, refused);
+            added &= add(scope, budget, there, refused);
         }
-        account(there.values(), added);
+        Map<String, WantedDevice> known = new LinkedHashMap<>();
+        there.keySet().forEach(key -> known.put(key, wanted.all().get(key)));
+        refused.putAll(accounts.grant(known, added));
         wanted.provisioned(there.keySet());
         boolean removed = true;
+        String stuck = null;
         for (FiwareScope scope : wanted.scopes()) {
-            removed &= remove(scope);
+            if (Registrations.hasTenant(scope)) {
+                String failure = remove(scope, budget);
+                stuck = failure == null ? stuck : failure;
+                removed &= failure != null || isClean(scope);
+            }
         }
-        boolean done = added && removed;
-        return new Outcome(refused, done);
+        return new Outcome(refused, stuck, added && removed);
     }
 
-    private boolean add(FiwareScope scope, Map<String, Registration> there, Map<String, String> refused)
+    private boolean add(
+            FiwareScope scope, StepBudget budget, Map<String, Registration> there, Map<String, String> refused)
             throws IOException, InterruptedException {
-        AgentBook book = book(scope);
         Map<Registration, String> missing = new LinkedHashMap<>();
         for (Map.Entry<String, WantedDevice> each : in(scope).entrySet()) {
             try {
                 Registration registration = registrations.of(each.getValue());
-                if (book.has(registration)) {
+                if (registry(scope).has(registration)) {
                     there.put(each.getKey(), registration);
                 } else if (held.containsKey(registration)) {
                     refused.put(each.getKey(), held.get(registration));
@@ -97,65 +136,65 @@ final class Provisioning {
             }
         }
         List<Registration> batch =
-                missing.keySet().stream().limit(AgentBook.BATCH).toList();
-        held.putAll(book.add(batch));
+                missing.keySet().stream().limit(batchSize.current()).toList();
+        if (batch.isEmpty()) {
+            return true;
+        }
+        held.putAll(add(registry(scope), batch, budget));
+        int settled = 0;
         for (Registration device : batch) {
             if (held.containsKey(device)) {
                 refused.put(missing.get(device), held.get(device));
-            } else {
+                settled++;
+            } else if (registry(scope).has(device)) {
                 there.put(missing.get(device), device);
+                settled++;
             }
         }
-        return batch.size() == missing.size();
+        return settled == missing.size();
     }
 
-    /** While the agent is still learning of devices, none loses an account that it has. */
-    private void account(Collection<Registration> there, boolean complete) throws IOException {
-        Map<String, MqttAccount> byUser = new TreeMap<>();
-        for (Registration device : there) {
-            MqttAccount own = MqttAccount.device(secret, device.mission(), device.device());
-            byUser.put(own.login().user(), own);
-            byUser.computeIfAbsent(device.mission(), mission -> MqttAccount.gateway(secret, mission));
-        }
-        List<MqttAccount> accounts = List.copyOf(byUser.values());
-        boolean grows = known != null && new HashSet<>(accounts).containsAll(known);
-        if (accounts.equals(known) || !complete && !grows) {
-            return;
-        }
-        known = null;
-        for (MqttAccounts broker : brokers) {
-            broker.replace(accounts);
-        }
-        known = accounts;
-    }
-
-    private boolean remove(FiwareScope scope) throws IOException, InterruptedException {
-        Set<String> devices = new HashSet<>();
-        Set<String> apiKeys = new HashSet<>();
-        for (WantedDevice device : in(scope).values()) {
-            devices.add(device.device());
-            apiKeys.add(secret.apiKey(device.version().mission()));
-        }
-        AgentBook book = book(scope);
+    private Map<Registration, String> add(AgentRegistry registry, List<Registration> batch, StepBudget budget)
+            throws IOException, InterruptedException {
         try {
-            book.remove(devices, apiKeys);
-        } catch (RefusedByAgentException e) {
-            throw new IOException("what is no longer wanted stays: " + e.getMessage(), e);
+            Map<Registration, String> refused = registry.add(batch, budget);
+            batchSize.succeeded();
+            return refused;
+        } catch (IOException e) {
+            batchSize.failed();
+            throw e;
         }
-        return book.isClean(devices, apiKeys);
     }
 
-    private AgentBook book(FiwareScope scope) throws IOException, InterruptedException {
-        AgentBook book = books.get(scope);
-        if (book == null) {
+    private String remove(FiwareScope scope, StepBudget budget) throws IOException, InterruptedException {
+        return registry(scope).remove(desiredDevices(scope), desiredKeys(scope), budget);
+    }
+
+    private boolean isClean(FiwareScope scope) throws IOException, InterruptedException {
+        return registry(scope).isClean(desiredDevices(scope), desiredKeys(scope));
+    }
+
+    private Set<String> desiredDevices(FiwareScope scope) {
+        return in(scope).values().stream().map(WantedDevice::device).collect(Collectors.toSet());
+    }
+
+    private Set<String> desiredKeys(FiwareScope scope) {
+        return in(scope).values().stream()
+                .map(device -> secret.get().apiKey(device.version().mission()))
+                .collect(Collectors.toSet());
+    }
+
+    private AgentRegistry registry(FiwareScope scope) throws IOException, InterruptedException {
+        AgentRegistry registry = registries.get(scope);
+        if (registry == null) {
             try {
-                book = AgentBook.open(agent, scope, registrations);
+                registry = AgentRegistry.read(agent, scope, registrations);
             } catch (RefusedByAgentException e) {
                 throw new IOException(e.getMessage(), e);
             }
-            books.put(scope, book);
+            registries.put(scope, registry);
         }
-        return book;
+        return registry;
     }
 
     private Map<String, WantedDevice> in(FiwareScope scope) {

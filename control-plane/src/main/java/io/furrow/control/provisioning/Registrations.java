@@ -4,6 +4,7 @@ import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.function.Supplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
@@ -11,6 +12,7 @@ import io.furrow.control.provisioning.Registration.Attribute;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.FiwareScope;
 
 /**
  * What the IoT Agent shall know of wanted devices. The attributes of a device follow from its type, or are those of the member
@@ -41,9 +43,9 @@ final class Registrations {
                             new Attribute("rain", "Rain", FLOAT),
                             new Attribute("sun", "SolarRadiation", FLOAT)));
 
-    private final FarmSecret secret;
+    private final Supplier<FarmSecret> secret;
 
-    Registrations(FarmSecret secret) {
+    Registrations(Supplier<FarmSecret> secret) {
         this.secret = secret;
     }
 
@@ -52,19 +54,31 @@ final class Registrations {
         return wanted.isHosted() && wanted.running() && !ROBOT.equals(wanted.type());
     }
 
-    /** Whether what the agent has was made here: nobody else comes to the mission's API key. */
+    /** Whether what the agent has was made here, maybe before a rotation: nobody else comes to the mission's API key. */
     boolean isOurs(String apiKey, String mission) {
-        return mission != null && secret.apiKey(mission).equals(apiKey);
+        return mission != null && secret.get().madeApiKey(apiKey, mission);
     }
 
-    /** @throws RefusedByAgentException naming the member of {@code parameters} that is wrong */
+    /**
+     * Whether the agent can keep devices of a scope. It wants a tenant with every request; with an empty one it does not find the
+     * device of a command, which the context broker sends it without.
+     */
+    static boolean hasTenant(FiwareScope scope) {
+        return !scope.service().isEmpty();
+    }
+
+    /** @throws RefusedByAgentException naming the member of {@code parameters} that is wrong, or a missing tenant */
     Registration of(WantedDevice wanted) throws RefusedByAgentException {
         DeviceVersion version = wanted.version();
+        if (!hasTenant(WantedDevices.scope(wanted))) {
+            throw new RefusedByAgentException(
+                    "it belongs to the default tenant, but the IoT Agent needs a tenant; name one with --fiware-service and start its mission again");
+        }
         Set<Attribute> attributes = new LinkedHashSet<>(measured(wanted));
         attributes.addAll(COMMON);
         return new Registration(
                 wanted.device(),
-                secret.apiKey(version.mission()),
+                secret.get().apiKey(version.mission()),
                 version.id(),
                 wanted.type(),
                 attributes,

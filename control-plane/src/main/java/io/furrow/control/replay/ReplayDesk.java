@@ -5,9 +5,11 @@ import java.util.UUID;
 import java.util.function.Supplier;
 
 import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.Records;
 import io.furrow.control.manager.Sequence;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.ReplayStatus;
@@ -23,12 +25,15 @@ final class ReplayDesk {
 
     private final Records<Replay> replays;
     private final Sequence sequence;
+    private final Quota quota;
     private final Supplier<UUID> ids;
     private final Outbox outbox;
 
-    ReplayDesk(Records<Replay> replays, Sequence sequence, Supplier<UUID> ids, Outbox outbox) {
+    /** @param counters of the sequence, and of the room that is used */
+    ReplayDesk(Records<Replay> replays, Records<Long> counters, Supplier<UUID> ids, Outbox outbox) {
         this.replays = replays;
-        this.sequence = sequence;
+        this.sequence = new Sequence(counters);
+        this.quota = new Quota(counters, Limits.DEFINITIONS_BYTES);
         this.ids = ids;
         this.outbox = outbox;
     }
@@ -46,12 +51,12 @@ final class ReplayDesk {
         }
         check(steering, known);
         Replay next = next(steering, known);
-        keep(next);
+        keep(known, next);
         boolean stops = next.wanted() == Replay.Wanted.STOPPED;
         return Response.of(stops ? "deleted" : next.wanted().word()).with("replay", next.replay());
     }
 
-    private Response start(ReplayCommand.Start start, long now) {
+    private Response start(ReplayCommand.Start start, long now) throws RefusedException {
         String id8;
         do {
             id8 = ids.get().toString().substring(0, ID_DIGITS);
@@ -70,7 +75,7 @@ final class ReplayDesk {
                 null,
                 now,
                 sequence.next());
-        keep(replay);
+        keep(null, replay);
         return Response.of("created").with("replay", replay.replay()).with("topic", replay.topic());
     }
 
@@ -109,14 +114,23 @@ final class ReplayDesk {
     void reported(String replay, ReplayStatus told) {
         Replay known = replays.get(replay);
         if (known != null && told.state().isOver() && told.sequence() >= known.sequence()) {
+            quota.use(-known.toBytes().length);
             replays.put(replay, null);
             outbox.put(Topics.REPLAYS, replay, null);
         }
     }
 
-    private void keep(Replay replay) {
+    /** @param before null where there was none */
+    private void keep(Replay before, Replay replay) throws RefusedException {
+        byte[] value = replay.toBytes();
+        if (before == null) {
+            quota.replace(null, value);
+        } else {
+            quota.use(
+                    value.length - before.toBytes().length); // whoever steers a replay is not refused for want of room
+        }
         replays.put(replay.replay(), replay);
-        outbox.put(Topics.REPLAYS, replay.replay(), replay.toBytes());
+        outbox.put(Topics.REPLAYS, replay.replay(), value);
     }
 
     private static Long millis(Instant time) {

@@ -16,7 +16,6 @@ import io.furrow.control.manager.Inlet;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.Outbox;
 import io.furrow.control.manager.Outgoing;
-import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StoreRecords;
 import io.furrow.control.manager.TakeStatus;
 import io.furrow.model.control.ReplayCommand;
@@ -58,18 +57,14 @@ public final class ReplayManager {
 
         Outgoing.send(
                 Inlet.statuses(builder, Topics.REPLAYS_STATUS, "replay-statuses")
-                        .process(
-                                () -> new TakeStatus(Topics.REPLAYS_STATUS, reports),
-                                Named.as("take-replay-statuses"),
-                                REPLAYS,
-                                SEQUENCE),
+                        .process(() -> new TakeStatus(reports), Named.as("take-replay-statuses"), REPLAYS, SEQUENCE),
                 "ended-replays-out");
     }
 
     private static ReplayDesk desk(ProcessorContext<?, ?> context, Outbox outbox, Supplier<UUID> ids) {
         return new ReplayDesk(
                 StoreRecords.of(context, REPLAYS, Replay.class),
-                new Sequence(StoreRecords.of(context, SEQUENCE, Long.class)),
+                StoreRecords.of(context, SEQUENCE, Long.class),
                 ids,
                 outbox);
     }

@@ -2,8 +2,13 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.Arrays;
+import java.util.Comparator;
+import java.util.List;
 import java.util.concurrent.CompletionStage;
+import java.util.stream.Collectors;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.GET;
@@ -17,6 +22,9 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.alarm.AlarmState;
+import io.furrow.control.alarm.Severity;
+import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/alarms}. */
@@ -24,6 +32,12 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class AlarmsResource {
+    private static final int LISTED = 1000;
+    private static final int MAX_LISTED = 10_000;
+    private static final Comparator<ObjectNode> MOST_SEVERE_FIRST = Comparator.<ObjectNode>comparingInt(
+                    AlarmsResource::severity)
+            .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
+
     private final ServiceView view;
     private final Managers managers;
 
@@ -32,12 +46,56 @@ public final class AlarmsResource {
         this.managers = managers;
     }
 
-    /** @param state null for all */
+    /**
+     * The most severe, of these the newest first.
+     *
+     * @param states at most one; none for all
+     * @param limits at most one, 1 to {@value #MAX_LISTED}
+     */
     @GET
-    public Response list(@QueryParam("state") String state) {
-        return Replies.ok(view.all(Topics.ALARMS).stream()
+    public Response list(@QueryParam("state") List<String> states, @QueryParam("limit") List<String> limits) {
+        AlarmState state = state(states);
+        return Replies.ok(view.all(Topics.ALARMS)
                 .filter(alarm ->
-                        state == null || state.equals(alarm.path("state").textValue())));
+                        state == null || state.word().equals(alarm.path("state").textValue()))
+                .sorted(MOST_SEVERE_FIRST)
+                .limit(limit(limits)));
+    }
+
+    private static AlarmState state(List<String> asked) {
+        if (asked.isEmpty()) {
+            return null;
+        }
+        if (asked.size() == 1) {
+            for (AlarmState state : AlarmState.values()) {
+                if (state.word().equals(asked.get(0))) {
+                    return state;
+                }
+            }
+        }
+        String states = Arrays.stream(AlarmState.values()).map(AlarmState::word).collect(Collectors.joining(", "));
+        throw new ProblemException(ErrorCode.WRONG_MEMBER, "'state' must be one of " + states + ", and given once");
+    }
+
+    private static int limit(List<String> asked) {
+        String limit = asked.isEmpty() ? Integer.toString(LISTED) : asked.get(0);
+        if (asked.size() > 1 || !limit.matches("[1-9][0-9]{0,4}") || Integer.parseInt(limit) > MAX_LISTED) {
+            throw new ProblemException(
+                    ErrorCode.WRONG_MEMBER,
+                    "'limit' must be a whole number from 1 to %d, and given once".formatted(MAX_LISTED));
+        }
+        return Integer.parseInt(limit);
+    }
+
+    /** Of a severity that this version does not know, last. */
+    private static int severity(JsonNode alarm) {
+        String word = alarm.path("severity").asText();
+        for (Severity severity : Severity.values()) {
+            if (severity.word().equals(word)) {
+                return severity.ordinal();
+            }
+        }
+        return Severity.values().length;
     }
 
     /** @param command {@code for}, a duration, belongs to {@code mute} */

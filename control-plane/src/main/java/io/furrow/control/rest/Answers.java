@@ -7,23 +7,24 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
 
+import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Response;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * The answers of the managers by the id of their request: those that somebody waits for, and the newest {@value #REMEMBERED},
- * because a manager does not answer a repeated request again.
+ * because a manager does not answer a repeated request again. An answer belongs to the request with its fingerprint.
  */
 final class Answers {
-    static final int REMEMBERED = 100_000;
+    static final int REMEMBERED = 20_000;
 
-    private final Map<Key, CompletableFuture<Response>> awaited = new ConcurrentHashMap<>();
+    private final Map<Key, Awaited> awaited = new ConcurrentHashMap<>();
     private final Map<Kind, LongAdder> counts = new ConcurrentHashMap<>();
-    private final Map<Key, byte[]> remembered = new LinkedHashMap<>() {
+    private final Map<Key, Remembered> remembered = new LinkedHashMap<>() {
         private static final long serialVersionUID = 1L;
 
         @Override
-        protected boolean removeEldestEntry(Map.Entry<Key, byte[]> eldest) {
+        protected boolean removeEldestEntry(Map.Entry<Key, Remembered> eldest) {
             return size() > REMEMBERED;
         }
     };
@@ -34,38 +35,63 @@ final class Answers {
     /** @param topic of the manager */
     record Key(String topic, String requestId) {}
 
-    /** The future of whoever asked first and still waits, else null, and then the given one waits. */
-    CompletableFuture<Response> await(Key key, CompletableFuture<Response> future) {
-        return awaited.putIfAbsent(key, future);
+    /** @param fingerprint of the request that waits */
+    record Awaited(String fingerprint, CompletableFuture<Response> future) {}
+
+    /** @param fingerprint of the request that was answered; null where an earlier version answered, which did not say */
+    private record Remembered(String fingerprint, byte[] answer) {}
+
+    /** Whoever asked first under this id and still waits, else null, and then the given one waits. */
+    Awaited await(Key key, Awaited waiting) {
+        return awaited.putIfAbsent(key, waiting);
     }
 
-    void forget(Key key, CompletableFuture<Response> future) {
-        awaited.remove(key, future);
+    void forget(Key key, Awaited waiting) {
+        awaited.remove(key, waiting);
     }
 
     int awaited() {
         return awaited.size();
     }
 
-    boolean isAwaited(Key key) {
-        return awaited.containsKey(key);
+    /** Whether somebody waits for the answer to the request of this fingerprint. @param fingerprint null where it is not known */
+    boolean isAwaited(Key key, String fingerprint) {
+        Awaited waiting = awaited.get(key);
+        return waiting != null && (fingerprint == null || fingerprint.equals(waiting.fingerprint()));
     }
 
-    Optional<Response> known(Key key) {
-        byte[] value;
+    /**
+     * The answer that was given under this id.
+     *
+     * @throws ProblemException where it was given to a request of another fingerprint
+     */
+    Optional<Response> known(Key key, String fingerprint) {
+        Remembered known;
         synchronized (remembered) {
-            value = remembered.get(key);
+            known = remembered.get(key);
+        }
+        if (known == null) {
+            return Optional.empty();
+        }
+        if (known.fingerprint() != null && !known.fingerprint().equals(fingerprint)) {
+            throw ProblemException.keyReused();
         }
         try {
-            return value == null ? Optional.empty() : Optional.of(Response.read(value));
+            return Optional.of(Response.read(known.answer()));
         } catch (UnreadableException e) {
             throw new IllegalStateException("the remembered answer is none", e);
         }
     }
 
-    void remember(Key key, byte[] answer) {
-        synchronized (remembered) {
-            remembered.put(key, answer);
+    /** @param fingerprint of the request; null where the answer does not say */
+    void remember(Key key, String fingerprint, byte[] value, Response answer) {
+        String error = answer.error().orElse("");
+        boolean isLasting =
+                !error.equals(ErrorCode.REQUEST_ID_REUSED.code()) && !error.equals(ErrorCode.OVERLOADED.code());
+        if (isLasting) {
+            synchronized (remembered) {
+                remembered.put(key, new Remembered(fingerprint, value));
+            }
         }
     }
 
@@ -81,9 +107,9 @@ final class Answers {
 
     /** Tells whoever waits for it. */
     void release(Key key, Response answer) {
-        CompletableFuture<Response> waiting = awaited.remove(key);
+        Awaited waiting = awaited.remove(key);
         if (waiting != null) {
-            waiting.complete(answer);
+            waiting.future().complete(answer);
         }
     }
 }

@@ -27,6 +27,6 @@ public final class AuditResource {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + ServiceView.AUDITED);
         }
-        return Replies.ok(view.newestAudited(Integer.parseInt(limit)).stream());
+        return Replies.ok(view.newestAudited(Integer.parseInt(limit)));
     }
 }

@@ -1,28 +1,30 @@
 package io.furrow.control.rest;
 
+import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.InputStream;
+import java.time.Duration;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Bodies of requests: one JSON object, as strictly read as everything else. */
 final class Body {
-    private static final int MOST_BYTES = 8 * 1024 * 1024;
+    private static final long MAX_SKIPPED = 16L * 1024 * 1024;
+    private static final Duration TIMEOUT = Duration.ofSeconds(10);
+    private static final int BUFFER_BYTES = 8192;
 
     private Body() {}
 
     /** An empty body is an empty object. @throws ProblemException where it is no object, or too large */
     static ObjectNode read(InputStream body) throws IOException {
-        byte[] bytes = body.readNBytes(MOST_BYTES + 1);
-        if (bytes.length > MOST_BYTES) {
-            throw new ProblemException(413, "too-large", "the body has more than " + MOST_BYTES + " bytes");
-        }
+        byte[] bytes = readAll(body);
         if (bytes.length == 0) {
             return JsonNodeFactory.instance.objectNode();
         }
@@ -35,5 +37,27 @@ final class Body {
             throw new ProblemException(ErrorCode.NOT_JSON, e.getMessage());
         }
         throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is no JSON object");
+    }
+
+    /** In time, because whoever sends slowly occupies a thread. What is too large is read, or many a client would see no answer. */
+    private static byte[] readAll(InputStream body) throws IOException {
+        long end = System.nanoTime() + TIMEOUT.toNanos();
+        ByteArrayOutputStream kept = new ByteArrayOutputStream();
+        byte[] buffer = new byte[BUFFER_BYTES];
+        long total = 0;
+        for (int count = body.read(buffer); count >= 0 && total <= MAX_SKIPPED; count = body.read(buffer)) {
+            total += count;
+            if (total <= Limits.REQUEST_BYTES) {
+                kept.write(buffer, 0, count);
+            }
+            if (System.nanoTime() - end > 0) {
+                throw new ProblemException(
+                        408, "request-timeout", "the body did not come within %d s".formatted(TIMEOUT.toSeconds()));
+            }
+        }
+        if (total > Limits.REQUEST_BYTES) {
+            throw ProblemException.tooLarge(-1);
+        }
+        return kept.toByteArray();
     }
 }

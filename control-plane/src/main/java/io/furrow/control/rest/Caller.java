@@ -28,6 +28,6 @@ record Caller(String user, String requestId) {
     }
 
     static String user(ContainerRequestContext request) {
-        return request.getProperty(BearerTokens.USER) instanceof String name ? name : ANYBODY;
+        return request.getProperty(BearerTokens.TOKEN) instanceof ApiToken token ? token.name() : ANYBODY;
     }
 }

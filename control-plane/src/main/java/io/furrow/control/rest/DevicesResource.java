@@ -2,10 +2,16 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.concurrent.CompletionException;
+import java.util.concurrent.CompletionStage;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.function.Supplier;
 import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.POST;
@@ -19,9 +25,11 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.device.CommandSender;
+import io.furrow.control.device.DeviceCommands;
+import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
@@ -31,6 +39,7 @@ import io.furrow.model.topic.Topics;
 @Produces(MediaType.APPLICATION_JSON)
 public final class DevicesResource {
     private static final String DEVICE = "device";
+    private static final String GENERATION = "generation";
     private static final int LONGEST_AUDITED = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
 
@@ -41,10 +50,10 @@ public final class DevicesResource {
     /**
      * What devices are reached by.
      *
-     * @param sender null where no commands go to devices
+     * @param commands null where none go to devices
      * @param secret null where no credentials are given out
      */
-    record Means(FiwareScope scope, CommandSender sender, FarmSecret secret) {}
+    record Means(FiwareScope scope, DeviceCommands commands, Supplier<FarmSecret> secret) {}
 
     DevicesResource(ServiceView view, Managers managers, Means means) {
         this.view = view;
@@ -55,9 +64,9 @@ public final class DevicesResource {
     /** @param mission null for all @param domain null for all */
     @GET
     public Response list(@QueryParam("mission") String mission, @QueryParam("domain") String domain) {
-        return Replies.ok(view.read(Topics.DEVICES).entrySet().stream()
-                .filter(each -> is(each.getValue(), "mission", mission) && is(each.getValue(), "domain", domain))
-                .map(each -> described(each.getKey(), each.getValue())));
+        return Replies.ok(view.entries(Topics.DEVICES)
+                .filter(each -> is(each.value(), "mission", mission) && is(each.value(), "domain", domain))
+                .map(each -> described(each.key(), each.value())));
     }
 
     private static boolean is(ObjectNode device, String member, String wanted) {
@@ -68,45 +77,75 @@ public final class DevicesResource {
     @GET
     @Path("{device}")
     public Response get(@PathParam(DEVICE) String id) {
-        return Replies.ok(described(means.scope().identity(id), find(id)));
+        return Replies.ok(withSettings(described(means.scope().identity(id), find(id))));
     }
 
     @GET
+    @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        ObjectNode device = find(id);
-        String deviceId = device.path(DEVICE).textValue();
-        if (means.secret() == null || deviceId == null) {
-            throw new ProblemException(
-                    404,
-                    "no-credentials",
-                    deviceId == null
-                            ? "device '%s' reports by itself, with credentials of its own".formatted(id)
-                            : "this control plane does not know the secret of the farm");
-        }
-        String mission = device.path("mission").asText();
-        FarmSecret.Login login = means.secret().device(mission, deviceId);
+        ObjectNode device = provisioned(id);
         audit(
                 Caller.user(request),
                 "credentials",
                 JsonNodeFactory.instance.objectNode().put(DEVICE, id),
                 null);
+        return credentials(device, device.path(GENERATION).asInt());
+    }
+
+    /** Gives the device a new password, and refuses the old one from then on. */
+    @POST
+    @RolesAllowed(Role.ADMINS)
+    @Path("{device}/credentials")
+    public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
+        ObjectNode device = provisioned(id);
+        ObjectNode members = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+        return managers.ask(
+                        new Managers.Question(Topics.MISSION_MANAGER, "rotate-credentials", members),
+                        Caller.of(request))
+                .thenApply(answer -> answer.error().isPresent()
+                        ? Replies.of(answer, 0)
+                        : credentials(device, answer.json().path(GENERATION).asInt()));
+    }
+
+    private Response credentials(ObjectNode device, int generation) {
+        String mission = device.path("mission").asText();
+        FarmSecret secret = means.secret().get();
+        FarmSecret.Login login = secret.device(mission, device.path(DEVICE).textValue(), generation);
         return Replies.json(
                         200,
                         JsonNodeFactory.instance
                                 .objectNode()
-                                .put("apiKey", means.secret().apiKey(mission))
+                                .put("apiKey", secret.apiKey(mission))
                                 .put("user", login.user())
-                                .put("password", login.password()))
+                                .put("password", login.password())
+                                .put("key", secret.newestKey())
+                                .put(GENERATION, generation))
                 .header("Cache-Control", "no-store")
                 .build();
+    }
+
+    /** A device that has credentials, which can be told here. */
+    private ObjectNode provisioned(String id) {
+        ObjectNode device = find(id);
+        if (device.path(DEVICE).textValue() == null) {
+            throw new ProblemException(
+                    ErrorCode.NO_CREDENTIALS,
+                    "device '%s' reports by itself, with credentials of its own".formatted(id));
+        }
+        if (means.secret() == null) {
+            throw new ProblemException(
+                    ErrorCode.NO_CREDENTIALS, "this control plane does not know the secret of the farm");
+        }
+        return device;
     }
 
     /** Answers once the context broker has taken it, which does not say that the device obeyed. */
     @POST
     @Path("{device}/commands")
-    public Response command(@Context ContainerRequestContext request, @PathParam(DEVICE) String id, InputStream body)
-            throws IOException, InterruptedException {
+    public CompletionStage<Response> command(
+            @Context ContainerRequestContext request, @PathParam(DEVICE) String id, InputStream body)
+            throws IOException {
         ObjectNode members = Body.read(body);
         ObjectNode device = find(id);
         String command = members.path("command").asText();
@@ -117,19 +156,30 @@ public final class DevicesResource {
         if (!value.isEmpty()) {
             about.put("value", value.substring(0, Math.min(value.length(), LONGEST_AUDITED)));
         }
-        if (means.sender() == null) {
+        if (means.commands() == null) {
             throw new ProblemException(
                     501, "no-context-broker", "this control plane was started without a context broker for commands");
         }
-        try {
-            means.sender().send(id, type, command, value);
-        } catch (IOException e) {
-            audit(Caller.user(request), command, about, e.getMessage());
-            throw new ProblemException(502, "context-broker", e.getMessage());
+        String user = Caller.user(request);
+        return means.commands()
+                .send(new DeviceCommands.Order(id, type, command, value))
+                .handle((sent, failure) -> answer(failure, new Commanded(user, id, command, about)));
+    }
+
+    private record Commanded(String user, String device, String command, ObjectNode about) {}
+
+    private Response answer(Throwable failure, Commanded commanded) {
+        if (failure == null) {
+            audit(commanded.user(), commanded.command(), commanded.about(), null);
+            ObjectNode answer = io.furrow.model.control.Response.of("sent").json();
+            return Replies.json(202, answer.put(DEVICE, commanded.device()).put("command", commanded.command()))
+                    .build();
         }
-        audit(Caller.user(request), command, about, null);
-        ObjectNode answer = io.furrow.model.control.Response.of("sent").json();
-        return Replies.json(202, answer.put(DEVICE, id).put("command", command)).build();
+        Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
+        audit(commanded.user(), commanded.command(), commanded.about(), cause.getMessage());
+        throw cause instanceof RejectedExecutionException
+                ? ProblemException.overloaded()
+                : new ProblemException(502, "context-broker", cause.getMessage());
     }
 
     private static void check(ObjectNode members, String command, String type) {
@@ -157,13 +207,25 @@ public final class DevicesResource {
     private ObjectNode find(String id) {
         return view.find(Topics.DEVICES, means.scope().identity(id))
                 .orElseThrow(
-                        () -> new ProblemException(404, "unknown-device", "there is no device '%s'".formatted(id)));
+                        () -> new ProblemException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id)));
     }
 
     private ObjectNode described(String key, ObjectNode wanted) {
-        ObjectNode json = wanted.deepCopy();
-        view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> json.set("status", status));
-        view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> json.set("health", health));
-        return json;
+        view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> wanted.set("status", status));
+        view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> wanted.set("health", health));
+        return wanted;
+    }
+
+    /** The device with the settings of its group, which may be large: lists of devices leave them out. */
+    private ObjectNode withSettings(ObjectNode device) {
+        JsonNode group = device.path("group");
+        String key = MissionDeviceList.key(
+                device.path("mission").asText(), group.path("part").asInt());
+        view.find(Topics.MISSION_DEVICES, key)
+                .filter(list -> list.path("sequence").equals(group.path("sequence")))
+                .map(list -> list.path("devices").path(group.path("index").asInt()))
+                .filter(ObjectNode.class::isInstance)
+                .ifPresent(found -> device.set("settings", DeviceGroup.settings((ObjectNode) found)));
+        return device;
     }
 }

@@ -6,6 +6,7 @@ import java.util.concurrent.CompletionStage;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
 import jakarta.ws.rs.GET;
@@ -40,7 +41,7 @@ public final class DomainsResource {
 
     @GET
     public Response list() {
-        return Replies.ok(view.all(Topics.DOMAINS).stream());
+        return Replies.ok(view.all(Topics.DOMAINS));
     }
 
     @POST
@@ -67,6 +68,7 @@ public final class DomainsResource {
     }
 
     /** @param force whether missions that run in it are stopped */
+    @RolesAllowed(Role.ADMINS)
     @DELETE
     @Path("{domain}")
     public CompletionStage<Response> delete(

@@ -4,112 +4,135 @@ import java.io.UncheckedIOException;
 import java.time.Duration;
 import java.util.Properties;
 import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.Executor;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.apache.kafka.clients.producer.KafkaProducer;
-import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
-import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.errors.RecordTooLargeException;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
-import org.apache.kafka.common.serialization.StringSerializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.control.Response;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 /**
  * Asks the managers over their topics, whichever instance they run in, and waits for the answer. The same request id twice is
- * one request: whoever has heard nothing may ask again.
+ * one request: whoever has heard nothing may ask again. No thread waits meanwhile, and no more than {@value #MAX_AWAITED} requests.
  */
 final class Managers implements AutoCloseable {
-    private static final Duration CLOSING = Duration.ofSeconds(5);
+    private static final Logger LOG = LoggerFactory.getLogger(Managers.class);
+    private static final int MAX_AWAITED = 2000;
 
     private final Answers answers;
     private final ServiceView view;
-    private final Duration patience;
+    private final Duration timeout;
     private final Executor executor;
-    private final Producer<String, byte[]> producer;
+    private final RecordSender sender;
 
     /** A command to a manager. @param members of the request but its type, command, id and user */
     record Question(String topic, String command, ObjectNode members) {}
 
     /** @param executor answers are handed on by it */
-    Managers(Properties client, Answers answers, ServiceView view, Duration patience, Executor executor) {
+    Managers(Properties client, Answers answers, ServiceView view, Duration timeout, Executor executor) {
         this.answers = answers;
         this.view = view;
-        this.patience = patience;
+        this.timeout = timeout;
         this.executor = executor;
-        Properties settings = new Properties();
-        settings.putAll(client);
-        settings.put("max.block.ms", Long.toString(patience.toMillis()));
-        settings.put("request.timeout.ms", Long.toString(patience.toMillis()));
-        settings.put("delivery.timeout.ms", Long.toString(patience.toMillis()));
-        settings.put("linger.ms", "0");
-        settings.put("max.request.size", Integer.toString(16 * 1024 * 1024));
-        this.producer = new KafkaProducer<>(settings, new StringSerializer(), new ByteArraySerializer());
+        this.sender = new RecordSender(client, timeout);
     }
 
     /**
      * The answer of a manager, also where it refuses; a {@link ProblemException} where there is none.
      *
-     * @throws ProblemException where answers are not heard yet
+     * @throws ProblemException where answers are not heard yet, the id was given to another request, or too many wait already
      */
     CompletionStage<Response> ask(Question question, Caller caller) {
         if (!view.isComplete()) {
             throw ProblemException.notReady();
         }
+        byte[] value = value(request(question, caller));
         Answers.Key key = new Answers.Key(question.topic(), caller.requestId());
-        CompletableFuture<Response> mine = new CompletableFuture<>();
-        CompletableFuture<Response> first = answers.await(key, mine);
+        Answers.Awaited mine = new Answers.Awaited(RequestFingerprint.of(value), new CompletableFuture<>());
+        Answers.Awaited first = answers.await(key, mine);
         if (first == null) {
-            mine.orTimeout(patience.toMillis(), TimeUnit.MILLISECONDS)
-                    .whenComplete((answer, failure) -> answers.forget(key, mine));
-            answers.known(key).ifPresentOrElse(mine::complete, () -> send(question, caller, mine));
+            begin(key, mine, value);
+        } else if (!first.fingerprint().equals(mine.fingerprint())) {
+            throw ProblemException.keyReused();
         }
         return (first == null ? mine : first)
+                .future()
                 .handleAsync((answer, failure) -> heard(answer, failure, caller), executor);
     }
 
-    private void send(Question question, Caller caller, CompletableFuture<Response> future) {
+    private void begin(Answers.Key key, Answers.Awaited mine, byte[] value) {
+        CompletableFuture<Response> future = mine.future();
+        future.orTimeout(timeout.toMillis(), TimeUnit.MILLISECONDS)
+                .whenComplete((answer, failure) -> answers.forget(key, mine));
+        try {
+            if (answers.awaited() > MAX_AWAITED) {
+                throw ProblemException.overloaded();
+            }
+            answers.known(key, mine.fingerprint())
+                    .ifPresentOrElse(
+                            future::complete,
+                            () -> sender.send(
+                                            new ProducerRecord<>(key.topic(), key.requestId(), value),
+                                            () -> !future.isDone())
+                                    .whenComplete((sent, failure) -> {
+                                        if (failure != null) {
+                                            future.completeExceptionally(failure);
+                                        }
+                                    }));
+        } catch (ProblemException e) {
+            future.completeExceptionally(e);
+        }
+    }
+
+    private static ObjectNode request(Question question, Caller caller) {
         ObjectNode request = question.members().deepCopy();
-        request.put("type", "request")
+        return request.put("type", "request")
                 .put("requestId", caller.requestId())
                 .put("command", question.command())
                 .put(AuditEntry.USER, caller.user());
+    }
+
+    private static byte[] value(ObjectNode request) {
+        byte[] value;
         try {
-            byte[] value = NgsiJson.write(request);
-            producer.send(new ProducerRecord<>(question.topic(), caller.requestId(), value), (at, failure) -> {
-                if (failure != null) {
-                    future.completeExceptionally(failure);
-                }
-            });
+            value = NgsiJson.write(request);
         } catch (UncheckedIOException e) { // half of a surrogate pair has no form in UTF-8
-            future.completeExceptionally(new ProblemException(ErrorCode.NOT_JSON, "a text of the body is not Unicode"));
-        } catch (KafkaException e) {
-            future.completeExceptionally(e);
+            throw new ProblemException(ErrorCode.NOT_JSON, "a text of the body is not Unicode");
         }
+        if (value.length > Limits.REQUEST_BYTES) {
+            throw ProblemException.tooLarge(value.length);
+        }
+        return value;
     }
 
     private Response heard(Response answer, Throwable failure, Caller caller) {
         if (failure == null) {
             return answer;
         }
-        if (failure instanceof ProblemException problem) {
+        Throwable cause =
+                failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
+        if (cause instanceof ProblemException problem) {
             throw problem;
         }
-        if (failure instanceof RecordTooLargeException) {
-            throw new ProblemException(413, "too-large", "the request is larger than Kafka takes");
+        if (cause instanceof RecordTooLargeException) {
+            throw new ProblemException(ErrorCode.TOO_LARGE, "the request is larger than Kafka takes");
         }
-        String why = failure instanceof TimeoutException
-                ? "no manager answered within " + patience.toMillis() + " ms"
-                : "Kafka does not take requests (" + failure.getMessage() + ")";
+        String why = cause instanceof TimeoutException
+                ? "no manager answered within " + timeout.toMillis() + " ms"
+                : "Kafka does not take requests (" + cause.getMessage() + ")";
         throw new ProblemException(
                 503,
                 "not-answered",
@@ -119,11 +142,30 @@ final class Managers implements AutoCloseable {
 
     /** Puts what no manager knows of on the audit topic. */
     void audit(AuditEntry entry) {
-        producer.send(new ProducerRecord<>(Topics.AUDIT, entry.toBytes()));
+        try {
+            sender.send(new ProducerRecord<>(Topics.AUDIT, entry.toBytes()), () -> true)
+                    .whenComplete((sent, failure) -> {
+                        if (failure != null) {
+                            notAudited(entry, failure);
+                        }
+                    });
+        } catch (ProblemException e) {
+            notAudited(entry, e);
+        }
+    }
+
+    private static void notAudited(AuditEntry entry, Throwable failure) {
+        LOG.error(
+                "not on the audit topic: {} {} by {}, {}",
+                entry.command(),
+                entry.about(),
+                entry.user(),
+                entry.result(),
+                failure);
     }
 
     @Override
     public void close() {
-        producer.close(CLOSING);
+        sender.close();
     }
 }

@@ -2,8 +2,10 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.List;
 import java.util.concurrent.CompletionStage;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.Consumes;
@@ -20,6 +22,7 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/missions}. */
@@ -28,6 +31,7 @@ import io.furrow.model.topic.Topics;
 @Produces(MediaType.APPLICATION_JSON)
 public final class MissionsResource {
     private static final String MISSION = "mission";
+    private static final String DEVICES = "devices";
 
     private final ServiceView view;
     private final Managers managers;
@@ -40,10 +44,10 @@ public final class MissionsResource {
     /** Without their devices. @param domain null for all */
     @GET
     public Response list(@QueryParam("domain") String domain) {
-        return Replies.ok(view.all(Topics.MISSIONS).stream()
+        return Replies.ok(view.all(Topics.MISSIONS)
                 .filter(mission ->
                         domain == null || domain.equals(mission.path("domain").textValue()))
-                .map(mission -> withStatus(mission).without("devices")));
+                .map(mission -> withStatus(mission).without(List.of(DEVICES, "parts"))));
     }
 
     @POST
@@ -56,9 +60,19 @@ public final class MissionsResource {
     @GET
     @Path("{mission}")
     public Response get(@PathParam(MISSION) String mission) {
-        return Replies.ok(withStatus(view.find(Topics.MISSIONS, mission)
+        return Replies.ok(withDevices(withStatus(view.find(Topics.MISSIONS, mission)
                 .orElseThrow(() -> new ProblemException(
-                        ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission)))));
+                        ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission))))));
+    }
+
+    /** Appends to the device list of a mission that is not active. */
+    @POST
+    @Path("{mission}/devices")
+    public CompletionStage<Response> addDevices(
+            @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
+            throws IOException {
+        return ask("add-devices", Body.read(body).put(MISSION, mission), request)
+                .thenApply(answer -> Replies.of(answer, 200));
     }
 
     @DELETE
@@ -87,10 +101,23 @@ public final class MissionsResource {
 
     /** The mission as it is wanted, and how far it is. */
     private ObjectNode withStatus(ObjectNode wanted) {
-        ObjectNode json = wanted.deepCopy();
         view.find(Topics.MISSIONS_STATUS, wanted.path(MISSION).asText())
-                .ifPresent(status -> json.set("status", status));
-        return json;
+                .ifPresent(status -> wanted.set("status", status));
+        return wanted;
+    }
+
+    /** The mission with its device list, part by part. */
+    private ObjectNode withDevices(ObjectNode mission) {
+        if (!mission.has(DEVICES)) {
+            ArrayNode devices = mission.putArray(DEVICES);
+            for (int part = 0; part < mission.path("parts").asInt(); part++) {
+                view.find(
+                                Topics.MISSION_DEVICES,
+                                MissionDeviceList.key(mission.path(MISSION).asText(), part))
+                        .ifPresent(list -> list.path(DEVICES).forEach(devices::add));
+            }
+        }
+        return mission.without("parts");
     }
 
     private static ObjectNode named(String mission) {

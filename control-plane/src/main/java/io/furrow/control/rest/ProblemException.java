@@ -1,6 +1,7 @@
 package io.furrow.control.rest;
 
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
 
 /** A request that is answered with an error; the message is its {@code reason}. */
 final class ProblemException extends RuntimeException {
@@ -20,13 +21,38 @@ final class ProblemException extends RuntimeException {
         this(statusOf(code.code()), code.code(), reason);
     }
 
-    /** Which status an error of a manager has in HTTP: 400 for what is not understood, 404 for what is not there, else 409. */
+    /** Which status an error of a manager has in HTTP: 400 for what is not understood, 404 for what is not there, and so on. */
     static int statusOf(String code) {
         return switch (code) {
             case "not-json", "not-a-request", "unknown-command", "missing-member", "wrong-member", "illegal-name" ->
                 400;
+            case "no-credentials" -> 404;
+            case "too-large" -> 413;
+            case "request-id-reused" -> 422;
+            case "internal-error" -> 500;
+            case "overloaded" -> 503;
+            case "quota-exceeded" -> 507;
             default -> code.startsWith("unknown-") ? 404 : 409;
         };
+    }
+
+    static ProblemException overloaded() {
+        return new ProblemException(
+                ErrorCode.OVERLOADED, "too many requests wait to be carried out; ask again in a moment");
+    }
+
+    static ProblemException keyReused() {
+        return new ProblemException(
+                ErrorCode.REQUEST_ID_REUSED,
+                "the header %s was given to another request, or by somebody else; give each request its own"
+                        .formatted(Caller.KEY));
+    }
+
+    static ProblemException tooLarge(long bytes) {
+        return new ProblemException(
+                ErrorCode.TOO_LARGE,
+                "the request has %s bytes, and may have %d; send a long list of devices in several requests"
+                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), Limits.REQUEST_BYTES));
     }
 
     static ProblemException notReady() {

@@ -38,7 +38,7 @@ public final class ReplaysResource {
 
     @GET
     public Response list() {
-        return Replies.ok(view.all(Topics.REPLAYS).stream().map(this::withStatus));
+        return Replies.ok(view.all(Topics.REPLAYS).map(this::withStatus));
     }
 
     @POST
@@ -80,9 +80,9 @@ public final class ReplaysResource {
     }
 
     private ObjectNode withStatus(ObjectNode wanted) {
-        ObjectNode json = wanted.deepCopy();
-        view.find(Topics.REPLAYS_STATUS, wanted.path(REPLAY).asText()).ifPresent(status -> json.set("status", status));
-        return json;
+        view.find(Topics.REPLAYS_STATUS, wanted.path(REPLAY).asText())
+                .ifPresent(status -> wanted.set("status", status));
+        return wanted;
     }
 
     private CompletionStage<io.furrow.model.control.Response> ask(

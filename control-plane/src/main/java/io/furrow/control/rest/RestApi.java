@@ -2,14 +2,11 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.lang.reflect.Type;
-import java.net.InetAddress;
 import java.net.URI;
 import java.nio.ByteBuffer;
 import java.util.List;
 import java.util.Locale;
-import java.util.function.Supplier;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.core.MediaType;
 import org.eclipse.jetty.ee10.servlet.ServletContextHandler;
 import org.eclipse.jetty.ee10.servlet.ServletHolder;
@@ -21,6 +18,7 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.server.Server;
 import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.server.SslConnectionFactory;
 import org.eclipse.jetty.util.Callback;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 import org.glassfish.jersey.internal.inject.AbstractBinder;
@@ -33,7 +31,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.control.readiness.Readiness;
 
 /**
  * The REST API of the control plane. It shares nothing with the managers but their topics, so any number of instances, beside
@@ -48,6 +46,7 @@ public final class RestApi implements AutoCloseable {
     private final ServiceView view = new ServiceView();
     private final Answers answers = new Answers();
     private final Server server = new Server(threads);
+    private final RestMetrics metrics = new RestMetrics(view, answers);
     private final ServiceReader reader;
     private final Managers managers;
 
@@ -61,21 +60,19 @@ public final class RestApi implements AutoCloseable {
     /**
      * Prepares the topics and listens; until they are read, requests are answered with 503.
      *
-     * @param state that of the managers in this process, {@code RUNNING} when they answer
-     * @throws IOException if the topics cannot be prepared, the tokens not be read, or the port is taken
+     * @param readiness of this process, to which the API adds itself
+     * @throws IOException if the topics cannot be prepared, the farm has another secret, tokens or certificate cannot be
+     *     read, or the port is taken
      */
-    public static RestApi start(ControlSettings control, RestSettings rest, Supplier<String> state) throws IOException {
-        if (rest.tokens() == null && !InetAddress.getByName(rest.host()).isLoopbackAddress()) {
-            throw new IOException(
-                    "The REST API listens on %s only with tokens: whoever reaches it commands the farm. Name a"
-                                    .formatted(rest.host())
-                            + " file of lines '<name> <token>', or listen on 127.0.0.1.");
-        }
+    public static RestApi start(ControlSettings control, RestSettings rest, Readiness readiness) throws IOException {
+        rest.check();
         BearerTokens tokens = rest.tokens() == null ? null : BearerTokens.read(rest.tokens());
-        ServiceTopics.prepare(control);
+        TlsListener tls = rest.certificate() == null ? null : TlsListener.open(rest.certificate());
+        check(control, rest);
         RestApi api = new RestApi(control, rest);
         try {
-            api.listen(rest, api.resources(control, rest, state, tokens));
+            readiness.warn(new Warnings(rest.secret(), tokens, tls));
+            api.listen(rest, tls, api.resources(control, rest, readiness, tokens));
         } catch (IOException e) {
             api.close();
             throw e;
@@ -85,10 +82,23 @@ public final class RestApi implements AutoCloseable {
         return api;
     }
 
+    /**
+     * Prepares the topics, and refuses an address or a secret that {@link #start} would refuse: before managers join the others, whose
+     * work would stop for a moment each time such a process is started.
+     *
+     * @throws IOException as {@link #start}
+     */
+    public static void check(ControlSettings control, RestSettings rest) throws IOException {
+        rest.check();
+        ServiceTopics.prepare(control);
+        if (rest.secret() != null) {
+            rest.secret().verify();
+        }
+    }
+
     private ResourceConfig resources(
-            ControlSettings control, RestSettings rest, Supplier<String> state, BearerTokens tokens)
-            throws IOException {
-        RestMetrics metrics = new RestMetrics(view, answers);
+            ControlSettings control, RestSettings rest, Readiness readiness, BearerTokens tokens) throws IOException {
+        readiness.require(reader::status);
         DeviceCommands commands = rest.contextBroker() == null
                 ? null
                 : new DeviceCommands(rest.contextBroker(), control.missions().scope());
@@ -104,14 +114,14 @@ public final class RestApi implements AutoCloseable {
                 new ReplaysResource(view, managers),
                 new AlarmsResource(view, managers),
                 new AuditResource(view),
-                new ServicePages(view, state, metrics));
+                new ServicePages(readiness, metrics));
         resources.forEach(resource -> config.register(resource.getClass()));
         config.register(new Instances(resources));
         config.register(metrics);
         config.register(new Failures());
-        config.register(new OwnPagesOnly(rest.host(), tokens != null));
         if (tokens != null) {
             config.register(tokens);
+            config.register(RoleFilter.class);
         }
         return config;
     }
@@ -130,10 +140,12 @@ public final class RestApi implements AutoCloseable {
         }
     }
 
-    private void listen(RestSettings rest, ResourceConfig resources) throws IOException {
+    private void listen(RestSettings rest, TlsListener tls, ResourceConfig resources) throws IOException {
         HttpConfiguration http = new HttpConfiguration();
         http.setSendServerVersion(false);
-        ServerConnector connector = new ServerConnector(server, new HttpConnectionFactory(http));
+        ServerConnector connector = tls == null
+                ? new ServerConnector(server, new HttpConnectionFactory(http))
+                : new ServerConnector(server, tls.protocols(http));
         connector.setHost(rest.host());
         connector.setPort(rest.port());
         server.addConnector(connector);
@@ -145,7 +157,7 @@ public final class RestApi implements AutoCloseable {
         context.addServlet(servlet, "/*");
         context.setErrorHandler(RestApi::refuse);
         server.setErrorHandler(RestApi::refuse);
-        server.setHandler(context);
+        server.setHandler(ApiAccess.guard(rest, context));
         try {
             server.start();
         } catch (Exception e) { // Jetty declares no narrower type
@@ -154,24 +166,31 @@ public final class RestApi implements AutoCloseable {
                             .formatted(rest.host(), rest.port(), e.getMessage()),
                     e);
         }
+        if (tls != null) {
+            tls.follow(server);
+        }
     }
 
     /** What comes no further than to the HTTP server, as a path that has two readings. */
     private static boolean refuse(Request request, Response response, Callback callback) {
         String reason = HttpStatus.getMessage(response.getStatus());
-        ObjectNode json = io.furrow.model.control.Response.of(io.furrow.model.control.Response.ERROR)
-                .with("error", reason.toLowerCase(Locale.ROOT).replace(' ', '-'))
-                .with("reason", "the HTTP server refuses the request: " + reason)
-                .json();
+        byte[] json = ApiAccess.problem(
+                reason.toLowerCase(Locale.ROOT).replace(' ', '-'), "the HTTP server refuses the request: " + reason);
         response.getHeaders().put(HttpHeader.CONTENT_TYPE, MediaType.APPLICATION_JSON);
-        response.write(true, ByteBuffer.wrap(NgsiJson.write(json)), callback);
+        response.write(true, ByteBuffer.wrap(json), callback);
         return true;
     }
 
     /** Where it listens. */
     public URI uri() {
         ServerConnector connector = (ServerConnector) server.getConnectors()[0];
-        return URI.create("http://%s:%d".formatted(connector.getHost(), connector.getLocalPort()));
+        String scheme = connector.getConnectionFactory(SslConnectionFactory.class) == null ? "http" : "https";
+        return URI.create("%s://%s:%d".formatted(scheme, connector.getHost(), connector.getLocalPort()));
+    }
+
+    /** For a port of its own: the metrics in the text format of Prometheus. */
+    public byte[] metrics() {
+        return metrics.page();
     }
 
     /** Whether what there is can be read. */

@@ -9,7 +9,6 @@ import java.util.TreeMap;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.prometheus.metrics.expositionformats.PrometheusTextFormatWriter;
 import io.prometheus.metrics.model.snapshots.CounterSnapshot;
 import io.prometheus.metrics.model.snapshots.CounterSnapshot.CounterDataPointSnapshot;
@@ -117,9 +116,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     private GaugeSnapshot byState(String name, String help, String topic) {
         Map<String, Long> states = new TreeMap<>();
-        for (ObjectNode each : view.all(topic)) {
-            states.merge(each.path(STATE).asText("none"), 1L, Long::sum);
-        }
+        view.all(topic).forEach(each -> states.merge(each.path(STATE).asText("none"), 1L, Long::sum));
         GaugeSnapshot.Builder gauge = gauge(name, help);
         states.forEach((state, count) -> gauge.dataPoint(value(Labels.of(STATE, state), count)));
         return gauge.build();

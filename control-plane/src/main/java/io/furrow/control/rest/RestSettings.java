@@ -1,51 +1,99 @@
 package io.furrow.control.rest;
 
+import java.io.IOException;
+import java.net.InetAddress;
 import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Objects;
 
-import io.furrow.model.device.FarmSecret;
+import io.furrow.control.secret.SecretSource;
+import io.furrow.http.AllowedNames;
 
 /**
  * What the REST API is started with.
  *
- * @param host address to listen on; another than a loopback address needs {@code tokens}
+ * @param host address to listen on; another than a loopback address needs {@code tokens}, and {@code certificate} or {@code
+ *     insecure}
  * @param port 0 for a free one
  * @param patience how long a request to a manager waits for its answer before it is told to repeat
- * @param tokens file of lines {@code <name> <token>}; null where no token is asked for
+ * @param tokens file of lines {@code <name> <token> <role>}; null where no token is asked for
+ * @param certificate of TLS; null for plain HTTP
+ * @param insecure whether other addresses may be reached over plain HTTP, because a proxy in front ends TLS
  * @param contextBroker through which commands go to devices; null where none do
  * @param secret of which the devices' credentials are made; null where they are not given out
+ * @param allowed hosts and origins beside loopback and {@code host}, whether tokens are asked for or not
  */
 public record RestSettings(
-        String host, int port, Duration patience, Path tokens, URI contextBroker, FarmSecret secret) {
+        String host,
+        int port,
+        Duration patience,
+        Path tokens,
+        CertificateFiles certificate,
+        boolean insecure,
+        URI contextBroker,
+        SecretSource secret,
+        AllowedNames allowed) {
     public RestSettings {
         Objects.requireNonNull(host);
         Objects.requireNonNull(patience);
+        Objects.requireNonNull(allowed);
     }
 
-    /** On 127.0.0.1, without tokens, commands to devices and credentials. */
+    /** On 127.0.0.1, over plain HTTP, without tokens, commands to devices and credentials. */
     public static RestSettings on(int port) {
-        return new RestSettings("127.0.0.1", port, Duration.ofSeconds(15), null, null, null);
+        return new RestSettings(
+                "127.0.0.1", port, Duration.ofSeconds(15), null, null, false, null, null, AllowedNames.NONE);
     }
 
     public RestSettings withHost(String newHost) {
-        return new RestSettings(newHost, port, patience, tokens, contextBroker, secret);
+        return new RestSettings(newHost, port, patience, tokens, certificate, insecure, contextBroker, secret, allowed);
     }
 
     public RestSettings withPatience(Duration newPatience) {
-        return new RestSettings(host, port, newPatience, tokens, contextBroker, secret);
+        return new RestSettings(host, port, newPatience, tokens, certificate, insecure, contextBroker, secret, allowed);
     }
 
     public RestSettings withTokens(Path file) {
-        return new RestSettings(host, port, patience, file, contextBroker, secret);
+        return new RestSettings(host, port, patience, file, certificate, insecure, contextBroker, secret, allowed);
+    }
+
+    /** @param files null for plain HTTP */
+    public RestSettings withCertificate(CertificateFiles files) {
+        return new RestSettings(host, port, patience, tokens, files, insecure, contextBroker, secret, allowed);
+    }
+
+    public RestSettings withInsecure(boolean proxied) {
+        return new RestSettings(host, port, patience, tokens, certificate, proxied, contextBroker, secret, allowed);
     }
 
     public RestSettings withContextBroker(URI uri) {
-        return new RestSettings(host, port, patience, tokens, uri, secret);
+        return new RestSettings(host, port, patience, tokens, certificate, insecure, uri, secret, allowed);
     }
 
-    public RestSettings withSecret(FarmSecret newSecret) {
-        return new RestSettings(host, port, patience, tokens, contextBroker, newSecret);
+    public RestSettings withSecret(SecretSource newSecret) {
+        return new RestSettings(host, port, patience, tokens, certificate, insecure, contextBroker, newSecret, allowed);
+    }
+
+    public RestSettings withAllowed(AllowedNames names) {
+        return new RestSettings(host, port, patience, tokens, certificate, insecure, contextBroker, secret, names);
+    }
+
+    /** @throws IOException where it would listen with less than its address needs; the message says what to do */
+    void check() throws IOException {
+        if (InetAddress.getByName(host).isLoopbackAddress()) {
+            return;
+        }
+        if (tokens == null) {
+            throw new IOException(
+                    "The REST API listens on %s only with tokens: whoever reaches it commands the farm. Name a file of lines '<name> <token> <role>' (--api-tokens), or listen on 127.0.0.1."
+                            .formatted(host));
+        }
+        if (certificate == null && !insecure) {
+            throw new IOException(
+                    ("The REST API listens on %s only with TLS: tokens and the passwords of devices would cross the network in the clear. Name a certificate"
+                                    + " (--api-certificate and --api-certificate-key, or --api-keystore), or say with --api-insecure that a proxy in front of it ends TLS.")
+                            .formatted(host));
+        }
     }
 }

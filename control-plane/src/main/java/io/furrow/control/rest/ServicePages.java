@@ -2,27 +2,25 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.util.function.Supplier;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.Path;
 import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.readiness.Readiness;
+
 /** What tells of the API itself, without a token: its description, whether it is ready, its numbers. */
 @Path("/")
 public final class ServicePages {
-    private final ServiceView view;
-    private final Supplier<String> managers;
+    private final Readiness readiness;
     private final RestMetrics metrics;
     private final byte[] description;
 
-    /** @param managers the state of the managers in this process */
-    ServicePages(ServiceView view, Supplier<String> managers, RestMetrics metrics) throws IOException {
-        this.view = view;
-        this.managers = managers;
+    ServicePages(Readiness readiness, RestMetrics metrics) throws IOException {
+        this.readiness = readiness;
         this.metrics = metrics;
         try (InputStream json = ServicePages.class.getResourceAsStream("openapi.json")) {
             this.description = json.readAllBytes();
@@ -36,20 +34,25 @@ public final class ServicePages {
         return Response.ok(description).build();
     }
 
-    /** 200 where requests are answered, else 503. */
+    /** 200 unless a part has ended that only a restart brings back; the same as on the port for probes. */
     @GET
     @Path("health")
     @Produces(MediaType.APPLICATION_JSON)
     public Response health() {
-        boolean ready = view.isComplete() && "RUNNING".equals(managers.get());
-        Response.ResponseBuilder answer = Replies.json(
-                ready ? 200 : 503,
-                JsonNodeFactory.instance
-                        .objectNode()
-                        .put("status", ready ? "up" : "starting")
-                        .put("view", view.isComplete() ? "complete" : "incomplete")
-                        .put("managers", managers.get()));
-        return (ready ? answer : answer.header("Retry-After", 1)).build();
+        return page(readiness.isAlive(), readiness.health());
+    }
+
+    /** 200 where requests are answered, else 503; the same as on the port for probes. */
+    @GET
+    @Path("ready")
+    @Produces(MediaType.APPLICATION_JSON)
+    public Response ready() {
+        return page(readiness.isReady(), readiness.readiness());
+    }
+
+    private static Response page(boolean good, ObjectNode page) {
+        Response.ResponseBuilder answer = Replies.json(good ? 200 : 503, page).header("Cache-Control", "no-store");
+        return (good ? answer : answer.header("Retry-After", 1)).build();
     }
 
     @GET

@@ -1,6 +1,8 @@
 package io.furrow.control.rest;
 
+import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
@@ -19,16 +21,18 @@ import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.consumer.OffsetAndTimestamp;
 import org.apache.kafka.common.IsolationLevel;
-import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.PartitionInfo;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.errors.WakeupException;
+import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.control.readiness.PartStatus;
+import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.control.Response;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -56,6 +60,8 @@ final class ServiceReader implements AutoCloseable {
     private final CountDownLatch closing = new CountDownLatch(1);
     private final Thread thread = new Thread(this::run, "control-plane-view");
     private volatile Consumer<String, byte[]> consumer;
+    private volatile Instant lastPoll;
+    private volatile String failure = "";
 
     /** @param remembered how far back answers are read at the start */
     ServiceReader(Properties client, Duration remembered, ServiceView view, Answers answers) {
@@ -74,6 +80,14 @@ final class ServiceReader implements AutoCloseable {
         view.clear();
         thread.setDaemon(true);
         thread.start();
+    }
+
+    PartStatus status() {
+        PartStatus.State state = !thread.isAlive()
+                ? PartStatus.State.DEAD
+                : view.isComplete() ? PartStatus.State.UP : PartStatus.State.DOWN;
+        return new PartStatus(
+                "api", state, lastPoll, state == PartStatus.State.UP ? "" : "reads its topics; " + failure);
     }
 
     /** A view that nobody follows is none. */
@@ -95,8 +109,9 @@ final class ServiceReader implements AutoCloseable {
                 read(fresh, admin);
             } catch (WakeupException e) { // to look whether it is closed
                 LOG.debug("the view of the control plane's topics was woken up", e);
-            } catch (KafkaException e) {
+            } catch (RuntimeException e) { // of Kafka, or of ours: without a view nothing can be read
                 LOG.warn("the view of the control plane's topics failed and begins anew", e);
+                failure = e.toString();
                 view.clear();
                 pause();
             }
@@ -122,6 +137,7 @@ final class ServiceReader implements AutoCloseable {
         AnswerGate gate = new AnswerGate(answers);
         while (closing.getCount() > 0) {
             Map<Answers.Key, Response> fresh = take(from.poll(gate.isEmpty() ? POLL : POLL_WITH_ANSWERS));
+            lastPoll = Instant.now();
             if (!view.isComplete() && AnswerGate.reached(ends, from::position)) {
                 view.complete();
                 LOG.info("the view of the control plane's topics is complete");
@@ -196,18 +212,24 @@ final class ServiceReader implements AutoCloseable {
         }
         answer.requestId().ifPresent(id -> {
             Answers.Key key = new Answers.Key(record.topic(), id);
-            answers.remember(key, record.value());
-            if (answers.isAwaited(key)) {
+            String fingerprint = fingerprint(record);
+            answers.remember(key, fingerprint, record.value(), answer);
+            if (answers.isAwaited(key, fingerprint)) {
                 fresh.put(key, answer);
             }
         });
     }
 
+    /** Of the request that a record answers; null where it does not say. */
+    private static String fingerprint(ConsumerRecord<String, byte[]> record) {
+        Header header = record.headers().lastHeader(RequestFingerprint.HEADER);
+        return header == null ? null : new String(header.value(), StandardCharsets.UTF_8);
+    }
+
     private void takeValue(ConsumerRecord<String, byte[]> record) {
         try {
-            ObjectNode value = record.value() != null && NgsiJson.read(record.value()) instanceof ObjectNode object
-                    ? object
-                    : null;
+            boolean object = record.value() != null && NgsiJson.read(record.value()) instanceof ObjectNode;
+            byte[] value = object ? record.value() : null;
             if (!record.topic().equals(Topics.AUDIT)) {
                 view.put(record.topic(), record.key() == null ? "" : record.key(), value);
             } else if (value != null) {

@@ -1,25 +1,30 @@
 package io.furrow.control.rest;
 
 import java.util.ArrayDeque;
-import java.util.ArrayList;
-import java.util.Collection;
 import java.util.Deque;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ConcurrentSkipListMap;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** What is on the compacted topics of the control plane, and the end of its audit topic. Values are not to be changed. */
+/**
+ * What is on the compacted topics of the control plane, and the end of its audit topic. Held as bytes, because trees take ten times
+ * the room; whoever reads gets a tree of his own.
+ */
 final class ServiceView {
     /** The topics that are held whole. */
     static final List<String> TOPICS = List.of(
             Topics.DOMAINS,
             Topics.MISSIONS,
+            Topics.MISSION_DEVICES,
             Topics.MISSIONS_STATUS,
             Topics.TEMPLATES,
             Topics.DEVICES,
@@ -32,9 +37,12 @@ final class ServiceView {
     /** How many entries of the audit topic are held. */
     static final int AUDITED = 1000;
 
-    private final Map<String, Map<String, ObjectNode>> byTopic = new ConcurrentHashMap<>();
-    private final Deque<ObjectNode> audited = new ArrayDeque<>();
+    private final Map<String, Map<String, byte[]>> byTopic = new ConcurrentHashMap<>();
+    private final Deque<byte[]> audited = new ArrayDeque<>();
     private volatile boolean complete;
+
+    /** What is under a key of a topic. */
+    record Entry(String key, ObjectNode value) {}
 
     /** Begins anew; nothing can be read until {@link #complete()}. */
     void clear() {
@@ -45,8 +53,8 @@ final class ServiceView {
         }
     }
 
-    /** @param value null takes it away */
-    void put(String topic, String key, ObjectNode value) {
+    /** @param value a JSON object; null takes it away */
+    void put(String topic, String key, byte[] value) {
         if (value == null) {
             byTopic.get(topic).remove(key);
         } else {
@@ -54,7 +62,7 @@ final class ServiceView {
         }
     }
 
-    void audit(ObjectNode entry) {
+    void audit(byte[] entry) {
         synchronized (audited) {
             audited.addFirst(entry);
             if (audited.size() > AUDITED) {
@@ -73,16 +81,20 @@ final class ServiceView {
 
     /** @throws ProblemException where the topics were not read to their ends yet */
     Optional<ObjectNode> find(String topic, String key) {
-        return Optional.ofNullable(read(topic).get(key));
+        return Optional.ofNullable(read(topic).get(key)).map(ServiceView::parse);
     }
 
     /** In the order of the keys. @throws ProblemException as {@link #find} */
-    Collection<ObjectNode> all(String topic) {
-        return read(topic).values();
+    Stream<ObjectNode> all(String topic) {
+        return read(topic).values().stream().map(ServiceView::parse);
     }
 
     /** With their keys, in their order. @throws ProblemException as {@link #find} */
-    Map<String, ObjectNode> read(String topic) {
+    Stream<Entry> entries(String topic) {
+        return read(topic).entrySet().stream().map(each -> new Entry(each.getKey(), parse(each.getValue())));
+    }
+
+    private Map<String, byte[]> read(String topic) {
         if (!complete) {
             throw ProblemException.notReady();
         }
@@ -90,12 +102,22 @@ final class ServiceView {
     }
 
     /** The newest first. @throws ProblemException as {@link #find} */
-    List<ObjectNode> newestAudited(int most) {
+    Stream<ObjectNode> newestAudited(int most) {
         if (!complete) {
             throw ProblemException.notReady();
         }
+        List<byte[]> entries;
         synchronized (audited) {
-            return new ArrayList<>(audited).subList(0, Math.min(most, audited.size()));
+            entries = audited.stream().limit(most).toList();
+        }
+        return entries.stream().map(ServiceView::parse);
+    }
+
+    private static ObjectNode parse(byte[] value) {
+        try {
+            return (ObjectNode) NgsiJson.read(value);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("what was put is no JSON object", e);
         }
     }
 }

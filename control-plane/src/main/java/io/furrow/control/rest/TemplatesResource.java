@@ -10,6 +10,7 @@ import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
 import jakarta.ws.rs.GET;
@@ -45,7 +46,7 @@ public final class TemplatesResource {
     /** All versions. */
     @GET
     public Response list() {
-        return Replies.ok(view.all(Topics.TEMPLATES).stream());
+        return Replies.ok(view.all(Topics.TEMPLATES));
     }
 
     /** Keeps the next version. */
@@ -62,13 +63,14 @@ public final class TemplatesResource {
     public Response get(@PathParam(TEMPLATE) String name) {
         Optional<ObjectNode> template = name.contains("@")
                 ? view.find(Topics.TEMPLATES, name)
-                : view.all(Topics.TEMPLATES).stream()
+                : view.all(Topics.TEMPLATES)
                         .filter(each -> name.equals(each.path(TEMPLATE).textValue()))
                         .max(Comparator.comparingInt(each -> each.path(VERSION).asInt()));
         return Replies.ok(template.orElseThrow(() -> unknown(name)));
     }
 
     /** @param name {@code <name>} for all versions, or {@code <name>@<version>} */
+    @RolesAllowed(Role.ADMINS)
     @DELETE
     @Path("{template}")
     public CompletionStage<Response> delete(

@@ -3,6 +3,7 @@ package io.furrow.control.alarm;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
+import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 
@@ -13,6 +14,7 @@ import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.topic.Topics;
 
@@ -26,7 +28,12 @@ class AlarmDeskTest {
     private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
     private final KeptOutbox outbox = new KeptOutbox();
     private final AlarmDesk desk = new AlarmDesk(
-            new AlarmRecords(MapRecords.of(Alarm.class), MapRecords.of(String.class), mutes),
+            new AlarmRecords(
+                    MapRecords.of(Alarm.class),
+                    MapRecords.of(String.class),
+                    mutes,
+                    MapRecords.of(AlarmLimit.Group.class),
+                    MapRecords.of(AlarmLimit.Counted.class)),
             new Sequence(MapRecords.of(Long.class)),
             outbox);
 
@@ -38,7 +45,7 @@ class AlarmDeskTest {
                 .isEqualTo("""
                         {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",\
                         "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],\
-                        "raised":1700000000000,"changed":1700000000000,"count":1,"sequence":1}""");
+                        "raised":1700000000000,"changed":1700000000000,"count":1,"sequence":1,"seen":1700000000000}""");
     }
 
     @Test
@@ -64,7 +71,7 @@ class AlarmDeskTest {
                 .returns(AlarmState.ACKNOWLEDGED, Alarm::state)
                 .returns("ann", Alarm::acknowledgedBy);
         refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
-        desk.answer(new AlarmCommand.Close("silent-device-1", "bob"), NOW);
+        desk.answer(new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmLife.CAUSE_LASTS.toMillis());
         assertThat(alarm("silent-device-1"))
                 .returns("closed by bob", Alarm::reason)
                 .returns("ann", Alarm::acknowledgedBy);
@@ -85,6 +92,114 @@ class AlarmDeskTest {
     }
 
     @Test
+    void refusesToCloseByHandWhatWasSeenWithinTheLastMinute() throws Exception {
+        desk.raise(silent("urn:t:1"), NOW);
+        long later = NOW + AlarmLife.CAUSE_LASTS.toMillis() - 1;
+        assertThatThrownBy(() -> desk.answer(new AlarmCommand.Close("silent-device-1", null), later))
+                .isInstanceOf(RefusedException.class)
+                .hasMessage("alarm 'silent-device-1' closes when its cause is over: it is silent (seen 59 s ago)."
+                        + " Acknowledge it, or mute it for a while.");
+        desk.raise(silent("urn:t:1"), later);
+        assertThatThrownBy(() -> desk.answer(new AlarmCommand.Close("silent-device-1", null), later + 1))
+                .isInstanceOf(RefusedException.class);
+        assertThat(alarm("silent-device-1").state()).isEqualTo(AlarmState.OPEN);
+        desk.answer(new AlarmCommand.Close("silent-device-1", null), later + AlarmLife.CAUSE_LASTS.toMillis());
+        desk.raise(silent("urn:t:1"), later + AlarmLife.CAUSE_LASTS.toMillis());
+        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+    }
+
+    @Test
+    void updatesAGroupAlarmAtMostEveryTenSeconds() {
+        desk.report(many(1), null, NOW);
+        desk.report(many(2), null, NOW + 9_999);
+        assertThat(alarm("silent-device-1").affected()).isEqualTo(1);
+        desk.report(many(2), null, NOW + 10_000);
+        assertThat(alarm("silent-device-1"))
+                .returns(2, Alarm::affected)
+                .returns(Alarm.Change.UPDATED, Alarm::change)
+                .returns("2 are silent", Alarm::text);
+        desk.report(many(2), null, NOW + 30_000);
+        assertThat(outbox.all()).hasSize(2);
+    }
+
+    @Test
+    void saysWhichAlarmInhibitsAnotherAndWhenNoLonger() {
+        Cause farm = Cause.ofMany(AlarmKind.SILENT_FARM, "data.raw", "all", List.of(), new Cause.Extent(9, 9));
+        desk.report(farm, null, NOW);
+        desk.report(many(3), farm, NOW);
+        assertThat(alarm("silent-device-2"))
+                .returns("silent-farm-1", Alarm::inhibitedBy)
+                .returns(Alarm.Change.OPENED, Alarm::change);
+        desk.report(many(3), null, NOW + 1);
+        assertThat(alarm("silent-device-2"))
+                .returns(null, Alarm::inhibitedBy)
+                .returns(Alarm.Change.UPDATED, Alarm::change);
+        desk.endOthers(Set.of(AlarmKind.SILENT_FARM, AlarmKind.SILENT_DEVICE), List.of(many(3)), "over", NOW + 2);
+        assertThat(alarm("silent-farm-1").state()).isEqualTo(AlarmState.CLOSED);
+        assertThat(alarm("silent-device-2").state()).isEqualTo(AlarmState.OPEN);
+    }
+
+    @Test
+    void countsThePairsOfAMissionBeyondTwenty() {
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 30; i++) {
+            desk.raise(pair(i), NOW);
+        }
+        desk.passTime(NOW + 1000);
+        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
+        assertThat(crowd)
+                .returns("urn:ngsi-ld:Mission:m", Alarm::subject)
+                .returns(30, Alarm::affected)
+                .returns("30 more pairs of mission m are too close", Alarm::text);
+        for (int i = AlarmLimit.MAX_ALARMS; i < AlarmLimit.MAX_ALARMS + 30; i++) {
+            desk.end(AlarmKind.COLLISION, "pair" + i, "over", NOW);
+        }
+        desk.passTime(NOW + 2000);
+        assertThat(alarm(crowd.alarm()).state()).isEqualTo(AlarmState.CLOSED);
+        desk.end(AlarmKind.COLLISION, "pair0", "over", NOW);
+        desk.raise(pair(99), NOW);
+        assertThat(StateJson.read(outbox.all().get(outbox.all().size() - 1).value(), Alarm.class)
+                        .subject())
+                .isEqualTo("pair99");
+    }
+
+    @Test
+    void forgetsCountedCausesThatAreOverByThemselves() {
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 5; i++) {
+            desk.raise(new Cause(AlarmKind.PREDICTED_ENCOUNTER, "p" + i, "x", List.of(), HOUR).inGroup("g"), NOW);
+        }
+        desk.passTime(NOW + 1000);
+        assertThat(current()).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        desk.passTime(NOW + HOUR.toMillis());
+        assertThat(current()).isEmpty();
+    }
+
+    @Test
+    void storesNoMoreThanTenThousandClosedAlarms() {
+        for (int i = 0; i < AlarmDesk.MAX_CLOSED + 10; i++) {
+            desk.raise(silent("urn:t:1"), NOW + i);
+            desk.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW + i);
+        }
+        desk.passTime(NOW + 100_000);
+        assertThat(outbox.compacted(Topics.ALARMS))
+                .hasSize(AlarmDesk.MAX_CLOSED)
+                .doesNotContainKey("silent-device-1");
+    }
+
+    /** As version 0.1 wrote it before there were groups. */
+    @Test
+    void readsAnAlarmWithoutTheMembersThatCameLater() {
+        Alarm read = StateJson.read("""
+                {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",                "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],                "raised":1700000000000,"changed":1700000000000,"count":1,"sequence":1}""".getBytes(StandardCharsets.UTF_8), Alarm.class);
+        assertThat(read)
+                .returns(null, Alarm::affected)
+                .returns(null, Alarm::group)
+                .returns(null, Alarm::seen)
+                .returns(null, Alarm::inhibitedBy);
+        assertThat(read.toBytes()).asString().doesNotContain("null", "affected");
+    }
+
+    @Test
     void mutesOneAlarmUntilItsTimeIsOver() throws Exception {
         desk.raise(silent("urn:t:1"), NOW);
         desk.answer(new AlarmCommand.Mute(new AlarmCommand.OfAlarm("silent-device-1"), HOUR), NOW);
@@ -98,6 +213,27 @@ class AlarmDeskTest {
         assertThat(alarm("silent-device-4"))
                 .returns(null, Alarm::mutedUntil)
                 .returns(Alarm.Change.UNMUTED, Alarm::change);
+    }
+
+    @Test
+    void refusesToMuteMoreSubjectsThanItRemembers() throws Exception {
+        for (int i = 0; i < Limits.MUTES; i++) {
+            String key = Cause.key(AlarmKind.SILENT_DEVICE, "urn:t:" + i);
+            mutes.put(key, new AlarmRecords.Mute(key, NOW + HOUR.toMillis()));
+        }
+
+        assertThatThrownBy(() -> desk.answer(mute("urn:t:further"), NOW))
+                .isInstanceOfSatisfying(
+                        RefusedException.class,
+                        refused -> assertThat(refused.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED));
+        desk.answer(mute("urn:t:0"), NOW + 1);
+        desk.passTime(NOW + HOUR.toMillis());
+        desk.answer(mute("urn:t:further"), NOW + HOUR.toMillis());
+        assertThat(mutes.all()).hasSize(2);
+    }
+
+    private static AlarmCommand mute(String subject) {
+        return new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, subject), HOUR);
     }
 
     @Test
@@ -136,6 +272,23 @@ class AlarmDeskTest {
                 "it is silent",
                 List.of(new Cause.Device(device, "Thermometer")),
                 null);
+    }
+
+    private static Cause many(int affected) {
+        return Cause.ofMany(
+                AlarmKind.SILENT_DEVICE, "g", affected + " are silent", List.of(), new Cause.Extent(affected, 40));
+    }
+
+    private static Cause pair(int number) {
+        return new Cause(AlarmKind.COLLISION, "pair" + number, "too close", List.of(), null)
+                .inGroup(AlarmGroup.of("m", ""));
+    }
+
+    private List<Alarm> current() {
+        return outbox.compacted(Topics.ALARMS).values().stream()
+                .map(json -> StateJson.read(json, Alarm.class))
+                .filter(alarm -> alarm.state() != AlarmState.CLOSED)
+                .toList();
     }
 
     private static AlarmCommand acknowledge(String alarm) {

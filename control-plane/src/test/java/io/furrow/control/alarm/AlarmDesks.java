@@ -13,7 +13,9 @@ public final class AlarmDesks {
                 new AlarmRecords(
                         MapRecords.of(Alarm.class),
                         MapRecords.of(String.class),
-                        MapRecords.of(AlarmRecords.Mute.class)),
+                        MapRecords.of(AlarmRecords.Mute.class),
+                        MapRecords.of(AlarmLimit.Group.class),
+                        MapRecords.of(AlarmLimit.Counted.class)),
                 new Sequence(MapRecords.of(Long.class)),
                 outbox);
     }

@@ -25,7 +25,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** Random causes, ends, commands and passing time; after each step the alarms are sound. */
 class AlarmPropertyTest {
-    private static final int FARMS = 60;
+    private static final int FARMS = 20;
     private static final int STEPS = 200;
 
     @Test
@@ -34,12 +34,15 @@ class AlarmPropertyTest {
         reporter.publishEntry(test.getDisplayName(), "seed " + seed);
         int refused = 0;
         int closed = 0;
+        int crowded = 0;
         for (int i = 0; i < FARMS; i++) {
             Walk walk = new Walk(new Random(seed + i), "seed " + (seed + i));
             walk.run();
             refused += walk.refused;
             closed += walk.closed.size();
+            crowded += walk.crowded;
         }
+        assertThat(crowded).as("causes without an alarm").isGreaterThan(FARMS);
         assertThat(refused).isBetween(FARMS, FARMS * STEPS);
         assertThat(closed).isGreaterThan(FARMS);
     }
@@ -49,14 +52,20 @@ class AlarmPropertyTest {
         private final MapRecords<String> current = MapRecords.of(String.class);
         private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
         private final KeptOutbox outbox = new KeptOutbox();
+        private final MapRecords<AlarmLimit.Group> groups = MapRecords.of(AlarmLimit.Group.class);
+        private final MapRecords<AlarmLimit.Counted> counted = MapRecords.of(AlarmLimit.Counted.class);
         private final AlarmDesk desk = new AlarmDesk(
-                new AlarmRecords(alarms, current, mutes), new Sequence(MapRecords.of(Long.class)), outbox);
+                new AlarmRecords(alarms, current, mutes, groups, counted),
+                new Sequence(MapRecords.of(Long.class)),
+                outbox);
+        private final Map<String, Long> lasting = new HashMap<>();
         private final Set<String> closed = new HashSet<>();
         private final Map<String, AlarmState> before = new HashMap<>();
         private final Random random;
         private final String said;
         private long now = 1_000_000;
         private int refused;
+        private int crowded;
 
         Walk(Random random, String said) {
             this.random = random;
@@ -71,23 +80,40 @@ class AlarmPropertyTest {
                 checkLives();
                 checkOneEach();
                 checkTopic();
+                checkLimits();
             }
             now += Duration.ofDays(2).toMillis();
             desk.passTime(now);
             assertThat(mutes.all()).as(said).isEmpty();
+            assertThat(counted.all()).as(said).allMatch(each -> each.until() == null);
             assertThat(alarms.all()).as(said).allMatch(alarm -> alarm.changed() == now || alarm.until() == null);
         }
 
         private void step() {
             switch (random.nextInt(6)) {
-                case 0, 1 -> desk.raise(cause(), now);
-                case 2 -> desk.end(kind(), subject(), "it is over", now);
+                case 0 -> raise(kind(), 1);
+                case 1 -> raise(kind(), random.nextInt(2 * AlarmLimit.MAX_ALARMS));
+                case 2 -> {
+                    AlarmKind kind = kind();
+                    String subject = subject();
+                    lasting.remove(Cause.key(kind, subject));
+                    desk.end(kind, subject, "it is over", now);
+                }
                 case 3 -> {
                     now += random.nextInt(60_000);
                     desk.passTime(now);
                 }
                 default -> ask();
             }
+        }
+
+        private void raise(AlarmKind kind, int number) {
+            for (int i = 0; i < number; i++) {
+                Cause cause = cause(kind);
+                lasting.put(cause.key(), cause.holds() == null ? Long.MAX_VALUE : cause.until(now));
+                desk.raise(cause, now);
+            }
+            crowded += counted.all().size();
         }
 
         private void ask() {
@@ -117,9 +143,10 @@ class AlarmPropertyTest {
             };
         }
 
-        private Cause cause() {
+        private Cause cause(AlarmKind kind) {
             Duration holds = random.nextBoolean() ? null : Duration.ofSeconds(1 + random.nextInt(60));
-            return new Cause(kind(), subject(), "look", List.of(new Cause.Device("x", null)), holds);
+            Cause cause = new Cause(kind, subject(), "look", List.of(new Cause.Device("x", null)), holds);
+            return AlarmLimit.KINDS.contains(kind) ? cause.inGroup("g") : cause;
         }
 
         private AlarmKind kind() {
@@ -127,7 +154,7 @@ class AlarmPropertyTest {
         }
 
         private String subject() {
-            return "s" + random.nextInt(3);
+            return "s" + random.nextInt(2 * AlarmLimit.MAX_ALARMS);
         }
 
         /** No alarm goes back, and none vanishes within a day. */
@@ -170,8 +197,37 @@ class AlarmPropertyTest {
             });
         }
 
+        /** A cause that lasts has an alarm or is counted, unless somebody closed its alarm; and the counts are right. */
+        private void checkLimits() {
+            Map<String, Integer> open = new HashMap<>();
+            Map<String, Integer> counts = new HashMap<>();
+            alarms.forEach(alarm -> {
+                if (alarm.state() != AlarmState.CLOSED && alarm.group() != null && !alarm.isOfGroup()) {
+                    open.merge(Cause.key(alarm.kind(), alarm.group()), 1, Integer::sum);
+                }
+            });
+            counted.forEach(each -> counts.merge(Cause.key(each.kind(), each.group()), 1, Integer::sum));
+            groups.forEach(group -> {
+                assertThat(group.alarms()).as(said).isEqualTo(open.getOrDefault(group.key(), 0));
+                assertThat(group.counted()).as(said).isEqualTo(counts.getOrDefault(group.key(), 0));
+            });
+            assertThat(open.values()).as(said).allMatch(number -> number <= AlarmLimit.MAX_ALARMS);
+            Set<String> closedBefore = new HashSet<>();
+            alarms.forEach(alarm -> {
+                if (alarm.state() == AlarmState.CLOSED) {
+                    closedBefore.add(alarm.key());
+                }
+            });
+            lasting.forEach((key, until) -> {
+                boolean known = current.get(key) != null || counted.get(key) != null;
+                assertThat(known || closedBefore.contains(key) || until <= now)
+                        .as(said + key)
+                        .isTrue();
+            });
+        }
+
         private String content() {
-            return alarms.content() + current.content() + mutes.content();
+            return alarms.content() + current.content() + mutes.content() + groups.content() + counted.content();
         }
     }
 }

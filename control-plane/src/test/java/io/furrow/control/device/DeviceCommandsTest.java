@@ -55,18 +55,30 @@ class DeviceCommandsTest {
 
         assertThat(heard)
                 .hasSize(2)
-                .containsOnly("PATCH /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs farm /north"
+                .containsOnly("POST /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs farm /north"
                         + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}}");
     }
 
     @Test
     void saysWhatTheContextBrokerRefused() {
+        status = 422;
+        answer = "{\"error\":\"Unprocessable\",\"description\":\"do not exist: urn:x/Thermometer - [ blink ]\"}";
+
+        assertThatThrownBy(() -> commands().send("urn:x", "Thermometer", "blink", ""))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining(
+                        "refused 'blink' for urn:x with 422: do not exist: urn:x/Thermometer - [ blink ]");
+    }
+
+    @Test
+    void saysThatADeviceTakesCommandsFromItsFirstMeasureOn() {
         status = 404;
         answer = "{\"error\":\"NotFound\",\"description\":\"The requested entity has not been found\"}";
 
         assertThatThrownBy(() -> commands().send("urn:x", "Thermometer", "on", ""))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("refused 'on' for urn:x with 404: The requested entity has not been found");
+                .hasMessageContaining("knows no entity urn:x of type Thermometer")
+                .hasMessageContaining("once it has reported");
     }
 
     @Test

@@ -10,9 +10,11 @@ import org.junit.jupiter.api.Test;
 import io.furrow.control.alarm.Alarm;
 import io.furrow.control.alarm.AlarmDesk;
 import io.furrow.control.alarm.AlarmDesks;
+import io.furrow.control.alarm.Cause;
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
 import io.furrow.control.manager.StateJson;
+import io.furrow.model.control.AlarmKind;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
@@ -23,6 +25,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class HealthDeskTest {
     private static final String ID = "urn:t:1";
     private static final String KEY = "|/|" + ID;
+    private static final String OVER = "its devices report again, or are not to run any more";
     private static final long START = 1_700_000_000_000L;
     /** Three periods, and the patience with devices that come up. */
     private static final long LONG_ENOUGH = 30_000 + HealthDesk.PATIENCE.toMillis();
@@ -42,7 +45,7 @@ class HealthDeskTest {
         assertThat(known().silent()).isFalse();
         desk.passTime(START + LONG_ENOUGH + 10_000);
         assertThat(known().silent()).isTrue();
-        assertThat(alarms()).extracting(Alarm::text).containsExactly(ID + " of mission m has not been heard of yet");
+        assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 devices of mission m are silent: " + ID);
     }
 
     @Test
@@ -51,11 +54,12 @@ class HealthDeskTest {
         desk.passTime(START);
         desk.passTime(START + LONG_ENOUGH + 10_000);
         desk.take(KEY, sign(false, START + LONG_ENOUGH + 11_000), START + LONG_ENOUGH + 11_000);
+        desk.passTime(START + LONG_ENOUGH + 11_000);
         assertThat(known())
                 .returns(false, DeviceHealth::silent)
                 .returns(77L, DeviceHealth::lastSeen)
                 .returns(START + LONG_ENOUGH + 11_000, DeviceHealth::since);
-        assertThat(alarms()).extracting(Alarm::reason).containsExactly("it was heard of again");
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
     }
 
     @Test
@@ -88,22 +92,32 @@ class HealthDeskTest {
         assertThat(known().silent()).isFalse();
         desk.take(KEY, sign(true, START + 5), START + 31_000);
         assertThat(known().silent()).isTrue();
-        assertThat(alarms())
-                .extracting(Alarm::text)
-                .containsExactly(ID + " of mission m was silent for more than 30 s");
+        desk.passTime(START + 31_000);
+        assertThat(alarms()).extracting(Alarm::affected).containsExactly(1);
     }
 
     @Test
     void forgetsADeviceThatIsNotWantedAnyMoreAndEndsItsAlarm() {
         want("m", START);
         desk.take(KEY, sign(true, START), START);
+        desk.passTime(START);
         assertThat(alarms()).hasSize(1);
         wanted.put(KEY, null);
         desk.take(KEY, sign(false, START + 1), START + 1);
         desk.passTime(START + 20_000);
         assertThat(outbox.compacted(Topics.DEVICES_HEALTH)).isEmpty();
         assertThat(health.all()).isEmpty();
-        assertThat(alarms()).extracting(Alarm::reason).containsExactly("the device is not wanted any more");
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+    }
+
+    /** As an earlier version raised one per device. */
+    @Test
+    void closesAlarmsOfSilenceThatNothingIsTheCauseOf() {
+        Cause single = new Cause(AlarmKind.SILENT_DEVICE, ID, "x", List.of(), null);
+        alarms.raise(single, START);
+        want("m", START);
+        desk.passTime(START);
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
     }
 
     @Test

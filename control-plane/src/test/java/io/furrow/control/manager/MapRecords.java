@@ -27,6 +27,11 @@ public final class MapRecords<T> implements Records<T> {
     }
 
     @Override
+    public boolean contains(String key) {
+        return bytes.containsKey(key);
+    }
+
+    @Override
     public void put(String key, T value) {
         if (value == null) {
             bytes.remove(key);

@@ -51,7 +51,7 @@ class TakeOnceTest {
 
     private void read(long offset, long timestamp) {
         Record<String, byte[]> request = new Record<>("", new byte[0], timestamp);
-        new NoteOrigin.Origin(Topics.DOMAIN_MANAGER + "-0", offset).noteOn(request);
+        new RecordOrigin(Topics.DOMAIN_MANAGER, 0, offset).noteOn(request);
         takeOnce.process(request);
     }
 

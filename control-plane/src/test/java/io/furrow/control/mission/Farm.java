@@ -2,61 +2,83 @@ package io.furrow.control.mission;
 
 import java.time.Duration;
 import java.util.List;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainDesk;
+import io.furrow.control.domain.DomainManager;
+import io.furrow.control.manager.AnswerRequests;
 import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.MapRecords;
-import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.Records;
 import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.manager.TestStores;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.Response;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
 
-/** Domains and missions with all they remember in memory. */
+/** Domains and missions with the stores of their managers, without Kafka. */
 final class Farm {
     static final long PATIENCE = 60_000;
 
-    final KeptOutbox outbox = new KeptOutbox();
-    final MapRecords<Domain> domains = MapRecords.of(Domain.class);
-    final MapRecords<Mission> missions = MapRecords.of(Mission.class);
-    final MapRecords<MissionStatus> statuses = MapRecords.of(MissionStatus.class);
-    final MapRecords<DeviceState> devices = MapRecords.of(DeviceState.class);
-    final MapRecords<MissionTemplate> templates = new MapRecords<>(MissionTemplate::toBytes, Farm::template);
-    final MapRecords<Long> sequence = MapRecords.of(Long.class);
+    private final TestStores stores = new TestStores(Stream.of(DomainManager.stores(), MissionManager.stores())
+            .flatMap(List::stream)
+            .toList());
+
+    final KeptOutbox outbox = stores.outbox();
+    final Records<Domain> domains = StoreRecords.of(stores.context(), "domains", Domain.class);
+    final Records<Mission> missions = StoreRecords.of(stores.context(), "missions", Mission.class);
+    final Records<MissionStatus> statuses = StoreRecords.of(stores.context(), "mission-statuses", MissionStatus.class);
+    final Records<DeviceState> devices = StoreRecords.of(stores.context(), "devices", DeviceState.class);
+    final Records<Rollout> rollouts = StoreRecords.of(stores.context(), "mission-rollouts", Rollout.class);
     final MissionDesk missionDesk;
     final DomainDesk domainDesk;
     long now = 1_700_000_000_000L;
 
     Farm() {
-        Sequence next = new Sequence(sequence);
-        missionDesk = new MissionDesk(
-                new MissionRecords(missions, statuses, devices, templates, MapRecords.of(TemplateShelf.Versions.class)),
-                name -> domains.get(name) != null,
-                new MissionOptions(Duration.ofMillis(PATIENCE), new FiwareScope("farm", "/")),
-                next,
-                outbox);
-        domainDesk = new DomainDesk(domains, missionDesk, next, outbox);
-        missionDesk.templates().stock();
+        this(500);
+    }
+
+    Farm(int devicesPerStep) {
+        MissionOptions options =
+                new MissionOptions(Duration.ofMillis(PATIENCE), new FiwareScope("farm", "/"), devicesPerStep);
+        missionDesk = MissionManager.desk(stores.context(), AnswerRequests.outbox(stores.context()), options);
+        domainDesk = DomainManager.desk(stores.context(), missionDesk, AnswerRequests.outbox(stores.context()));
+        run(missionDesk.templates()::stock);
     }
 
     Response ask(MissionCommand command) throws RefusedException {
-        return missionDesk.answer(command, now);
+        return stores.call(now, () -> missionDesk.answer(command, now));
     }
 
     Response ask(DomainCommand command) throws RefusedException {
-        return domainDesk.answer(command, now);
+        return stores.call(now, () -> domainDesk.answer(command, now));
+    }
+
+    void run(Runnable work) {
+        stores.call(now, () -> {
+            work.run();
+            return null;
+        });
+    }
+
+    <T> List<T> all(Records<T> records) {
+        return stores.all(records);
     }
 
     void domain(String name) throws RefusedException {
@@ -83,16 +105,22 @@ final class Farm {
         return devices.get("farm|/|" + id).device();
     }
 
+    /** The settings of a device, as its host finds them. */
+    ObjectNode settings(String id) throws UnreadableException {
+        MissionDeviceLists lists = new MissionDeviceLists();
+        outbox.compacted(Topics.MISSION_DEVICES).forEach(lists::take);
+        return lists.resolve(device(id)).orElseThrow().settings();
+    }
+
     void report(WantedDevice device, DeviceStatus.State state) {
-        missionDesk.reported(
-                device.version().key(),
-                new DeviceStatus(device.version().sequence(), state, state == DeviceStatus.State.FAILED ? "why" : null),
-                now);
+        DeviceStatus status =
+                new DeviceStatus(device.version().sequence(), state, state == DeviceStatus.State.FAILED ? "why" : null);
+        run(() -> missionDesk.reported(device.version().key(), status, now));
     }
 
     /** Whoever hosts devices does what is wanted. */
     void hostAll() {
-        for (DeviceState each : devices.all()) {
+        for (DeviceState each : all(devices)) {
             WantedDevice device = each.device();
             report(device, device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED);
         }
@@ -100,25 +128,19 @@ final class Farm {
 
     void pass(long millis) {
         now += millis;
-        missionDesk.passTime(now);
+        missionDesk.due(now).forEach(this::run);
+    }
+
+    /** Writes the next devices of what is not written wholly. Answers whether there was any. */
+    boolean step() {
+        List<Runnable> pending = missionDesk.pending(now);
+        pending.forEach(this::run);
+        return !pending.isEmpty();
     }
 
     /** Everything that is remembered. */
     String content() {
-        return domains.content()
-                + missions.content()
-                + statuses.content()
-                + devices.content()
-                + templates.content()
-                + sequence.content();
-    }
-
-    private static MissionTemplate template(byte[] value) {
-        try {
-            return MissionTemplate.read(value);
-        } catch (RefusedException e) {
-            throw new IllegalStateException(e);
-        }
+        return stores.content();
     }
 
     static String json(Object state) {

@@ -110,6 +110,15 @@ class EmbeddedBrokerTest {
                 .isInstanceOf(MqttException.class);
     }
 
+    @Test
+    void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "agent")));
+        MqttClient gateway = connect(Wanted.SECRET.gateway("agent"));
+
+        assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);
+        leave(gateway);
+    }
+
     private static MqttClient connect(FarmSecret.Login login) throws MqttException {
         MqttClient client =
                 new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());

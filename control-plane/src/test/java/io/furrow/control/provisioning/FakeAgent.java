@@ -13,8 +13,10 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.sun.net.httpserver.HttpExchange;
@@ -22,19 +24,53 @@ import com.sun.net.httpserver.HttpServer;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** An IoT Agent of one tenant that remembers what it is told, and refuses or is away where a test wants it so. */
+/**
+ * An IoT Agent JSON 3.14 of one tenant, as its answers were recorded and its library is written: no group is 404; the devices of a
+ * batch are made one by one, and the first refusal is the answer; groups are listed without pages; without the headers of tenant
+ * and service path it answers nothing else. It fails where a test wants it so.
+ */
 final class FakeAgent implements AutoCloseable {
-    private static final int PAGE = 500;
-
     final Map<String, JsonNode> devices = new LinkedHashMap<>();
+    /** By resource and API key. */
     final Map<String, JsonNode> groups = new LinkedHashMap<>();
-    /** Ids of devices that it takes on no account. */
+    /** Groups of other tenants. */
+    final Map<String, JsonNode> hidden = new LinkedHashMap<>();
+    /** Ids of devices that it refuses. */
     final Set<String> disliked = new HashSet<>();
+    /** Ids of devices that it fails to make or to remove: 500. */
+    final Set<String> broken = new HashSet<>();
+    /** Ids of devices that it goes on to make after it has refused the rest of their batch. */
+    final Set<String> late = new HashSet<>();
     /** Method and path of each request that changes something. */
     final List<String> changes = new CopyOnWriteArrayList<>();
+    /** Values of {@code fiware-service}. */
+    final Set<String> services = new HashSet<>();
 
+    /** It answers 503 to everything. */
     volatile boolean away;
+    /** What it answers with 200 to every GET; null for what is asked. */
+    volatile String garbage;
+    /** It makes no more devices of a batch, and breaks the connection of one that has more. */
+    volatile int most = Integer.MAX_VALUE;
+    /** Run at each request that changes something. */
+    volatile Runnable onChange = () -> {};
+
     private final HttpServer server;
+    private final List<JsonNode> unfinished = new ArrayList<>();
+
+    /** A refusal. */
+    private static final class Refusal extends Exception {
+        private static final long serialVersionUID = 1;
+
+        private final int status;
+        private final String name;
+
+        private Refusal(int status, String name, String message) {
+            super(message);
+            this.status = status;
+            this.name = name;
+        }
+    }
 
     private FakeAgent(HttpServer server) {
         this.server = server;
@@ -57,7 +93,20 @@ final class FakeAgent implements AutoCloseable {
     }
 
     synchronized Set<String> apiKeys() {
-        return Set.copyOf(groups.keySet());
+        return groups.values().stream()
+                .map(group -> group.path("apikey").asText())
+                .collect(Collectors.toUnmodifiableSet());
+    }
+
+    /** Starts anew with nothing in its registry. */
+    synchronized void restart() {
+        devices.clear();
+        groups.clear();
+        unfinished.clear();
+    }
+
+    static String key(String resource, String apiKey) {
+        return resource + " " + apiKey;
     }
 
     @Override
@@ -66,57 +115,163 @@ final class FakeAgent implements AutoCloseable {
     }
 
     private synchronized void handle(HttpExchange exchange) throws IOException {
-        ObjectNode answer = JsonNodeFactory.instance.objectNode();
-        int status = away ? 503 : answer(exchange, answer);
-        byte[] body = NgsiJson.write(answer);
+        try {
+            if (away) {
+                throw new Refusal(503, "AWAY", "the registry is away");
+            }
+            if (garbage != null && exchange.getRequestMethod().equals("GET")) {
+                answer(exchange, 200, garbage.getBytes(StandardCharsets.UTF_8));
+                return;
+            }
+            answer(exchange, exchange.getRequestMethod().equals("POST") ? 201 : 200, NgsiJson.write(route(exchange)));
+        } catch (Refusal e) {
+            ObjectNode refusal = JsonNodeFactory.instance.objectNode().put("name", e.name);
+            answer(exchange, e.status, NgsiJson.write(refusal.put("message", e.getMessage())));
+        } finally {
+            exchange.close(); // without an answer that breaks the connection
+        }
+    }
+
+    private static void answer(HttpExchange exchange, int status, byte[] body) throws IOException {
         exchange.getResponseHeaders().set("Content-Type", "application/json");
-        exchange.sendResponseHeaders(status, status == 204 ? -1 : body.length);
-        if (status != 204) {
-            exchange.getResponseBody().write(body);
-        }
-        exchange.close();
+        exchange.sendResponseHeaders(status, body.length);
+        exchange.getResponseBody().write(body);
     }
 
-    private int answer(HttpExchange exchange, ObjectNode answer) throws IOException {
+    private JsonNode route(HttpExchange exchange) throws Refusal, IOException {
+        String service = exchange.getRequestHeaders().getFirst("fiware-service");
+        if (service == null || exchange.getRequestHeaders().getFirst("fiware-servicepath") == null) {
+            throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
+        }
+        services.add(service);
         String method = exchange.getRequestMethod();
-        String path = exchange.getRequestURI().getPath();
-        String query = String.valueOf(exchange.getRequestURI().getQuery());
-        if (!method.equals("GET")) {
-            changes.add(method + " " + path);
-        }
+        String path = exchange.getRequestURI().getRawPath();
         boolean ofDevices = path.startsWith("/iot/devices");
-        if (method.equals("GET")) {
-            int offset = Integer.parseInt(query.substring(query.indexOf("offset=") + 7));
-            var list = answer.putArray(ofDevices ? "devices" : "services");
-            (ofDevices ? devices : groups)
-                    .values().stream().skip(offset).limit(PAGE).forEach(list::add);
-            return 200;
-        } else if (method.equals("DELETE")) {
-            String id = ofDevices
-                    ? URLDecoder.decode(exchange.getRequestURI().getRawPath().substring(13), StandardCharsets.UTF_8)
-                    : query.substring(query.indexOf("apikey=") + 7);
-            return (ofDevices ? devices : groups).remove(id) == null ? 404 : 204;
+        if (!method.equals("GET")) {
+            changes.add(method + " " + exchange.getRequestURI().getPath());
+            onChange.run();
         }
-        JsonNode sent = NgsiJson.mapper().readTree(exchange.getRequestBody());
-        return ofDevices ? addDevices(sent, answer) : addGroup(sent.at("/services/0"));
+        return switch (method) {
+            case "GET" -> ofDevices ? listDevices(exchange) : listGroups(service);
+            case "DELETE" -> ofDevices ? removeDevice(id(path)) : removeGroup(exchange);
+            default -> {
+                JsonNode sent = NgsiJson.mapper().readTree(exchange.getRequestBody());
+                yield ofDevices ? addDevices(sent) : addGroup(sent.at("/services/0"));
+            }
+        };
     }
 
-    private int addGroup(JsonNode group) {
-        return groups.putIfAbsent(group.path("apikey").asText(), group) == null ? 201 : 409;
+    private static String id(String path) {
+        return URLDecoder.decode(path.substring("/iot/devices/".length()), StandardCharsets.UTF_8);
     }
 
-    /** All of them or none. */
-    private int addDevices(JsonNode sent, ObjectNode answer) {
-        List<String> ids = new ArrayList<>();
-        sent.path("devices").forEach(device -> ids.add(device.path("device_id").asText()));
-        for (String id : ids) {
-            if (disliked.contains(id) || devices.containsKey(id)) {
-                answer.put("name", "REFUSED").put("message", "not " + id);
-                return devices.containsKey(id) ? 409 : 422;
+    private static Map<String, String> query(HttpExchange exchange) {
+        Map<String, String> query = new LinkedHashMap<>();
+        for (String part :
+                String.valueOf(exchange.getRequestURI().getRawQuery()).split("&")) {
+            String[] pair = part.split("=", 2);
+            query.put(pair[0], pair.length == 1 ? null : URLDecoder.decode(pair[1], StandardCharsets.UTF_8));
+        }
+        return query;
+    }
+
+    private JsonNode listDevices(HttpExchange exchange) throws Refusal {
+        if (exchange.getRequestURI().getRawPath().length() > "/iot/devices".length()) {
+            JsonNode device = devices.get(id(exchange.getRequestURI().getRawPath()));
+            if (device == null) {
+                throw new Refusal(404, "DEVICE_NOT_FOUND", "No device was found with id");
+            }
+            return device;
+        }
+        Map<String, String> query = query(exchange);
+        ArrayNode page = JsonNodeFactory.instance.arrayNode();
+        devices.values().stream()
+                .skip(Long.parseLong(query.getOrDefault("offset", "0")))
+                .limit(Long.parseLong(query.getOrDefault("limit", "20")))
+                .forEach(page::add);
+        return JsonNodeFactory.instance
+                .objectNode()
+                .put("count", devices.size())
+                .set("devices", page);
+    }
+
+    private JsonNode listGroups(String service) throws Refusal {
+        if (groups.isEmpty()) {
+            throw new Refusal(
+                    404,
+                    "DEVICE_GROUP_NOT_FOUND",
+                    "Couldn\t find device group for fields: \"%s\" and values: \"/\"".formatted(service));
+        }
+        ArrayNode all = JsonNodeFactory.instance.arrayNode().addAll(groups.values());
+        return JsonNodeFactory.instance.objectNode().put("count", groups.size()).set("services", all);
+    }
+
+    private JsonNode addGroup(JsonNode group) throws Refusal {
+        String key = key(group.path("resource").asText(), group.path("apikey").asText());
+        if (hidden.containsKey(key) || groups.putIfAbsent(key, group) != null) {
+            throw new Refusal(409, "DUPLICATE_GROUP", "A device configuration already exists for resource " + key);
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private JsonNode removeGroup(HttpExchange exchange) throws Refusal {
+        Map<String, String> query = query(exchange);
+        if (query.get("resource") == null || query.get("apikey") == null) {
+            throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
+        }
+        if (groups.remove(key(query.get("resource"), query.get("apikey"))) == null) {
+            throw new Refusal(404, "DEVICE_GROUP_NOT_FOUND", "Couldn\t find device group");
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private JsonNode removeDevice(String id) throws Refusal {
+        if (broken.contains(id)) {
+            throw new Refusal(500, "Error", "cannot remove " + id);
+        }
+        if (devices.remove(id) == null) {
+            throw new Refusal(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id);
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private JsonNode addDevices(JsonNode sent) throws Refusal, IOException {
+        unfinished.forEach(device -> devices.put(device.path("device_id").asText(), device));
+        unfinished.clear();
+        Refusal first = null;
+        int made = 0;
+        for (JsonNode device : sent.path("devices")) {
+            if (made == most) {
+                throw new IOException("out of time");
+            }
+            try {
+                add(device, sent.path("devices").size() > 1);
+                made++;
+            } catch (Refusal e) {
+                first = first == null ? e : first;
             }
         }
-        sent.path("devices")
-                .forEach(device -> devices.put(device.path("device_id").asText(), device));
-        return 201;
+        if (first != null) {
+            throw first;
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private void add(JsonNode device, boolean inABatch) throws Refusal {
+        String id = device.path("device_id").asText();
+        if (broken.contains(id)) {
+            throw new Refusal(500, "Error", "cannot make " + id);
+        }
+        if (disliked.contains(id)) {
+            throw new Refusal(422, "REFUSED", "not " + id);
+        }
+        if (devices.containsKey(id)) {
+            throw new Refusal(409, "DUPLICATE_DEVICE_ID", "A device with the same info was found:" + id);
+        }
+        if (late.contains(id) && inABatch) {
+            unfinished.add(device);
+        } else {
+            devices.put(id, device);
+        }
     }
 }

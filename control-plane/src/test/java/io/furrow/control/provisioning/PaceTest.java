@@ -12,7 +12,7 @@ class PaceTest {
     private static final Duration LONG = Duration.ofHours(1);
 
     private long now;
-    private final Pace pace = new Pace(() -> now);
+    private final Pace pace = new Pace(() -> now, Duration.ofSeconds(30));
 
     @Test
     void waitsLongerAfterEachFailureUpToTenSeconds() {

@@ -117,6 +117,22 @@ class ProvisionerIT {
     }
 
     @Test
+    void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
+        put(Wanted.thermometer("hoeing", 1));
+        put(Wanted.thermometer("hoeing", 2));
+        try (Provisioner provisioner = provisioner()) {
+            await().atMost(PATIENCE).until(() -> agent.deviceIds().size() == 2);
+
+            agent.restart();
+
+            await().atMost(PATIENCE).until(() -> agent.deviceIds().size() == 2);
+            assertThat(agent.apiKeys()).containsExactly(Wanted.SECRET.apiKey("hoeing"));
+            assertThat(provisioner).isNotNull();
+        }
+        assertThat(statuses()).isEmpty();
+    }
+
+    @Test
     void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
         Provisioner first = provisioner();
         put(Wanted.thermometer("hoeing", 1));
@@ -137,8 +153,12 @@ class ProvisionerIT {
     }
 
     private Provisioner provisioner() {
-        return Provisioner.start(
-                new ProvisioningSettings(client(), Wanted.SCOPE, Wanted.SECRET, agent.uri(), List.of(accounts)));
+        return Provisioner.start(new ProvisioningSettings(
+                client(),
+                Wanted.SCOPE,
+                Wanted.SECRET,
+                AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
+                List.of(accounts)));
     }
 
     private void put(WantedDevice device) {

@@ -70,7 +70,7 @@ class AnswerGateTest {
             String id, KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> future) {
         Answers.Key key = new Answers.Key(Topics.MISSION_MANAGER, id);
         CompletableFuture<Response> waiting = new CompletableFuture<>();
-        answers.await(key, waiting);
+        answers.await(key, new Answers.Awaited("", waiting));
         gate.hold(Map.of(key, Response.of("created")), future);
         return waiting;
     }

@@ -4,10 +4,13 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.Set;
+import java.util.TreeMap;
 import java.util.TreeSet;
 import java.util.stream.Stream;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.networknt.schema.JsonSchemaFactory;
 import com.networknt.schema.SpecVersion;
 import org.glassfish.jersey.server.model.Resource;
@@ -47,6 +50,39 @@ class OpenApiTest {
                 .hasSameSizeAs(OpenApiDocument.read().operations());
     }
 
+    /** What tells nothing of the farm has no role. */
+    @Test
+    void describesTheRoleThatTheCodeAsksFor() throws Exception {
+        Map<String, String> roles = new TreeMap<>();
+        for (Class<?> type : resources()) {
+            addRoles(Resource.from(type), "", roles);
+        }
+        OpenApiDocument document = OpenApiDocument.read();
+        for (String operation : document.operations()) {
+            String[] words = operation.split(" ");
+            JsonNode described =
+                    document.json().path("paths").path(words[1]).path(words[0].toLowerCase(java.util.Locale.ROOT));
+            String role = described.path("security").isArray() ? "" : roles.get(operation);
+            assertThat(described.path("x-role").asText()).as(operation).isEqualTo(role);
+        }
+        assertThat(roles)
+                .containsEntry("GET /api/devices/{device}/credentials", "admin")
+                .containsEntry("POST /api/devices/{device}/credentials", "admin")
+                .containsEntry("DELETE /api/domains/{domain}", "admin")
+                .containsEntry("DELETE /api/templates/{template}", "admin")
+                .containsEntry("GET /api/devices", "viewer")
+                .containsEntry("DELETE /api/missions/{mission}", "operator");
+    }
+
+    private static void addRoles(Resource resource, String before, Map<String, String> roles) {
+        String path = path(resource, before);
+        for (ResourceMethod method : resource.getResourceMethods()) {
+            Role least = RoleFilter.least(method.getInvocable().getHandlingMethod(), method.getHttpMethod());
+            roles.put(method.getHttpMethod() + " " + path, least.word());
+        }
+        resource.getChildResources().forEach(child -> addRoles(child, path, roles));
+    }
+
     /** All classes of the package that have a path. */
     private static List<Class<?>> resources() throws Exception {
         Path folder =
@@ -66,13 +102,17 @@ class OpenApiTest {
     }
 
     private static void add(Resource resource, String before, Set<String> routes) {
-        String path = (before + "/" + (resource.getPath() == null ? "" : resource.getPath()))
-                .replaceAll("/+", "/")
-                .replaceAll("\\{([a-z]+):[^}]*}", "{$1}")
-                .replaceAll("(?<=.)/$", "");
+        String path = path(resource, before);
         for (ResourceMethod method : resource.getResourceMethods()) {
             routes.add(method.getHttpMethod() + " " + path);
         }
         resource.getChildResources().forEach(child -> add(child, path, routes));
+    }
+
+    private static String path(Resource resource, String before) {
+        return (before + "/" + (resource.getPath() == null ? "" : resource.getPath()))
+                .replaceAll("/+", "/")
+                .replaceAll("\\{([a-z]+):[^}]*}", "{$1}")
+                .replaceAll("(?<=.)/$", "");
     }
 }

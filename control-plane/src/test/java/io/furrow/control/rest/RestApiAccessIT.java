@@ -1,14 +1,23 @@
 package io.furrow.control.rest;
 
+import java.net.Socket;
+import java.net.SocketTimeoutException;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.time.Clock;
 import java.util.Arrays;
+import java.util.List;
 
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.readiness.Readiness;
+import io.furrow.http.AllowedNames;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -32,6 +41,28 @@ class RestApiAccessIT {
         running.close();
     }
 
+    /** Each would occupy a thread for as long as it likes. */
+    @Test
+    void waitsForNoBodyThatComesTooSlowly() throws Exception {
+        URI uri = running.api().uri();
+        try (Socket socket = new Socket(uri.getHost(), uri.getPort())) {
+            String head =
+                    "POST /api/domains HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n";
+            socket.getOutputStream().write(head.getBytes(StandardCharsets.US_ASCII));
+            socket.setSoTimeout(200);
+            String answer = "";
+            for (int i = 0; i < 900 && answer.isEmpty(); i++) {
+                socket.getOutputStream().write(' ');
+                try {
+                    answer = new String(socket.getInputStream().readNBytes(12), StandardCharsets.US_ASCII);
+                } catch (SocketTimeoutException e) {
+                    // The next byte, then.
+                }
+            }
+            assertThat(answer).isEqualTo("HTTP/1.1 408");
+        }
+    }
+
     @Test
     void saysWhatIsWrongWithARequest() throws Exception {
         running.refused("POST", "/api/domains", "{\"domain\":", 400, "not-json");
@@ -49,7 +80,10 @@ class RestApiAccessIT {
                 .isEqualTo("400 wrong-header");
         assertThat(client.error(client.send("POST", "/api/domains", "{}", "Origin", "http://evil.example")))
                 .isEqualTo("403 foreign-origin");
-        assertThat(client.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
+        assertThat(client.raw("/api/domains", "evil.example"))
+                .contains(" 403 ", "\"error\":\"foreign-host\"", "'evil.example'", "--allowed-hosts");
+        assertThat(client.raw("/health", "10.9.8.7:8085")).as("a probe").contains(" 200 ");
+        assertThat(client.raw("/metrics", "10.9.8.7:8085")).contains(" 403 ");
         assertThat(client.raw("/api/domains/a%2Fb", "localhost"))
                 .contains(" 400 ", "{\"type\":\"response\",\"status\":\"error\"");
         byte[] large = new byte[9 * 1024 * 1024];
@@ -61,17 +95,23 @@ class RestApiAccessIT {
     @Test
     void asksForATokenWhereItHasSome() throws Exception {
         Path tokens = directory.resolve("tokens");
-        Files.writeString(tokens, "# who may\nann a-token-of-sixteen-signs\n");
-        try (RestApi other =
-                RestApi.start(running.settings(), RestSettings.on(0).withTokens(tokens), () -> "RUNNING")) {
+        Files.writeString(tokens, "# who may\nann a-token-of-sixteen-signs operator\n");
+        RestSettings settings = RestSettings.on(0)
+                .withTokens(tokens)
+                .withAllowed(new AllowedNames(List.of("farm.example.org"), List.of()));
+        try (RestApi other = RestApi.start(running.settings(), settings, new Readiness(Clock.systemUTC()))) {
             ApiClient nobody = new ApiClient(other.uri(), null);
             ApiClient ann = new ApiClient(other.uri(), "a-token-of-sixteen-signs");
             await().atMost(RunningApi.PATIENCE)
-                    .until(() -> nobody.send("GET", "/health", null).statusCode() == 200);
+                    .until(() -> nobody.send("GET", "/ready", null).statusCode() == 200);
             for (String path :
                     new String[] {"/api/domains", "//api/domains", "/api/../api/domains", "/api;x/domains"}) {
                 assertThat(nobody.raw(path, "localhost")).as(path).containsAnyOf(" 401 ", " 400 ");
             }
+            assertThat(nobody.raw("/api/domains", "farm.example.org")).contains(" 401 ");
+            assertThat(nobody.raw("/api/domains", "evil.example")).contains(" 403 ", "foreign-host");
+            assertThat(client.error(ann.send("GET", "/api/domains", null, "Origin", "https://evil.example")))
+                    .isEqualTo("403 foreign-origin");
             assertThat(client.error(nobody.send("GET", "/api/domains", null))).isEqualTo("401 unauthorized");
             assertThat(client.error(
                             new ApiClient(other.uri(), "another-token-of-signs").send("GET", "/api/domains", null)))

@@ -2,7 +2,10 @@ package io.furrow.control.rest;
 
 import java.net.http.HttpResponse;
 import java.nio.file.Path;
+import java.time.Clock;
 import java.time.Duration;
+import java.util.stream.Collectors;
+import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
@@ -10,6 +13,10 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.readiness.PartStatus;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.model.control.Limits;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -93,7 +100,18 @@ class RestApiIT {
         assertThat(credentials.path("apiKey").asText()).isEqualTo(RunningApi.SECRET.apiKey("hoeing"));
         assertThat(credentials.path("password").asText())
                 .isEqualTo(RunningApi.SECRET.device("hoeing", id).password());
+        assertThat(credentials.path("generation").asInt()).isZero();
         running.refused("GET", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
+
+        JsonNode rotated = client.json(client.send("POST", "/api/devices/" + id + "/credentials", null));
+        assertThat(rotated.path("password").asText())
+                .isEqualTo(RunningApi.SECRET.device("hoeing", id, 1).password());
+        assertThat(running.get("/api/devices/" + id + "/credentials")).isEqualTo(rotated);
+        assertThat(running.get("/api/devices/" + id).path("generation").asInt()).isEqualTo(1);
+        assertThat(running.get("/api/missions/hoeing").at("/status/devices").asInt())
+                .isEqualTo(3);
+        running.refused("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
+        running.refused("POST", "/api/devices/nosuch/credentials", null, 404, "unknown-device");
 
         assertThat(client.send("POST", "/api/devices/" + id + "/commands", "{\"command\":\"restart\",\"value\":7}")
                         .statusCode())
@@ -121,6 +139,9 @@ class RestApiIT {
                         .anyMatch(entry -> entry.path("command").asText().equals("restart")
                                 && entry.at("/about/value").asText().equals("7"))
                         .anyMatch(entry -> entry.path("command").asText().equals("credentials"))
+                        .anyMatch(entry -> entry.path("command").asText().equals("rotate-credentials")
+                                && entry.at("/about/device").asText().equals(id)
+                                && entry.path("result").asText().equals("rotated"))
                         .anyMatch(entry -> entry.path("error").asText().equals("context-broker"))
                         .anyMatch(entry -> entry.path("command").asText().equals("start")
                                 && entry.at("/about/mission").asText().equals("hoeing")));
@@ -184,10 +205,10 @@ class RestApiIT {
         assertThat(again.statusCode()).isEqualTo(201);
         assertThat(again.body()).isEqualTo(first.body());
 
-        try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), () -> "RUNNING")) {
+        try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
             await().atMost(RunningApi.PATIENCE)
-                    .until(() -> there.send("GET", "/health", null).statusCode() == 200);
+                    .until(() -> there.send("GET", "/ready", null).statusCode() == 200);
             assertThat(there.send("POST", "/api/domains", body, "Idempotency-Key", "key-1")
                             .body())
                     .isEqualTo(first.body());
@@ -199,10 +220,76 @@ class RestApiIT {
             assertThat(client.error(there.send("GET", "/api/devices/urn:own:2/credentials", null)))
                     .isEqualTo("404 no-credentials");
             assertThatThrownBy(() -> RestApi.start(
-                            running.settings(), RestSettings.on(other.uri().getPort()), () -> "RUNNING"))
+                            running.settings(),
+                            RestSettings.on(other.uri().getPort()),
+                            new Readiness(Clock.systemUTC())))
                     .isInstanceOf(java.io.IOException.class)
                     .hasMessageContaining("Choose another port");
         }
+    }
+
+    /** The answer of another request would say that something was done which was not. */
+    @Test
+    void refusesAKeyThatWasGivenToAnotherRequest() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"keyed\"}");
+        String start = "{\"domain\":\"keyed\"}";
+        client.send("POST", "/api/missions/b/start", start);
+        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
+                        .statusCode())
+                .isEqualTo(200);
+
+        assertThat(client.error(client.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
+                .isEqualTo("422 request-id-reused");
+        assertThat(client.error(client.send(
+                        "POST", "/api/missions/a/start", "{\"domain\":\"nowhere\"}", "Idempotency-Key", "key-2")))
+                .isEqualTo("422 request-id-reused");
+        assertThat(running.get("/api/missions/b").at("/status/state").asText()).isEqualTo("running");
+        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
+                        .statusCode())
+                .isEqualTo(200);
+
+        try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
+            ApiClient there = new ApiClient(other.uri(), null);
+            await().atMost(RunningApi.PATIENCE).until(other::isReady);
+            assertThat(there.error(there.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
+                    .isEqualTo("422 request-id-reused");
+        }
+    }
+
+    @Test
+    void refusesWhatIsTooLargeAndGoesOn() throws Exception {
+        String area = "{\"type\":\"Polygon\",\"coordinates\":[],\"note\":\"%s\"}";
+        for (int bytes : new int[] {Limits.REQUEST_BYTES - 100, Limits.REQUEST_BYTES, 1_300_000}) {
+            String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
+            assertThat(client.error(client.send("POST", "/api/domains", body))).isEqualTo("413 too-large");
+        }
+        String body =
+                "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(Limits.REQUEST_BYTES - 400)));
+        assertThat(client.send("POST", "/api/domains", body).statusCode()).isEqualTo(201);
+        assertThat(running.get("/api/domains/large").at("/area/note").asText()).hasSize(Limits.REQUEST_BYTES - 400);
+        client.send("DELETE", "/api/domains/large", null);
+    }
+
+    @Test
+    void takesALongDeviceListInSeveralRequests() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"listed\"}");
+        client.send("POST", "/api/missions", "{\"mission\":\"long\",\"domain\":\"listed\"}");
+        for (int part = 0; part < 2; part++) {
+            String ids = IntStream.range(part * 5000, part * 5000 + 5000)
+                    .mapToObj(i ->
+                            "\"urn:ngsi-ld:Sensor:of-a-farm-with-long-names:%04d-%s\"".formatted(i, "x".repeat(40)))
+                    .collect(Collectors.joining(","));
+            assertThat(client.send("POST", "/api/missions/long/devices", "{\"devices\":[" + ids + "]}")
+                            .statusCode())
+                    .isEqualTo(200);
+        }
+        assertThat(running.get("/api/missions/long").path("devices")).hasSize(10_000);
+        running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
+        assertThat(client.send("POST", "/api/missions/long/start", "{}").statusCode())
+                .isEqualTo(200);
+        await().atMost(RunningApi.PATIENCE)
+                .until(() -> running.get("/api/devices?mission=long").size() == 10_000);
+        running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
     }
 
     @Test
@@ -219,14 +306,35 @@ class RestApiIT {
                         "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"created\"}");
     }
 
+    @Test
+    void refusesAFilterOfAlarmsThatNoneCanPass() throws Exception {
+        for (String query : new String[] {
+            "state=opne",
+            "state=",
+            "state=open&state=open",
+            "state=null&state=null",
+            "limit=0",
+            "limit=1&limit=2",
+            "limit=x"
+        }) {
+            assertThat(client.error(client.send("GET", "/api/alarms?" + query, null)))
+                    .as(query)
+                    .isEqualTo("400 wrong-member");
+        }
+        assertThat(running.get("/api/alarms?state=closed&limit=5")).isEmpty();
+    }
+
     /** The alarms' manager does not run here. */
     @Test
     void saysThatNobodyAnsweredAndHowToAskAgain() throws Exception {
-        try (RestApi other = RestApi.start(
-                running.settings(), RestSettings.on(0).withPatience(Duration.ofMillis(300)), () -> "REBALANCING")) {
+        Readiness readiness = new Readiness(Clock.systemUTC());
+        readiness.require(() -> new PartStatus("managers", PartStatus.State.DOWN, null, "REBALANCING"));
+        try (RestApi other =
+                RestApi.start(running.settings(), RestSettings.on(0).withPatience(Duration.ofMillis(300)), readiness)) {
             ApiClient there = new ApiClient(other.uri(), null);
             await().atMost(RunningApi.PATIENCE).until(other::isReady);
-            assertThat(there.send("GET", "/health", null).statusCode()).isEqualTo(503);
+            assertThat(there.send("GET", "/health", null).statusCode()).isEqualTo(200);
+            assertThat(there.send("GET", "/ready", null).statusCode()).isEqualTo(503);
             for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute"}) {
                 HttpResponse<byte[]> answer = there.send("POST", path, "{}", "Idempotency-Key", "again");
                 assertThat(client.error(answer)).isEqualTo("503 not-answered");

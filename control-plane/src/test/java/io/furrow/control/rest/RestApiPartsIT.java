@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.net.http.HttpResponse;
 import java.nio.file.Path;
+import java.time.Clock;
 import java.time.Duration;
 import java.util.Properties;
 
@@ -19,6 +20,7 @@ import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.FarmWatch;
 import io.furrow.control.WatchOptions;
+import io.furrow.control.readiness.Readiness;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.model.ngsi.Entity;
@@ -44,7 +46,8 @@ class RestApiPartsIT {
     void start() throws Exception {
         port = FreePort.orFree(0);
         kafka = EmbeddedKafka.start(directory.resolve("kafka"), port);
-        api = RestApi.start(settings(), RestSettings.on(0).withPatience(Duration.ofSeconds(1)), () -> "RUNNING");
+        api = RestApi.start(
+                settings(), RestSettings.on(0).withPatience(Duration.ofSeconds(1)), new Readiness(Clock.systemUTC()));
         client = new ApiClient(api.uri(), null);
         await().atMost(PATIENCE).until(api::isReady);
     }
@@ -80,7 +83,7 @@ class RestApiPartsIT {
                 KafkaProducer<String, byte[]> producer =
                         new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
             await().atMost(PATIENCE).until(watch::isHealthy);
-            producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision()));
+            producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("started")));
             await().atMost(PATIENCE)
                     .until(() -> client.json(client.send("GET", "/api/alarms?state=open", null))
                                     .size()
@@ -97,7 +100,14 @@ class RestApiPartsIT {
                     .isEqualTo(200);
             assertThat(answered("/api/alarms/unmute", "{\"kind\":\"silent-device\"}"))
                     .isEqualTo(200);
-            assertThat(answered(path + "/close", null)).isEqualTo(200);
+            assertThat(answered(path + "/close", null))
+                    .as("while its cause lasts")
+                    .isEqualTo(409);
+            producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("ended")));
+            await().atMost(PATIENCE)
+                    .until(() -> client.json(client.send("GET", "/api/alarms?state=closed&limit=1", null))
+                                    .size()
+                            == 1);
             assertThat(client.json(client.send("GET", "/api/alarms?state=closed", null))
                             .get(0)
                             .path("acknowledgedBy")
@@ -124,10 +134,10 @@ class RestApiPartsIT {
         return client.send("POST", "/api/domains", DOMAIN, "Idempotency-Key", key);
     }
 
-    private static byte[] collision() {
+    private static byte[] collision(String phase) {
         return Entity.builder("Analytics:Collision:1", "Analytics:Collision")
                 .text("encounter", "e-1")
-                .text("phase", "started")
+                .text("phase", phase)
                 .text("Device1_ID", "r1")
                 .text("Device1_Mission", "m")
                 .text("Device2_ID", "r2")

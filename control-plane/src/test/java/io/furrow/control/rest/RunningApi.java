@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.net.http.HttpResponse;
 import java.nio.file.Path;
+import java.time.Clock;
 import java.time.Duration;
 import java.util.Properties;
 
@@ -9,6 +10,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.secret.SecretSource;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.device.FarmSecret;
 
@@ -32,12 +35,14 @@ final class RunningApi implements AutoCloseable {
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         plane = ControlPlane.start(settings());
         RestSettings rest = RestSettings.on(0)
-                .withSecret(SECRET)
+                .withSecret(SecretSource.of(SECRET))
                 .withContextBroker(broker.uri())
                 .withPatience(Duration.ofSeconds(30));
-        api = RestApi.start(settings(), rest, plane::state);
+        Readiness readiness = new Readiness(Clock.systemUTC());
+        readiness.require(plane::status);
+        api = RestApi.start(settings(), rest, readiness);
         client = new ApiClient(api.uri(), null);
-        await().atMost(PATIENCE).until(() -> client.send("GET", "/health", null).statusCode() == 200);
+        await().atMost(PATIENCE).until(() -> client.send("GET", "/ready", null).statusCode() == 200);
     }
 
     RestApi api() {

@@ -5,6 +5,8 @@ import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.Executors;
 
 import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
@@ -14,9 +16,11 @@ final class StubContextBroker implements AutoCloseable {
     private final HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
     private volatile String last = "";
     private volatile int status = 204;
+    private volatile CountDownLatch held = new CountDownLatch(0);
 
     StubContextBroker() throws IOException {
         server.createContext("/", this::take);
+        server.setExecutor(Executors.newCachedThreadPool());
         server.start();
     }
 
@@ -28,6 +32,11 @@ final class StubContextBroker implements AutoCloseable {
         return last;
     }
 
+    /** Answers nobody until the latch is open. */
+    void hold(CountDownLatch until) {
+        held = until;
+    }
+
     void refuse(int newStatus) {
         status = newStatus;
     }
@@ -35,6 +44,11 @@ final class StubContextBroker implements AutoCloseable {
     private void take(HttpExchange exchange) throws IOException {
         String body = new String(exchange.getRequestBody().readAllBytes(), StandardCharsets.UTF_8);
         last = exchange.getRequestURI() + " " + body;
+        try {
+            held.await();
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
         exchange.sendResponseHeaders(status, -1);
         exchange.close();
     }

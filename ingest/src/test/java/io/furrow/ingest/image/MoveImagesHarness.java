@@ -101,7 +101,7 @@ abstract class MoveImagesHarness {
 
     /** The harness has no thread of its own: the mails of the store's threads are opened here. */
     void await(BooleanSupplier condition) throws Exception {
-        long end = System.nanoTime() + Duration.ofSeconds(20).toNanos();
+        long end = System.nanoTime() + Duration.ofSeconds(60).toNanos();
         while (!condition.getAsBoolean()) {
             assertThat(System.nanoTime()).as("still waiting").isLessThan(end);
             harness.getTaskMailbox()

@@ -150,7 +150,7 @@ class BulkSenderTest {
 
         mongo = EmbeddedMongo.start(directory, port);
 
-        assertThat(sent.get(20, TimeUnit.SECONDS)).isEmpty();
+        assertThat(sent.get(60, TimeUnit.SECONDS)).isEmpty();
         assertThat(ids()).hasSize(20);
     }
 

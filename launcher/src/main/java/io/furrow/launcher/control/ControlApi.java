@@ -12,6 +12,8 @@ import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
+import javax.net.ssl.SSLContext;
+import javax.net.ssl.SSLException;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
@@ -27,10 +29,7 @@ final class ControlApi {
     private static final int NO_TOKEN = 401;
     private static final int AFTER_SECONDS = 1;
 
-    private final HttpClient http = HttpClient.newBuilder()
-            .version(HttpClient.Version.HTTP_1_1)
-            .connectTimeout(Duration.ofSeconds(5))
-            .build();
+    private final HttpClient http;
     private final URI base;
     private final String token;
 
@@ -39,8 +38,16 @@ final class ControlApi {
      * @param token null where none is asked for
      */
     ControlApi(URI base, String token) {
+        this(base, token, null);
+    }
+
+    /** @param trust whom to trust over https; null for those that Java trusts */
+    ControlApi(URI base, String token, SSLContext trust) {
         this.base = base;
         this.token = token;
+        HttpClient.Builder client =
+                HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).connectTimeout(Duration.ofSeconds(5));
+        this.http = (trust == null ? client : client.sslContext(trust)).build();
     }
 
     /** A name as a part of a path. */
@@ -71,7 +78,7 @@ final class ControlApi {
         String reason = json.path("reason").asText("it answers " + answer.statusCode());
         if (answer.statusCode() == NO_TOKEN) {
             throw new ControlPlaneException(
-                    "The control plane at %s asks who you are: %s. Name a file with your token with --token-file."
+                    "The control plane at %s asks who you are: %s. Name a file with your token with --token-file, or set FURROW_TOKEN."
                             .formatted(base, reason));
         }
         String code = json.path("error").asText();
@@ -99,6 +106,11 @@ final class ControlApi {
     private HttpResponse<byte[]> ask(HttpRequest request) {
         try {
             return http.send(request, HttpResponse.BodyHandlers.ofByteArray());
+        } catch (SSLException e) {
+            throw new ControlPlaneException(
+                    "The control plane at %s cannot be trusted (%s). Name the certificate of its CA with --api-ca."
+                            .formatted(base, e.getMessage()),
+                    e);
         } catch (IOException e) {
             throw new ControlPlaneException(
                     "No control plane answers at %s. Is it running? ./furrow up starts one; --api names another."

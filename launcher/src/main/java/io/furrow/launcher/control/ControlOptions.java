@@ -3,10 +3,10 @@ package io.furrow.launcher.control;
 import java.io.IOException;
 import java.io.PrintWriter;
 import java.net.URI;
-import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Map;
 import java.util.stream.Collectors;
+import javax.net.ssl.SSLContext;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -16,6 +16,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
+import io.furrow.launcher.HttpUri;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** What every command has that speaks with the control plane: where that is, as whom, and how the answer is shown. */
@@ -31,6 +32,7 @@ public final class ControlOptions {
     @Option(
             names = "--api",
             paramLabel = "URL",
+            converter = HttpUri.class,
             defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
             description = "REST API of the control plane. Default: $FURROW_API, else http://127.0.0.1:8085.")
     private URI api;
@@ -38,8 +40,19 @@ public final class ControlOptions {
     @Option(
             names = "--token-file",
             paramLabel = "FILE",
-            description = "File whose first line is the token that the control plane asks for.")
+            description =
+                    "File of the token that the control plane asks for: its first line is a token, or '<name> <token> <role>' as in "
+                            + "the file of the control plane. Default: the token in $FURROW_TOKEN, else the file $FURROW_TOKEN_FILE.")
     private Path tokenFile;
+
+    @Option(
+            names = "--api-ca",
+            paramLabel = "FILE",
+            defaultValue = "${env:FURROW_API_CA}",
+            description =
+                    "PEM file with the certificates to trust where the control plane is reached over https. Default: "
+                            + "$FURROW_API_CA, else those that Java trusts.")
+    private Path ca;
 
     @Option(
             names = "--output",
@@ -67,19 +80,25 @@ public final class ControlOptions {
 
     /** Prints the object that a path has, a member a line. */
     int showOne(String path) {
-        return run(api -> {
-            JsonNode answer = api.get(path);
-            if (isJson()) {
-                print(answer);
-            } else {
-                members(answer);
-            }
-        });
+        return run(api -> shown(api.get(path)));
+    }
+
+    private void shown(JsonNode object) throws IOException {
+        if (isJson()) {
+            print(object);
+        } else {
+            members(object);
+        }
     }
 
     /** Sends a command and prints what was answered. */
     int command(String method, String path, JsonNode body) {
         return run(api -> answered(api.send(method, path, body)));
+    }
+
+    /** Sends a command and prints the object that is answered, a member a line. */
+    int commandShown(String method, String path) {
+        return run(api -> shown(api.send(method, path, null)));
     }
 
     /** Prints the answer to a command. */
@@ -100,7 +119,7 @@ public final class ControlOptions {
     /** Runs it and tells in a sentence if it fails. @return the exit code */
     int run(Work work) {
         try {
-            work.with(new ControlApi(api, token()));
+            work.with(new ControlApi(api, token(), trust()));
             out().flush();
             return 0;
         } catch (ControlPlaneException e) {
@@ -109,6 +128,11 @@ public final class ControlOptions {
             spec.commandLine().getErr().println("cannot read or write: " + e.getMessage());
         }
         return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+    }
+
+    /** That a command cannot be run as it was given. */
+    ParameterException refused(String reason) {
+        return new ParameterException(spec.commandLine(), reason);
     }
 
     boolean isJson() {
@@ -163,16 +187,18 @@ public final class ControlOptions {
     }
 
     private String token() {
-        if (tokenFile == null) {
-            return null;
-        }
         try {
-            return Files.readString(tokenFile).lines().findFirst().orElse("").strip();
+            return ClientToken.find(tokenFile, System.getenv()).orElse(null);
         } catch (IOException e) {
-            throw new ParameterException(
-                    spec.commandLine(),
-                    "--token-file %s cannot be read; name a file whose first line is the token".formatted(tokenFile),
-                    e);
+            throw new ParameterException(spec.commandLine(), e.getMessage(), e);
+        }
+    }
+
+    private SSLContext trust() {
+        try {
+            return ca == null ? null : TrustedCertificates.context(ca);
+        } catch (IOException e) {
+            throw new ParameterException(spec.commandLine(), "--api-ca " + e.getMessage(), e);
         }
     }
 }

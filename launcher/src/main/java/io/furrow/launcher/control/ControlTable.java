@@ -1,5 +1,7 @@
 package io.furrow.launcher.control;
 
+import java.time.Clock;
+import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
@@ -10,11 +12,13 @@ import com.fasterxml.jackson.databind.JsonNode;
 /** Objects as a table, each column as wide as its widest cell. */
 final class ControlTable {
     private final String nothing;
+    private final Clock clock;
     private final List<Column> columns = new ArrayList<>();
 
     private enum Kind {
         TEXT,
         TIME,
+        AGE,
         COUNT
     }
 
@@ -22,7 +26,13 @@ final class ControlTable {
 
     /** @param nothing what is said where there is no row */
     ControlTable(String nothing) {
+        this(nothing, Clock.systemUTC());
+    }
+
+    /** @param clock that ages are told by */
+    ControlTable(String nothing, Clock clock) {
         this.nothing = nothing;
+        this.clock = clock;
     }
 
     /** @param places JSON pointers; the first that has something is shown */
@@ -33,6 +43,11 @@ final class ControlTable {
     /** A time, epoch ms or ISO 8601, shown to the second in UTC. */
     ControlTable time(String title, String... places) {
         return column(title, Kind.TIME, places);
+    }
+
+    /** How long ago a time is, epoch ms, in its greatest unit: {@code 42s}, {@code 5m}, {@code 3h}, {@code 12d}. */
+    ControlTable age(String title, String... places) {
+        return column(title, Kind.AGE, places);
     }
 
     /** How many members a list or an object has. */
@@ -72,7 +87,7 @@ final class ControlTable {
         return line.toString().stripTrailing();
     }
 
-    private static String cell(Column column, JsonNode row) {
+    private String cell(Column column, JsonNode row) {
         for (JsonPointer place : column.places()) {
             JsonNode value = row.at(place);
             if (!value.isMissingNode() && !value.isNull()) {
@@ -82,7 +97,16 @@ final class ControlTable {
         return "–";
     }
 
-    private static String cell(Kind kind, JsonNode value) {
+    private static String age(Duration age) {
+        if (age.compareTo(Duration.ofMinutes(2)) < 0) {
+            return Math.max(0, age.toSeconds()) + "s";
+        } else if (age.compareTo(Duration.ofHours(2)) < 0) {
+            return age.toMinutes() + "m";
+        }
+        return age.compareTo(Duration.ofDays(2)) < 0 ? age.toHours() + "h" : age.toDays() + "d";
+    }
+
+    private String cell(Kind kind, JsonNode value) {
         return switch (kind) {
             case COUNT -> Integer.toString(value.size());
             case TIME ->
@@ -90,6 +114,7 @@ final class ControlTable {
                                 ? Instant.ofEpochMilli(value.longValue()).toString()
                                 : value.asText())
                         .replaceFirst("\\.\\d+Z$", "Z");
+            case AGE -> age(Duration.ofMillis(clock.millis() - value.asLong()));
             case TEXT -> value.isValueNode() ? value.asText() : value.toString();
         };
     }

@@ -14,7 +14,7 @@ import io.furrow.launcher.CommandGroup;
 /** {@code ./furrow device}. */
 @Command(
         name = "device",
-        description = "Lists devices with their status, and sends them commands.",
+        description = "Lists devices with their status, sends them commands, and gives them credentials.",
         synopsisSubcommandLabel = "COMMAND")
 public final class DeviceCommand extends CommandGroup {
     private static final String DEVICES = "/api/devices";
@@ -59,6 +59,16 @@ public final class DeviceCommand extends CommandGroup {
             description = "Shows the API key, user and password with which a device reaches the MQTT broker.")
     int credentials(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
         return control.showOne(DEVICES + ControlApi.part(device) + "/credentials");
+    }
+
+    @Command(
+            name = "rotate",
+            description = {
+                "Gives a device a new password and shows its credentials. The old password is refused at once, and a connection that",
+                "was made with it is cut off; other devices are not affected."
+            })
+    int rotate(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials");
     }
 
     @Command(name = "on", description = "Switches a device on.")

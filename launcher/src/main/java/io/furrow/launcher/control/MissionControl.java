@@ -2,7 +2,9 @@ package io.furrow.launcher.control;
 
 import java.io.IOException;
 import java.nio.file.Path;
+import java.util.List;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -72,7 +74,36 @@ public class MissionControl extends CommandGroup {
             @Option(names = "--domain", paramLabel = "DOMAIN", required = true, description = "Its domain.")
                     String domain,
             @Mixin Plan plan) {
-        return control.run(api -> control.answered(api.send("POST", MISSIONS, plan.json(mission, domain))));
+        return control.run(api -> control.answered(create(api, plan.json(mission, domain))));
+    }
+
+    /** A list that is too long for one request goes in several. */
+    private static JsonNode create(ControlApi api, ObjectNode plan) {
+        List<ObjectNode> parts = DeviceListParts.requests(plan);
+        if (parts.size() == 1) {
+            return api.send("POST", MISSIONS, plan);
+        }
+        JsonNode answer = api.send("POST", MISSIONS, plan.deepCopy().without("devices"));
+        String path = MISSIONS + ControlApi.part(plan.path("mission").asText()) + "/devices";
+        parts.forEach(part -> api.send("POST", path, part));
+        return answer;
+    }
+
+    @Command(
+            name = "add-devices",
+            description = "Adds devices to a mission that does not run. What it has already stays.")
+    int addDevices(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", description = NAME) String mission,
+            @Parameters(paramLabel = "FILE", description = "JSON list of devices.") Path devices) {
+        return control.run(api -> {
+            ObjectNode list = NgsiJson.mapper().createObjectNode().set("devices", JsonFile.read(devices));
+            JsonNode answer = null;
+            for (ObjectNode part : DeviceListParts.requests(list)) {
+                answer = api.send("POST", MISSIONS + ControlApi.part(mission) + "/devices", part);
+            }
+            control.answered(answer);
+        });
     }
 
     @Command(name = "start", description = "Starts a mission; makes it where there is none.")
@@ -81,8 +112,14 @@ public class MissionControl extends CommandGroup {
             @Parameters(paramLabel = "MISSION", description = NAME) String mission,
             @Mixin Begin begin,
             @Mixin Plan plan) {
-        return control.run(api -> control.answered(api.send(
-                "POST", MISSIONS + ControlApi.part(mission) + "/start", begin.in(plan.json(mission, begin.domain)))));
+        return control.run(api -> {
+            ObjectNode json = plan.json(mission, begin.domain);
+            if (DeviceListParts.requests(json).size() > 1) {
+                create(api, json);
+                json.remove("devices");
+            }
+            control.answered(api.send("POST", MISSIONS + ControlApi.part(mission) + "/start", begin.in(json)));
+        });
     }
 
     /** When it starts, for how long, and to which domain it belongs. */

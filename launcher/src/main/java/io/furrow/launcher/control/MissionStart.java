@@ -79,15 +79,20 @@ public final class MissionStart implements AutoCloseable {
         return known.stream().map(info -> new TopicPartition(topic, info.partition()));
     }
 
+    /** A mission of so many devices, each with a measure every so often. */
+    public record Plan(String mission, int devices, Duration period) {}
+
     /**
-     * Starts a mission of devices that report once a second.
+     * Starts a mission.
      *
-     * @param patience for each record that is waited for
+     * @param timeout for each record that is waited for
      * @throws ControlPlaneException if it is refused, or nothing comes for that long
      */
-    public Delays run(String mission, int devices, Duration patience) {
+    public Delays run(Plan plan, Duration timeout) {
+        String mission = plan.mission();
+        int devices = plan.devices();
         Seen seen = new Seen(mission, devices);
-        api.send("POST", "/api/missions" + ControlApi.part(mission) + "/start", plan(devices));
+        api.send("POST", "/api/missions" + ControlApi.part(mission) + "/start", json(plan));
         seen.answered = seen.now();
         Duration last = seen.now();
         while (!seen.isComplete()) {
@@ -96,24 +101,44 @@ public final class MissionStart implements AutoCloseable {
                     last = seen.now();
                 }
             }
-            if (seen.now().minus(last).compareTo(patience) > 0) {
+            if (seen.now().minus(last).compareTo(timeout) > 0) {
                 throw new ControlPlaneException(
                         "nothing more of mission %s for %d s: %d of %d devices have reported, it is %s"
-                                .formatted(mission, patience.toSeconds(), seen.reported.size(), devices, seen.state));
+                                .formatted(mission, timeout.toSeconds(), seen.reported.size(), devices, seen.state));
             }
         }
         return new Delays(seen.answered, seen.firstRaw, seen.allRaw, seen.firstRouted, seen.running);
     }
 
-    /** Stops it; its devices may go on for a moment. */
-    public void stop(String mission) {
+    /**
+     * Stops it.
+     *
+     * @return how long it took until it was stopped
+     */
+    public Duration stop(String mission, Duration timeout) {
+        Seen seen = new Seen(mission, 0);
         api.send("POST", "/api/missions" + ControlApi.part(mission) + "/stop", NODES.objectNode());
+        Duration last = seen.now();
+        while (!seen.state.equals("stopped")) {
+            for (ConsumerRecord<String, byte[]> record : consumer.poll(LOOK)) {
+                if (seen.take(record)) {
+                    last = seen.now();
+                }
+            }
+            if (seen.now().minus(last).compareTo(timeout) > 0) {
+                throw new ControlPlaneException("mission %s is %s, and has not stopped within %d s of its last sign"
+                        .formatted(mission, seen.state, timeout.toSeconds()));
+            }
+        }
+        return seen.now();
     }
 
-    private ObjectNode plan(int devices) {
+    private ObjectNode json(Plan plan) {
         ObjectNode json = NODES.objectNode().put(DOMAIN, domain);
         ObjectNode group = json.putArray("devices").addObject();
-        group.put("type", "Thermometer").put("count", devices).put("period", "PT1S");
+        group.put("type", "Thermometer")
+                .put("count", plan.devices())
+                .put("period", plan.period().toString());
         var ring = group.putObject("area")
                 .put("type", "Polygon")
                 .putArray("coordinates")

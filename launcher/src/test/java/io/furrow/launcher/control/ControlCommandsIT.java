@@ -4,12 +4,18 @@ import java.io.PrintWriter;
 import java.io.StringWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.time.Clock;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Map;
 import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
@@ -18,11 +24,17 @@ import picocli.CommandLine;
 
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.CertificateFiles;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
+import io.furrow.control.secret.SecretSource;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.SelfSignedCertificate;
 import io.furrow.launcher.Furrow;
+import io.furrow.model.device.FarmSecret;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -36,6 +48,8 @@ class ControlCommandsIT {
     private static EmbeddedKafka kafka;
     private static ControlPlane plane;
     private static RestApi api;
+    private static SelfSignedCertificate certificate;
+    private static FarmSecret secret;
 
     private final StringWriter out = new StringWriter();
     private final StringWriter err = new StringWriter();
@@ -47,8 +61,14 @@ class ControlCommandsIT {
         client.setProperty("bootstrap.servers", kafka.bootstrapServers());
         ControlSettings settings = ControlSettings.of(client);
         plane = ControlPlane.start(settings);
-        Path tokens = Files.writeString(directory.resolve("tokens"), "ann a-token-of-some-length\n");
-        api = RestApi.start(settings, RestSettings.on(0).withTokens(tokens), plane::state);
+        Path tokens = Files.writeString(directory.resolve("tokens"), "ann a-token-of-some-length admin\n");
+        certificate = SelfSignedCertificate.make(directory, "control-plane");
+        secret = FarmSecret.generate();
+        RestSettings rest = RestSettings.on(0)
+                .withTokens(tokens)
+                .withCertificate(CertificateFiles.pem(certificate.certificate(), certificate.key()))
+                .withSecret(SecretSource.of(secret));
+        api = RestApi.start(settings, rest, new Readiness(Clock.systemUTC()));
         Files.writeString(directory.resolve("token"), "a-token-of-some-length\n");
     }
 
@@ -99,6 +119,25 @@ class ControlCommandsIT {
     }
 
     @Test
+    void givesADeviceNewCredentials() throws Exception {
+        Path devices = Files.writeString(directory.resolve("thermometers.json"), "[{\"type\":\"Thermometer\"}]");
+        run("domain", "create", "barn");
+        run("mission", "start", "drying", "--domain", "barn", "--devices", devices.toString());
+        String device = "urn:ngsi-ld:Thermometer:drying-1";
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(run("device", "credentials", device))
+                        .contains(secret.device("drying", device).password()));
+
+        assertThat(run("device", "rotate", device))
+                .contains(
+                        secret.device("drying", device, 1).user(),
+                        secret.device("drying", device, 1).password());
+        assertThat(json("device", "credentials", device).path("generation").asInt())
+                .isEqualTo(1);
+        assertThat(refused("device", "rotate", "urn:nosuch")).contains("there is no device", "unknown-device");
+    }
+
+    @Test
     void carriesATemplateOutAndBackIn() throws Exception {
         Path file = directory.resolve("template.json");
         await().atMost(PATIENCE)
@@ -127,9 +166,59 @@ class ControlCommandsIT {
     }
 
     @Test
+    void listsOpenAlarmsTheMostSevereFirstAndNoMoreThanAreAskedFor() throws Exception {
+        long hours = System.currentTimeMillis() - Duration.ofHours(3).toMillis();
+        long days = System.currentTimeMillis() - Duration.ofDays(4).toMillis();
+        try (KafkaProducer<String, byte[]> producer = new KafkaProducer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers()),
+                new StringSerializer(),
+                new ByteArraySerializer())) {
+            send(producer, "silent-device-1", "minor", "open", hours);
+            send(producer, "collision-2", "critical", "open", days);
+            send(producer, "collision-3", "critical", "open", hours);
+            send(producer, "collision-4", "critical", "closed", hours);
+            send(producer, "collision-5", "critical", "acknowledged", hours);
+        }
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(json("alarm", "list", "--state", "all")).hasSize(5));
+        assertThat(run("alarm", "list").lines())
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("ALARM"),
+                        line -> assertThat(line).containsPattern("collision-3 +critical +open +3h "),
+                        line -> assertThat(line).containsPattern("collision-2 +critical +open +4d "),
+                        line -> assertThat(line).containsPattern("silent-device-1 +minor +open +3h "));
+        assertThat(run("alarm", "list", "--limit", "1").lines())
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("ALARM"),
+                        line -> assertThat(line).startsWith("collision-3"),
+                        line -> assertThat(line).isEqualTo("There are more than 1; --limit shows more of them."));
+        assertThat(json("alarm", "list", "--limit", "2")).hasSize(2);
+        assertThat(run("alarm", "list", "--state", "closed"))
+                .contains("collision-4")
+                .doesNotContain("collision-5");
+        assertThat(run("alarm", "list", "--state", "acknowledged")).contains("collision-5");
+        assertThat(refused("alarm", "list", "--state", "opne")).contains("--state", "opne", "ACKNOWLEDGED");
+        assertThat(refused("alarm", "list", "--limit", "0")).contains("--limit");
+    }
+
+    private static void send(
+            KafkaProducer<String, byte[]> producer, String alarm, String severity, String state, long raised) {
+        String json =
+                "{'alarm':'%s','kind':'collision','subject':'a-b','severity':'%s','state':'%s','text':'close','raised':%d}"
+                        .formatted(alarm, severity, state, raised)
+                        .replace('\'', '"');
+        producer.send(
+                new ProducerRecord<>(Topics.ALARMS, alarm, json.getBytes(java.nio.charset.StandardCharsets.UTF_8)));
+    }
+
+    @Test
     void saysWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
         CommandLine furrow = furrow();
 
+        String trusted = certificate.certificate().toString();
+        assertThat(furrow.execute("domain", "list", "--api", api.uri().toString(), "--api-ca", trusted))
+                .isNotZero();
         assertThat(furrow.execute("domain", "list", "--api", api.uri().toString()))
                 .isNotZero();
         assertThat(furrow.execute("domain", "list", "--api", "http://127.0.0.1:1"))
@@ -139,6 +228,7 @@ class ControlCommandsIT {
         assertThat(err.toString().lines().toList())
                 .satisfiesExactly(
                         line -> assertThat(line).contains("asks who you are", "--token-file"),
+                        line -> assertThat(line).contains(api.uri() + " cannot be trusted", "--api-ca"),
                         line -> assertThat(line).contains("No control plane answers at http://127.0.0.1:1", "--api"),
                         line -> assertThat(line).contains("--token-file nosuch cannot be read"),
                         line -> assertThat(line).startsWith("See: furrow domain list --help"));
@@ -167,6 +257,8 @@ class ControlCommandsIT {
         all.addAll(List.of(
                 "--api",
                 api.uri().toString(),
+                "--api-ca",
+                certificate.certificate().toString(),
                 "--token-file",
                 directory.resolve("token").toString()));
         return all.toArray(new String[0]);

@@ -7,13 +7,17 @@ import com.fasterxml.jackson.annotation.JsonValue;
 
 /** What alarms are about; the names are never changed, clients branch on them. */
 public enum AlarmKind {
-    /** A device was not heard of for longer than it may be; the subject is its entity. */
+    /** Devices were not heard of for longer than they may be; the subject is the entity of their mission, else domain. */
     SILENT_DEVICE,
-    /** Two devices are closer than they may be; the subject is the pair, {@code <idA>-<idB>}. */
+    /** So much of a mission is silent that rather its site or connection is away; the subject is the mission's entity. */
+    SILENT_MISSION,
+    /** Nothing arrives from any device; the subject is the topic that nothing arrives on. */
+    SILENT_FARM,
+    /** Two devices are closer than they may be; the subject is the pair, {@code <idA>-<idB>}; of more, their mission's entity. */
     COLLISION,
-    /** Two devices are on courses that bring them too close; the subject is the pair. */
+    /** Two devices are on courses that bring them too close; the subject is the pair; of more, their mission's entity. */
     PREDICTED_ENCOUNTER,
-    /** A sensor shows what those around it do not; the subject is its entity. */
+    /** A sensor shows what those around it do not; the subject is its entity; of more, that of the field's results. */
     SUSPECT_SENSOR;
 
     /** The name in lower case with hyphens, for instance {@code silent-device}. */

@@ -11,6 +11,8 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.ngsi.NgsiJson;
+
 /**
  * Devices of one kind on a mission, an element of {@code devices}. As a text it is the id of an entity that reports by itself:
  * it is assigned to the mission, but nobody is asked to run it.
@@ -73,8 +75,7 @@ public record DeviceGroup(
             throw Members.wrong("count", "1 where the device has an 'id'");
         }
         check(members);
-        ObjectNode settings = object.deepCopy().retain(SETTINGS);
-        settings.properties().removeIf(setting -> setting.getValue().isNull());
+        ObjectNode settings = settings(object);
         return new DeviceGroup(
                 members.nameOrNull("name"),
                 id,
@@ -83,6 +84,25 @@ public record DeviceGroup(
                 members.textOrNull("carriedBy"),
                 members.durationOrNull("period"),
                 settings);
+    }
+
+    /** The settings of a group as requests have it; those that are null are left out. */
+    public static ObjectNode settings(ObjectNode group) {
+        ObjectNode settings = JsonNodeFactory.instance.objectNode();
+        for (String name : SETTINGS) {
+            if (group.hasNonNull(name)) {
+                settings.set(name, group.get(name));
+            }
+        }
+        return settings;
+    }
+
+    /** What its settings take, all but the area, which its devices share: for each device. */
+    long settingsBytes() {
+        ObjectNode own = JsonNodeFactory.instance.objectNode();
+        own.setAll(settings);
+        own.remove("area");
+        return own.isEmpty() ? 0 : (long) count * NgsiJson.write(own).length;
     }
 
     private static String entityId(String id) throws RefusedException {

@@ -31,10 +31,23 @@ public enum ErrorCode {
     UNKNOWN_TEMPLATE,
     /** Another mission that runs has the device. */
     DEVICE_TAKEN,
+    UNKNOWN_DEVICE,
+    /** The device is not provisioned: it reports by itself. */
+    NO_CREDENTIALS,
     UNKNOWN_REPLAY,
     UNKNOWN_ALARM,
     /** The replay or alarm is not in the state that the command needs. */
-    WRONG_STATE;
+    WRONG_STATE,
+    /** More bytes than {@link Limits} allow, in the request or in what would come of it. */
+    TOO_LARGE,
+    /** All definitions together would have more bytes than {@link Limits#DEFINITIONS_BYTES}. */
+    QUOTA_EXCEEDED,
+    /** The id was given before, to a request that asked for something else or came from somebody else. */
+    REQUEST_ID_REUSED,
+    /** The manager takes no further request at the moment; ask again later. */
+    OVERLOADED,
+    /** The manager failed at the request and changed nothing; the request is a dead letter. */
+    INTERNAL_ERROR;
 
     /** The name in lower case with hyphens, for instance {@code not-json}. */
     public String code() {

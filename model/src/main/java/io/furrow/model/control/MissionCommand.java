@@ -68,6 +68,20 @@ public sealed interface MissionCommand extends Command {
         }
     }
 
+    /** Adds to the list of a mission that is not active. */
+    record AddDevices(String mission, MissionDevices devices) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "add-devices";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("mission", mission);
+            request.set("devices", devices.toJson());
+        }
+    }
+
     /** Keeps a new version; the version that the template names is passed over. */
     record SaveTemplate(MissionTemplate template) implements MissionCommand {
         @Override
@@ -97,6 +111,23 @@ public sealed interface MissionCommand extends Command {
         }
     }
 
+    /**
+     * Gives a device a new password; the old one is refused from then on.
+     *
+     * @param device id of its entity
+     */
+    record RotateCredentials(String device) implements MissionCommand {
+        @Override
+        public String verb() {
+            return "rotate-credentials";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            request.put("device", device);
+        }
+    }
+
     static MissionCommand read(String verb, Members members) throws RefusedException {
         return switch (verb == null ? "" : verb) {
             case "create" -> new Create(members.name("mission"), members.name("domain"), MissionPlan.read(members));
@@ -109,10 +140,22 @@ public sealed interface MissionCommand extends Command {
                         members.durationOrNull("duration"));
             case "stop" -> new Stop(members.name("mission"));
             case "delete" -> new Delete(members.name("mission"));
+            case "add-devices" -> new AddDevices(members.name("mission"), added(members));
             case "save-template" -> new SaveTemplate(MissionTemplate.read(members));
             case "delete-template" ->
                 new DeleteTemplate(members.name("template"), members.wholeNumber("version", 1, Integer.MAX_VALUE, 0));
-            default -> throw Requests.unknown(verb, "create, start, stop, delete, save-template, delete-template");
+            case "rotate-credentials" -> new RotateCredentials(members.text("device"));
+            default ->
+                throw Requests.unknown(
+                        verb,
+                        "create, start, stop, delete, add-devices, save-template, delete-template, rotate-credentials");
         };
+    }
+
+    private static MissionDevices added(Members members) throws RefusedException {
+        if (!members.has("devices")) {
+            throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'devices'");
+        }
+        return MissionDevices.readPart(members);
     }
 }

@@ -42,8 +42,22 @@ public record MissionDevices(List<DeviceGroup> groups) {
         }
     }
 
+    /** A part of a list as {@link #toJson()} wrote it: whether names and carriers fit shows with the rest of the list. */
+    public static MissionDevices ofPart(ArrayNode json) {
+        try {
+            return readPart(new Members(JsonNodeFactory.instance.objectNode().set("devices", json)));
+        } catch (RefusedException e) {
+            throw new IllegalArgumentException("these are no devices of a mission: " + e.getMessage(), e);
+        }
+    }
+
     /** The member {@code devices} of a request or a template. */
     static MissionDevices read(Members members) throws RefusedException {
+        return readPart(members).checked();
+    }
+
+    /** The same of a request that adds to a list: whether names and carriers fit shows with the rest of the list. */
+    static MissionDevices readPart(Members members) throws RefusedException {
         ArrayNode array = members.arrayOrNull("devices", DeviceGroup.MOST);
         List<DeviceGroup> groups = new ArrayList<>();
         long count = 0;
@@ -52,14 +66,45 @@ public record MissionDevices(List<DeviceGroup> groups) {
             count += groups.get(groups.size() - 1).count();
         }
         if (count > DeviceGroup.MOST) {
-            throw Members.wrong("devices", "at most " + DeviceGroup.MOST + " devices in all");
+            throw tooMany();
         }
-        MissionDevices devices = new MissionDevices(groups);
-        devices.checkCarriers();
+        return new MissionDevices(groups);
+    }
+
+    private static RefusedException tooMany() {
+        return Members.wrong("devices", "at most " + DeviceGroup.MOST + " devices in all");
+    }
+
+    /**
+     * These, and behind them others.
+     *
+     * @throws RefusedException where they do not fit together, or are too many
+     */
+    public MissionDevices plus(MissionDevices others) throws RefusedException {
+        List<DeviceGroup> all = new ArrayList<>(groups);
+        all.addAll(others.groups);
+        MissionDevices devices = new MissionDevices(all).checked();
+        if (devices.count() > DeviceGroup.MOST) {
+            throw tooMany();
+        }
         return devices;
     }
 
-    private void checkCarriers() throws RefusedException {
+    /**
+     * What settings take that every device of a group has for itself, all but its area, in bytes: more than they take here where a
+     * group has many.
+     */
+    public long settingsBytes() {
+        return groups.stream().mapToLong(DeviceGroup::settingsBytes).sum();
+    }
+
+    private MissionDevices checked() throws RefusedException {
+        if (settingsBytes() > Limits.MISSION_BYTES) {
+            throw new RefusedException(
+                    ErrorCode.TOO_LARGE,
+                    "'path', 'faults' and 'parameters' of all devices together may have %d bytes, and have %d; give less to so many"
+                            .formatted(Limits.MISSION_BYTES, settingsBytes()));
+        }
         Map<String, DeviceGroup> named = new HashMap<>();
         Set<String> ids = new HashSet<>();
         for (DeviceGroup group : groups) {
@@ -76,6 +121,7 @@ public record MissionDevices(List<DeviceGroup> groups) {
                 }
             }
         }
+        return this;
     }
 
     /** As {@code devices} has it. */

@@ -15,7 +15,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * What a replay is, told by whoever plays it back: a record of {@code service.replays.status} under the replay's name.
  *
  * @param sequence of the wanted replay that was applied last
- * @param reason why it failed; null where it did not
+ * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters of it; null where it did not
  */
 public record ReplayStatus(long sequence, State state, String reason) {
     /** How it is with a replay. */
@@ -55,7 +55,9 @@ public record ReplayStatus(long sequence, State state, String reason) {
         for (State state : State.values()) {
             if (state.word().equals(json.path("state").textValue())) {
                 return new ReplayStatus(
-                        sequence.longValue(), state, json.path("reason").textValue());
+                        sequence.longValue(),
+                        state,
+                        Limits.reason(json.path("reason").textValue()));
             }
         }
         throw new UnreadableException(

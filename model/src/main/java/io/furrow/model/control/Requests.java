@@ -71,15 +71,14 @@ public final class Requests {
         try {
             json = NgsiJson.read(value);
         } catch (UnreadableException e) {
-            return refused(null, new RefusedException(ErrorCode.NOT_JSON, Members.quotable(e.getMessage())), json());
+            return refused(ErrorCode.NOT_JSON, Members.quotable(e.getMessage()));
         }
         if ("response".equals(json.path("type").textValue())) {
             return new Received.Passed<>();
         }
         if (!(json instanceof ObjectNode object)
                 || !"request".equals(json.path("type").textValue())) {
-            return refused(
-                    null, new RefusedException(ErrorCode.NOT_A_REQUEST, "it is no object with type=request"), json());
+            return refused(ErrorCode.NOT_A_REQUEST, "it is no object with type=request");
         }
         return read(object, reader);
     }
@@ -90,25 +89,31 @@ public final class Requests {
         try {
             requestId = requestId(members);
             Members.checkReadable(json);
-            return new Received.Request<>(requestId, reader.read(members.textOrNull("command"), members));
+            C command = reader.read(members.textOrNull("command"), members);
+            return new Received.Request<>(requestId, command);
         } catch (RefusedException e) {
-            return refused(requestId, e, json);
+            return new Received.Refused<>(requestId, aboutSubjects(Response.refused(e), json));
         }
     }
 
     private static String requestId(Members members) throws RefusedException {
         String id = members.textOrNull("requestId");
-        if (id != null && !REQUEST_ID.matcher(id).matches()) {
+        if (id != null && !isRequestId(id)) {
             throw Members.wrong("requestId", "1 to 200 printable ASCII signs without blanks");
         }
         return id;
     }
 
-    private static <C> Received<C> refused(String requestId, RefusedException refusal, ObjectNode request) {
-        return new Received.Refused<>(requestId, aboutSubjects(Response.refused(refusal), request));
+    /** Whether it is a legal id of a request; null is none. */
+    static boolean isRequestId(String text) {
+        return text != null && REQUEST_ID.matcher(text).matches();
     }
 
-    private static Response aboutSubjects(Response refusal, ObjectNode request) {
+    private static <C> Received<C> refused(ErrorCode code, String reason) {
+        return new Received.Refused<>(null, Response.refused(new RefusedException(code, reason)));
+    }
+
+    static Response aboutSubjects(Response refusal, ObjectNode request) {
         Response answer = refusal;
         for (String subject : SUBJECTS) {
             String name = request.path(subject).asText("");

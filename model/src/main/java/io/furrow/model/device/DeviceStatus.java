@@ -7,6 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.control.Limits;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -15,7 +16,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * What a device is, told by its host: a record of {@code service.devices.status} under the key of {@code service.devices}.
  *
  * @param sequence of the wanted device that this is the state of; a smaller one than the newest wanted says nothing of it
- * @param reason why it failed; null where it did not
+ * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters of it; null where it did not
  */
 public record DeviceStatus(long sequence, State state, String reason) {
     /** How it is with a device. */
@@ -48,7 +49,9 @@ public record DeviceStatus(long sequence, State state, String reason) {
         for (State state : State.values()) {
             if (state.word().equals(json.path("state").textValue())) {
                 return new DeviceStatus(
-                        sequence.longValue(), state, json.path("reason").textValue());
+                        sequence.longValue(),
+                        state,
+                        Limits.reason(json.path("reason").textValue()));
             }
         }
         throw new UnreadableException(Reason.NOT_AN_EVENT, "'state' of the status is not running, stopped or failed");

@@ -3,26 +3,34 @@ package io.furrow.model.device;
 import java.io.IOException;
 import java.net.URLEncoder;
 import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
-import java.security.GeneralSecurityException;
+import java.security.SecureRandom;
+import java.time.Instant;
+import java.util.ArrayList;
 import java.util.Base64;
-import javax.crypto.Mac;
-import javax.crypto.spec.SecretKeySpec;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Objects;
 
 /**
- * The one secret of a farm, of which the API key of each mission and the MQTT password of each device are made (HMAC-SHA-256): the
- * control plane, which provisions devices, and whoever hosts them come to the same without a password on any topic. Whoever has
- * the secret has all of them.
+ * The one secret of a farm, of which the API key of each mission and the MQTT password of each device are made: the control plane,
+ * which provisions devices, and their host come to the same without a password on any topic. Whoever has the secret has all of
+ * them.
+ *
+ * <p>It has one key or, after a rotation, several. The newest makes passwords; those of older keys are accepted until a time that
+ * each of them has. API keys are addresses, a part of MQTT topics: one key goes on making them through rotations.
  */
 public final class FarmSecret {
-    private static final int LEAST_BYTES = 16;
-    private static final int KEY_CHARACTERS = 22;
-    private static final String MAC = "HmacSHA256";
+    /** What the names of all its MQTT users begin with. */
+    public static final String USER_PREFIX = "furrow.";
 
-    private final SecretKeySpec key;
+    private static final int GENERATED_BYTES = 32;
 
-    /** As whom to connect to the MQTT broker; the password is left out of {@link #toString()}. */
+    private final List<FarmKey> keys;
+    private final FarmKey apiKeys;
+    private final List<FarmKey> accepted;
+
+    /** User and password at the MQTT broker; the password is left out of {@link #toString()}. */
     public record Login(String user, String password) {
         @Override
         public String toString() {
@@ -30,58 +38,212 @@ public final class FarmSecret {
         }
     }
 
-    /** @throws IllegalArgumentException where there are fewer than 16 bytes */
+    /**
+     * A secret with one key.
+     *
+     * @throws IllegalArgumentException where there are fewer than 16 bytes
+     */
     public FarmSecret(byte[] secret) {
-        if (secret.length < LEAST_BYTES) {
-            throw new IllegalArgumentException(
-                    "a farm's secret has at least %d bytes, this one %d; make one with: openssl rand -base64 32"
-                            .formatted(LEAST_BYTES, secret.length));
-        }
-        this.key = new SecretKeySpec(secret, MAC);
+        this(new FarmKey(1, new String(secret, StandardCharsets.UTF_8), null));
+    }
+
+    private FarmSecret(FarmKey only) {
+        this(List.of(only), only);
+    }
+
+    /** @param apiKeys the one of them that makes API keys */
+    FarmSecret(List<FarmKey> keys, FarmKey apiKeys) {
+        this(keys, apiKeys, keys);
+    }
+
+    private FarmSecret(List<FarmKey> keys, FarmKey apiKeys, List<FarmKey> accepted) {
+        this.keys = keys.stream()
+                .sorted(Comparator.comparingInt(FarmKey::number).reversed())
+                .toList();
+        this.apiKeys = apiKeys;
+        this.accepted = this.keys.stream().filter(accepted::contains).toList();
+    }
+
+    /** A secret with one key of 256 random bits. */
+    public static FarmSecret generate() {
+        return new FarmSecret(random(1));
+    }
+
+    private static FarmKey random(int number) {
+        byte[] bytes = new byte[GENERATED_BYTES];
+        new SecureRandom().nextBytes(bytes);
+        return new FarmKey(number, Base64.getEncoder().encodeToString(bytes), null);
     }
 
     /**
-     * Reads the first line of a file.
+     * Reads a file, see {@link FarmSecretCodec}.
      *
-     * @throws IOException if it cannot be read or is too short; the message says which and what to do
+     * @throws IOException if it cannot be read or is no secret; the message says which file, why and what to do
      */
     public static FarmSecret read(Path file) throws IOException {
-        try {
-            String line = Files.readString(file).lines().findFirst().orElse("").strip();
-            return new FarmSecret(line.getBytes(StandardCharsets.UTF_8));
-        } catch (IllegalArgumentException e) {
-            throw new IOException(file + ": " + e.getMessage(), e);
-        }
-    }
-
-    /** What devices of a mission put before their topics, {@code /<apikey>/<device>/attrs}: 22 of {@code A-Za-z0-9_-}. */
-    public String apiKey(String mission) {
-        return code("apikey", mission, "");
+        return FarmSecretCodec.read(file);
     }
 
     /**
-     * The login of a device: user {@code <mission>.<device>}, the device as in a URL's query.
+     * The same with a new key that makes passwords from now on.
+     *
+     * @param now keys whose time was over by then are left out, but that which makes API keys
+     * @param until when passwords of the key that was the newest cease to count
+     * @param newApiKeys whether the new key makes API keys too; the others then only tell which were made of them
+     */
+    public FarmSecret rotated(Instant now, Instant until, boolean newApiKeys) {
+        FarmKey fresh = random(newest().number() + 1);
+        List<FarmKey> next = new ArrayList<>(List.of(fresh));
+        for (FarmKey key : keys) {
+            // The one before stays in any case: by it the farm knows that this secret comes after its own.
+            if (key.until() == null) {
+                next.add(key.endingAt(until));
+            } else if (key.isAcceptedAt(now) || key.equals(apiKeys)) {
+                next.add(key);
+            }
+        }
+        int naming = newApiKeys ? fresh.number() : apiKeys.number();
+        return new FarmSecret(
+                next,
+                next.stream().filter(key -> key.number() == naming).findFirst().orElseThrow());
+    }
+
+    /** The same as it is at a time: logins are those of the keys that are accepted then. */
+    public FarmSecret at(Instant time) {
+        List<FarmKey> then = keys.stream().filter(key -> key.isAcceptedAt(time)).toList();
+        return then.equals(accepted) ? this : new FarmSecret(keys, apiKeys, then);
+    }
+
+    /** The first part of a mission's MQTT topics, {@code /<apikey>/<device>/attrs}: 22 of {@code A-Za-z0-9_-}. */
+    public String apiKey(String mission) {
+        return apiKey(apiKeys, mission);
+    }
+
+    /** Whether an API key was made for a mission of any key of this secret. */
+    public boolean madeApiKey(String apiKey, String mission) {
+        return keys.stream().anyMatch(key -> apiKey(key, mission).equals(apiKey));
+    }
+
+    private static String apiKey(FarmKey key, String mission) {
+        return key.code("apikey", mission, "");
+    }
+
+    /** The login of a device whose credentials were never rotated. */
+    public Login device(String mission, String device) {
+        return device(mission, device, 0);
+    }
+
+    /**
+     * The login of a device, of the newest key: user {@code furrow.d.<mission>.<device>.<key>.<generation>}, mission and device with
+     * all but {@code A-Za-z0-9_-} percent-encoded, so that no two logins share a user.
      *
      * @param device its id at the IoT Agent
+     * @param generation how often its credentials were rotated
      */
-    public Login device(String mission, String device) {
-        String user = mission + "." + URLEncoder.encode(device, StandardCharsets.UTF_8);
-        return new Login(user, code("device", mission, device));
+    public Login device(String mission, String device, int generation) {
+        return deviceLogin(newest(), mission, device, generation);
     }
 
-    /** The login of the gateway that speaks for all devices of a mission: user {@code <mission>}. */
+    /** The logins of a device that are accepted, that of the newest key first. */
+    public List<Login> devices(String mission, String device, int generation) {
+        return accepted.stream()
+                .map(key -> deviceLogin(key, mission, device, generation))
+                .toList();
+    }
+
+    /** The login of the gateway that speaks for all devices of a mission: user {@code furrow.m.<mission>.<key>}. */
     public Login gateway(String mission) {
-        return new Login(mission, code("gateway", mission, ""));
+        return gatewayLogin(newest(), mission);
     }
 
-    private String code(String use, String mission, String device) {
-        try {
-            Mac mac = Mac.getInstance(MAC);
-            mac.init(key);
-            byte[] code = mac.doFinal(String.join("\n", use, mission, device).getBytes(StandardCharsets.UTF_8));
-            return Base64.getUrlEncoder().withoutPadding().encodeToString(code).substring(0, KEY_CHARACTERS);
-        } catch (GeneralSecurityException e) {
-            throw new IllegalStateException("every JDK has " + MAC, e);
-        }
+    /** The logins of a gateway that are accepted, that of the newest key first. */
+    public List<Login> gateways(String mission) {
+        return accepted.stream().map(key -> gatewayLogin(key, mission)).toList();
+    }
+
+    private static Login deviceLogin(FarmKey key, String mission, String device, int generation) {
+        return login(key, "d.%s.%s.%d.%d".formatted(encoded(mission), encoded(device), key.number(), generation));
+    }
+
+    private static Login gatewayLogin(FarmKey key, String mission) {
+        return login(key, "m.%s.%d".formatted(encoded(mission), key.number()));
+    }
+
+    private static Login login(FarmKey key, String name) {
+        String user = USER_PREFIX + name;
+        return new Login(user, key.code("password", user));
+    }
+
+    /** Without the signs that mean something in files or topics of an MQTT broker, and without the dot between the parts of a user. */
+    private static String encoded(String name) {
+        return URLEncoder.encode(name, StandardCharsets.UTF_8)
+                .replace("+", "%20")
+                .replace(".", "%2E")
+                .replace("*", "%2A");
+    }
+
+    /**
+     * What may be shown of a key.
+     *
+     * @param fingerprint 16 hexadecimal digits that tell nothing of it
+     * @param until when its passwords cease to count; null for the newest key
+     * @param makesApiKeys whether it makes API keys
+     */
+    public record KeyInfo(int number, String fingerprint, Instant until, boolean makesApiKeys) {}
+
+    /** Its keys, the newest first. */
+    public List<KeyInfo> describe() {
+        return keys.stream()
+                .map(key -> new KeyInfo(key.number(), key.fingerprint(), key.until(), key.equals(apiKeys)))
+                .toList();
+    }
+
+    /** Numbers of the keys whose passwords are accepted, the newest first. */
+    public List<Integer> acceptedKeys() {
+        return accepted.stream().map(FarmKey::number).toList();
+    }
+
+    /** Number of the key that makes passwords; a rotation gives the next. */
+    public int newestKey() {
+        return newest().number();
+    }
+
+    /** Of the newest key: 16 hexadecimal digits that tell nothing of it. */
+    public String fingerprint() {
+        return newest().fingerprint();
+    }
+
+    FarmKey newest() {
+        return keys.get(0);
+    }
+
+    /** The newest first. */
+    List<FarmKey> keys() {
+        return keys;
+    }
+
+    /** The one that makes API keys. */
+    FarmKey apiKeys() {
+        return apiKeys;
+    }
+
+    /** Whether all keys are the same and the same of them are accepted. */
+    @Override
+    public boolean equals(Object other) {
+        return other instanceof FarmSecret that
+                && keys.equals(that.keys)
+                && apiKeys.equals(that.apiKeys)
+                && accepted.equals(that.accepted);
+    }
+
+    @Override
+    public int hashCode() {
+        return Objects.hash(keys, apiKeys, accepted);
+    }
+
+    /** Fingerprint and number of the newest key. */
+    @Override
+    public String toString() {
+        return fingerprint() + " (key " + newestKey() + ")";
     }
 }

@@ -21,15 +21,42 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param device id at the IoT Agent and in MQTT topics; null where {@code type} is
  * @param running false where it shall be taken away; {@code version} then has an end
  * @param period between two measures; null where the host chooses
- * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}; owned by the record
+ * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}, where the record itself has them;
+ *     owned by the record
+ * @param group where they are else, see {@link MissionDeviceLists#resolve}; null where the record itself has them
+ * @param generation how often its credentials were rotated, see {@link FarmSecret#device(String, String, int)}
  */
 public record WantedDevice(
-        DeviceVersion version, String type, String device, boolean running, Duration period, ObjectNode settings) {
+        DeviceVersion version,
+        String type,
+        String device,
+        boolean running,
+        Duration period,
+        ObjectNode settings,
+        GroupRef group,
+        int generation) {
     private static final String SETTINGS = "settings";
+    private static final String GROUP = "group";
+    private static final String GENERATION = "generation";
 
     public WantedDevice {
         Objects.requireNonNull(version);
         Objects.requireNonNull(settings);
+    }
+
+    /** A device that has its settings in itself, and whose credentials were never rotated. */
+    public WantedDevice(
+            DeviceVersion version, String type, String device, boolean running, Duration period, ObjectNode settings) {
+        this(version, type, device, running, period, settings, null, 0);
+    }
+
+    /** The same with settings of its own. */
+    WantedDevice with(ObjectNode own) {
+        return new WantedDevice(version, type, device, running, period, own, null, generation);
+    }
+
+    public WantedDevice withGeneration(int other) {
+        return new WantedDevice(version, type, device, running, period, settings, group, other);
     }
 
     /** Whether somebody is asked to run it. */
@@ -40,7 +67,8 @@ public record WantedDevice(
     /**
      * Reads the value of a record; one that says no more than to whom the device belongs is of a device that nobody hosts.
      *
-     * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is no duration
+     * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is no duration or {@code generation} no
+     *     whole number from 0 on
      */
     public static WantedDevice read(byte[] value) throws UnreadableException {
         DeviceVersion version = DeviceVersion.read(value);
@@ -51,7 +79,20 @@ public record WantedDevice(
                 json.path("device").textValue(),
                 !"stopped".equals(json.path("wanted").textValue()),
                 period(json.path("period").textValue()),
-                json.path(SETTINGS) instanceof ObjectNode settings ? settings : JsonNodeFactory.instance.objectNode());
+                json.path(SETTINGS) instanceof ObjectNode settings ? settings : JsonNodeFactory.instance.objectNode(),
+                GroupRef.read(json.path(GROUP)),
+                generation(json.path(GENERATION)));
+    }
+
+    private static int generation(JsonNode number) throws UnreadableException {
+        if (number.isMissingNode()) {
+            return 0;
+        }
+        if (!number.isIntegralNumber() || !number.canConvertToInt() || number.intValue() < 0) {
+            throw new UnreadableException(
+                    Reason.NOT_AN_EVENT, "'generation' of the device is no whole number from 0 on");
+        }
+        return number.intValue();
     }
 
     private static Duration period(String iso) throws UnreadableException {
@@ -73,6 +114,12 @@ public record WantedDevice(
         }
         if (!settings.isEmpty()) {
             json.set(SETTINGS, settings);
+        }
+        if (group != null) {
+            group.describe(json.putObject(GROUP));
+        }
+        if (generation > 0) {
+            json.put(GENERATION, generation);
         }
         return NgsiJson.write(json);
     }

@@ -19,7 +19,9 @@ public enum Reason {
     /** An image attribute that holds no base64, or neither PNG nor JPEG, or only a part of one. */
     NOT_AN_IMAGE,
     /** Written, but refused by the server it was written to. */
-    REFUSED;
+    REFUSED,
+    /** The reader failed at it: a fault of the program, which the log describes. */
+    FAILED;
 
     /** The name in lower case with hyphens, for instance {@code not-json}. */
     public String code() {

@@ -26,6 +26,9 @@ public final class Topics {
     public static final String TEMPLATES = "service.templates";
     public static final String REPLAYS = "service.replays";
 
+    /** The device groups of missions, see {@code MissionDeviceList}; compacted. */
+    public static final String MISSION_DEVICES = "service.missions.devices";
+
     /** How far each mission is; compacted. */
     public static final String MISSIONS_STATUS = "service.missions.status";
     /** What each device is, told by whoever hosts it; compacted. */
@@ -42,6 +45,10 @@ public final class Topics {
 
     /** What somebody ought to look at, and whether somebody did; compacted. */
     public static final String ALARMS = "service.alarms";
+    /** What of each alarm the webhook knows; compacted. */
+    public static final String ALARMS_DELIVERED = "service.alarms.delivered";
+    /** The fingerprints of the farm's secret, see {@code SecretFingerprints}; compacted. */
+    public static final String SECRETS = "service.secrets";
     /** Every command: who, what, when, with which result. */
     public static final String AUDIT = "service.audit";
 

@@ -26,7 +26,7 @@ final class MadeUpCommands {
     }
 
     MissionCommand mission() {
-        return switch (random.nextInt(6)) {
+        return switch (random.nextInt(7)) {
             case 0 -> new MissionCommand.Create(name(), name(), plan());
             case 1 -> new MissionCommand.Stop(name());
             case 2 -> new MissionCommand.Delete(name());
@@ -34,6 +34,7 @@ final class MadeUpCommands {
                 new MissionCommand.SaveTemplate(
                         new MissionTemplate(name(), random.nextInt(3), maybe("Ürö €𝄞"), devices()));
             case 4 -> new MissionCommand.DeleteTemplate(name(), random.nextInt(3));
+            case 5 -> new MissionCommand.RotateCredentials("urn:ngsi-ld:Thermometer:" + name() + "-1");
             default -> new MissionCommand.Start(name(), maybe(name()), plan(), maybe(time()), maybe(duration()));
         };
     }

@@ -146,6 +146,16 @@ class RequestsTest {
         assertThat(refusal(Requests.replay(json(whole)))).isEqualTo(code);
     }
 
+    /** A host has them for each device: two hundred bytes may ask for a gigabyte. */
+    @Test
+    void refusesSettingsThatAreTooLargeForSoManyDevices() {
+        String request = "{'type':'request','command':'create','mission':'m','domain':'d','devices':"
+                + "[{'type':'Robot','count':%d,'parameters':{'note':'" + "x".repeat(1000) + "'}}]}";
+
+        assertThat(Requests.mission(json(request.formatted(4000)))).isInstanceOf(Received.Request.class);
+        assertThat(refusal(Requests.mission(json(request.formatted(5000))))).isEqualTo("too-large");
+    }
+
     @Test
     void answersAnErrorWithTheIdAndWhatItIsAbout() {
         Received<MissionCommand> received = Requests.mission(
@@ -157,7 +167,7 @@ class RequestsTest {
                     .isEqualTo(
                             "{'type':'response','status':'error','error':'unknown-command','reason':\"there is no command "
                                             .replace('\'', '"')
-                                    + "'launch' here, but create, start, stop, delete, save-template, delete-template\","
+                                    + "'launch' here, but create, start, stop, delete, add-devices, save-template, delete-template, rotate-credentials\","
                                     + "\"mission\":\"m\"}");
         });
     }

@@ -34,6 +34,18 @@ class WantedDeviceTest {
     }
 
     @Test
+    void carriesHowOftenItsCredentialsWereRotatedAndReadsRecordsThatDoNot() throws Exception {
+        WantedDevice rotated = WantedDevice.read(VERSION.toBytes()).withGeneration(3);
+
+        assertThat(WantedDevice.read(rotated.toBytes())).isEqualTo(rotated);
+        assertThat(new String(rotated.toBytes(), StandardCharsets.UTF_8)).endsWith(",\"generation\":3}");
+        assertThat(WantedDevice.read(VERSION.toBytes()).generation()).isZero();
+        assertThatThrownBy(() -> WantedDevice.read(bytes("{\"id\":\"a\",\"from\":0,\"sequence\":1,\"generation\":-1}")))
+                .isInstanceOf(UnreadableException.class)
+                .hasMessageContaining("'generation'");
+    }
+
+    @Test
     void isHostedByNobodyWhereItSaysNoMoreThanToWhomItBelongs() throws Exception {
         WantedDevice robot = WantedDevice.read(VERSION.toBytes());
 

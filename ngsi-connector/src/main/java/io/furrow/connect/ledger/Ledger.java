@@ -63,6 +63,8 @@ public final class Ledger implements Numbers {
     public final Counter unauthorized = counter("unauthorized", "Requests answered 401: a wrong secret, or none");
     public final Counter foreignTenant =
             counter("foreignTenant", "Requests answered 403: a tenant that is not allowed");
+    public final Counter foreign =
+            counter("foreign", "Requests answered 403: they name a host, or come from a page, that is not allowed");
     public final Counter held = counter("held", "Requests whose records had to wait for room in the journal");
     public final Counter overload =
             counter("overload", "Requests reset or answered 503: there was no room, or no durability in time");

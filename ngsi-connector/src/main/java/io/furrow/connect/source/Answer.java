@@ -45,8 +45,11 @@ record Answer(int status, byte[] body, Map<String, String> headers) {
     }
 
     private static Answer error(int status, String code, String description, Map<String, String> headers) {
-        byte[] body = NgsiJson.write(
+        return new Answer(status, error(code, description), headers);
+    }
+
+    static byte[] error(String code, String description) {
+        return NgsiJson.write(
                 JsonNodeFactory.instance.objectNode().put("error", code).put("description", description));
-        return new Answer(status, body, headers);
     }
 }

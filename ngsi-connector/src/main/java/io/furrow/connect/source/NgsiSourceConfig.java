@@ -9,6 +9,7 @@ import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.subscription.IdShare;
+import io.furrow.http.AccessRule;
 
 /**
  * The options of the source, a group each; throws {@link ConfigException} naming the option where one cannot be used. Each
@@ -30,6 +31,7 @@ public class NgsiSourceConfig extends AbstractConfig {
     private final JournalOptions journal;
     private final AcknowledgingOptions acknowledging;
     private final OverloadOptions overload;
+    private final AccessOptions access;
     private final SecurityOptions security;
     private final TlsOptions tls;
     private final BrokerOptions broker;
@@ -46,6 +48,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         journal = new JournalOptions(this);
         acknowledging = new AcknowledgingOptions(this);
         overload = new OverloadOptions(this);
+        access = new AccessOptions(this);
         security = new SecurityOptions(this);
         tls = new TlsOptions(this);
         broker = new BrokerOptions(this);
@@ -118,6 +121,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         JournalOptions.define(options);
         AcknowledgingOptions.define(options);
         OverloadOptions.define(options);
+        AccessOptions.define(options);
         SecurityOptions.define(options);
         TlsOptions.define(options);
         BrokerOptions.define(
@@ -174,6 +178,14 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     OverloadOptions overload() {
         return overload;
+    }
+
+    /** Which requests are answered at all. */
+    AccessRule accessRule() {
+        return AccessRule.allowing(access.allowed(), AccessOptions.NAMES)
+                .servedAs(listening.host())
+                .servedAt(subscription.url("http", listening.host(), listening.firstPort()))
+                .withProbes("/health");
     }
 
     SecurityOptions security() {

@@ -38,7 +38,6 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     private final Ledger ledger;
     private final Limits limits;
     private final Map<String, Supplier<Page>> pages;
-    private SlowSenders slowSenders;
 
     /**
      * @param maxBody bytes of a body
@@ -60,14 +59,8 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
         this.pages = Map.copyOf(pages);
     }
 
-    /** To be called before the server starts. */
-    void watchWith(SlowSenders watcher) {
-        slowSenders = watcher;
-    }
-
     @Override
     public boolean handle(Request request, Response response, Callback callback) {
-        slowSenders.watch(request);
         if (HttpMethod.POST.is(request.getMethod())) {
             Optional<Answer> refused = gatekeeper.refuse(request.getHeaders()::get);
             if (refused.isPresent()) {

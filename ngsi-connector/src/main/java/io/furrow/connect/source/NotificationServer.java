@@ -9,6 +9,7 @@ import java.util.Optional;
 import java.util.concurrent.TimeUnit;
 
 import org.eclipse.jetty.http.HttpVersion;
+import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
 import org.eclipse.jetty.server.HttpConnectionFactory;
 import org.eclipse.jetty.server.NetworkConnectionLimit;
@@ -57,14 +58,12 @@ final class NotificationServer implements AutoCloseable {
     private final SlowSenders slowSenders;
     private final long sweepMillis;
 
-    private NotificationServer(
-            Settings settings, QueuedThreadPool threads, NotificationHandler handler, Ledger ledger) {
+    private NotificationServer(Settings settings, QueuedThreadPool threads, Handler handler, Ledger ledger) {
         slowSenders = new SlowSenders(settings.request().toNanos(), ledger);
         sweepMillis = Math.min(SWEEP_MS, settings.request().toMillis());
-        handler.watchWith(slowSenders);
         server = new Server(threads);
         server.setStopTimeout(STOP_WITHIN.toMillis());
-        server.setHandler(new GracefulHandler(handler));
+        server.setHandler(new GracefulHandler(slowSenders.watching(handler)));
         HttpConfiguration http = new HttpConfiguration();
         http.setSendServerVersion(false);
         http.setSendDateHeader(false);
@@ -100,11 +99,7 @@ final class NotificationServer implements AutoCloseable {
      * @throws UncheckedIOException if the address cannot be listened on
      */
     static NotificationServer start(
-            Settings settings,
-            QueuedThreadPool threads,
-            NotificationHandler handler,
-            Ledger ledger,
-            Duration patience) {
+            Settings settings, QueuedThreadPool threads, Handler handler, Ledger ledger, Duration patience) {
         NotificationServer server = new NotificationServer(settings, threads, handler, ledger);
         try {
             server.open(settings.address(), System.nanoTime() + patience.toNanos());

@@ -10,12 +10,14 @@ import java.util.function.Consumer;
 import java.util.function.Supplier;
 
 import org.apache.kafka.connect.errors.ConnectException;
+import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.util.ssl.SslContextFactory;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.LedgerJson;
 import io.furrow.connect.ledger.PrometheusPage;
+import io.furrow.http.jetty.AccessHandler;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Everything between the port and the intake; closing it frees the port and answers whoever waits. */
@@ -58,7 +60,7 @@ final class Reception implements AutoCloseable {
             Duration patience) {
         QueuedThreadPool threads = NotificationServer.threads();
         Deliveries deliveries = new Deliveries(intake, ledger);
-        NotificationHandler handler = new NotificationHandler(
+        Handler handler = new NotificationHandler(
                 new NotificationHandler.Path(new Gatekeeper(config.security(), ledger), translator, deliveries),
                 ledger,
                 new NotificationHandler.Limits(
@@ -67,9 +69,10 @@ final class Reception implements AutoCloseable {
                         config.overload().hold().toNanos(),
                         config.overload().resets()),
                 pages(config, ledger));
+        Handler guarded = new AccessHandler(config.accessRule(), new ForeignRequests(ledger), handler);
         try {
             return new Reception(
-                    deliveries, NotificationServer.start(settings(config), threads, handler, ledger, patience));
+                    deliveries, NotificationServer.start(settings(config), threads, guarded, ledger, patience));
         } catch (UncheckedIOException e) {
             deliveries.close();
             String remedy = "; free the address or change " + ListeningOptions.HOST + " or " + ListeningOptions.PORT;

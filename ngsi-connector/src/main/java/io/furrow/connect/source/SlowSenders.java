@@ -5,7 +5,10 @@ import java.util.concurrent.ConcurrentHashMap;
 
 import org.eclipse.jetty.io.Connection;
 import org.eclipse.jetty.io.ssl.SslConnection;
+import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.util.Callback;
 
 import io.furrow.connect.ledger.Ledger;
 
@@ -64,8 +67,18 @@ final class SlowSenders implements Connection.Listener {
         open.remove(connection);
     }
 
-    /** To be called for each request: when it is answered, its connection is in time again. */
-    void watch(Request request) {
+    /** Hands each request on: when it is answered, its connection is in time again. */
+    Handler watching(Handler handler) {
+        return new Handler.Wrapper(handler) {
+            @Override
+            public boolean handle(Request request, Response response, Callback callback) throws Exception {
+                watch(request);
+                return super.handle(request, response, callback);
+            }
+        };
+    }
+
+    private void watch(Request request) {
         Connection connection = request.getConnectionMetaData().getConnection();
         Progress progress = open.get(connection);
         if (progress != null) {

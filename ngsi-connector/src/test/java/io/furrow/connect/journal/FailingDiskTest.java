@@ -140,7 +140,7 @@ class FailingDiskTest {
         CompletableFuture<Void> durable =
                 journal.append(JournalTest.payloads(text)).orElseThrow();
         assertThat(durable)
-                .failsWithin(Duration.ofSeconds(10))
+                .failsWithin(Duration.ofMinutes(1))
                 .withThrowableOfType(ExecutionException.class)
                 .withCauseInstanceOf(kind);
     }

@@ -90,7 +90,7 @@ class JournalTest {
             assertThat(read(reader)).containsExactly("0 a");
             assertThat(held).isNotDone();
             disk.letSyncsGo();
-            held.get(10, TimeUnit.SECONDS);
+            held.get(60, TimeUnit.SECONDS);
             assertThat(read(reader)).containsExactly("1 b");
         }
     }
@@ -110,7 +110,7 @@ class JournalTest {
                             held.add(journal.append(payloads("with others")).orElseThrow()));
             disk.letSyncsGo();
             for (CompletableFuture<Void> one : held) {
-                one.get(10, TimeUnit.SECONDS);
+                one.get(60, TimeUnit.SECONDS);
             }
             assertThat(disk.syncs() - before).isEqualTo(1);
         }
@@ -128,7 +128,7 @@ class JournalTest {
                 }
             });
             append(journal, "news");
-            assertThat(waiting.get(10, TimeUnit.SECONDS)).hasSize(1);
+            assertThat(waiting.get(60, TimeUnit.SECONDS)).hasSize(1);
         }
     }
 
@@ -205,7 +205,7 @@ class JournalTest {
             assertThat(taken).hasSizeBetween(6, 8);
             assertThat(journal.waitingBytes()).isLessThanOrEqualTo(SMALL.maxWaiting());
             disk.letSyncsGo();
-            CompletableFuture.allOf(taken.toArray(CompletableFuture[]::new)).get(10, TimeUnit.SECONDS);
+            CompletableFuture.allOf(taken.toArray(CompletableFuture[]::new)).get(60, TimeUnit.SECONDS);
             assertThat(journal.waitingBytes()).isZero();
         }
     }
@@ -268,13 +268,13 @@ class JournalTest {
     }
 
     static void append(Journal journal, String... texts) throws Exception {
-        journal.append(payloads(texts)).orElseThrow().get(10, TimeUnit.SECONDS);
+        journal.append(payloads(texts)).orElseThrow().get(60, TimeUnit.SECONDS);
     }
 
     private static boolean tryAppend(Journal journal, String text) throws Exception {
         var durable = journal.append(payloads(text));
         if (durable.isPresent()) {
-            durable.get().get(10, TimeUnit.SECONDS);
+            durable.get().get(60, TimeUnit.SECONDS);
         }
         return durable.isPresent();
     }

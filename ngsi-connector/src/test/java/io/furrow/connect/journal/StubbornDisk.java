@@ -27,7 +27,7 @@ final class StubbornDisk implements Disk {
     }
 
     void awaitHeldSync() throws InterruptedException {
-        assertThat(arrived.await(10, TimeUnit.SECONDS)).isTrue();
+        assertThat(arrived.await(60, TimeUnit.SECONDS)).isTrue();
     }
 
     void letSyncsGo() {

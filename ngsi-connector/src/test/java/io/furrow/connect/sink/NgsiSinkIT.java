@@ -95,7 +95,7 @@ class NgsiSinkIT {
         await().atMost(Duration.ofSeconds(60)).until(() -> broker.entities.size() == 5);
         assertThat(Duration.ofNanos(tries.get(3) - tries.get(2)))
                 .as("what Retry-After asked for")
-                .isBetween(Duration.ofMillis(1_900), Duration.ofSeconds(30));
+                .isGreaterThan(Duration.ofMillis(1_900));
         assertThat(broker.requests)
                 .hasSizeGreaterThan(3)
                 .extracting(Update::path)

@@ -156,7 +156,7 @@ class NgsiSourceIT {
         rig.restart("ngsi-source");
 
         org.awaitility.Awaitility.await()
-                .atMost(java.time.Duration.ofSeconds(30))
+                .atMost(java.time.Duration.ofSeconds(60))
                 .ignoreExceptions()
                 .untilAsserted(() -> assertThat(health()).contains("\"requests\":0"));
         assertThat(post(bytes("{\"id\": \"after\"}")).statusCode()).isEqualTo(200);
@@ -170,7 +170,7 @@ class NgsiSourceIT {
         rig.create("ngsi-source", Map.of("topic", topic, "listen.port", Integer.toString(port)));
         source = URI.create("http://127.0.0.1:" + port);
         org.awaitility.Awaitility.await()
-                .atMost(java.time.Duration.ofSeconds(30))
+                .atMost(java.time.Duration.ofSeconds(60))
                 .ignoreExceptions()
                 .until(() -> health().contains("\"requests\":0"));
     }

@@ -147,7 +147,7 @@ class OverloadTest {
     void cutsASenderThatTricklesItsHeaders() throws IOException {
         try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
                 Socket slow = new Socket("127.0.0.1", rig.port())) {
-            trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: a\r\nX: ");
+            trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nX: ");
 
             assertThat(rig.ledger.cut.sum()).isEqualTo(1);
         }
@@ -157,7 +157,7 @@ class OverloadTest {
     void cutsASenderThatTricklesItsBody() throws IOException {
         try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "400", "overload.hold.ms", "100");
                 Socket slow = new Socket("127.0.0.1", rig.port())) {
-            trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n{");
+            trickle(slow, "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n{");
 
             await().until(() -> rig.ledger.cut.sum() == 1);
             assertThat(rig.intake.taken).isEmpty();
@@ -168,8 +168,9 @@ class OverloadTest {
     void cutsASilentSender() throws IOException {
         try (ReceptionRig rig = new ReceptionRig("listen.idle.timeout.ms", "200");
                 Socket silent = new Socket("127.0.0.1", rig.port())) {
-            silent.getOutputStream().write("POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n{".getBytes());
-            silent.setSoTimeout(10_000);
+            silent.getOutputStream()
+                    .write("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{".getBytes());
+            silent.setSoTimeout(60_000);
 
             String answer = new String(silent.getInputStream().readAllBytes(), StandardCharsets.US_ASCII);
 
@@ -182,7 +183,8 @@ class OverloadTest {
     void letsAConnectionBeIdleBetweenRequestsForLongerThanARequestMayTake() throws Exception {
         try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "200", "overload.hold.ms", "100");
                 Socket kept = new Socket("127.0.0.1", rig.port())) {
-            byte[] request = "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}".getBytes();
+            byte[] request =
+                    "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}".getBytes();
             kept.getOutputStream().write(request);
             await().until(() -> rig.intake.taken.size() == 1);
 
@@ -213,7 +215,8 @@ class OverloadTest {
 
     private static byte[] request(String id) {
         String body = "{\"id\": \"" + id + "\"}";
-        return ("POST / HTTP/1.1\r\nHost: a\r\nContent-Length: " + body.length() + "\r\n\r\n" + body).getBytes();
+        return ("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + body.length() + "\r\n\r\n" + body)
+                .getBytes();
     }
 
     /** Sends a byte every 50 ms until the connection is cut. */

@@ -24,7 +24,7 @@ public final class PressingSenders {
         this.port = port;
         String frame = "{\"id\": \"a\", \"type\": \"T\", \"x\": \"\"}";
         String body = frame.replace("\"\"", "\"" + "x".repeat(bodyBytes - frame.length()) + "\"");
-        String head = "POST /v2/notify HTTP/1.1\r\nHost: a\r\nContent-Length: " + body.length() + "\r\n\r\n";
+        String head = "POST /v2/notify HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + body.length() + "\r\n\r\n";
         this.request = (head + body).getBytes(StandardCharsets.US_ASCII);
     }
 
@@ -53,7 +53,7 @@ public final class PressingSenders {
         byte[] answer = new byte[1024];
         while (System.nanoTime() < end) {
             try (Socket socket = new Socket("127.0.0.1", port)) {
-                socket.setSoTimeout(20_000);
+                socket.setSoTimeout(60_000);
                 OutputStream out = socket.getOutputStream();
                 InputStream in = socket.getInputStream();
                 while (System.nanoTime() < end) {

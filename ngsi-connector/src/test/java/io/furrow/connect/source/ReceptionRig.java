@@ -20,7 +20,7 @@ import io.furrow.connect.ledger.Ledger;
 
 /** A reception on a free port, whose intake does what the test says. */
 final class ReceptionRig implements AutoCloseable {
-    static final Duration PATIENCE = Duration.ofSeconds(15);
+    static final Duration PATIENCE = Duration.ofSeconds(60);
 
     /** Keeps what it is given; what it says of its durability is the test's. */
     static final class FakeIntake implements Intake {

@@ -12,6 +12,7 @@ import java.net.URI;
  * @param mqttPassword its password; left out of {@link #toString()}
  * @param fiwareService tenant; blank for the default one
  * @param servicePath service path, {@code /} for the root
+ * @param iotAgentResource of service groups, the same as the IoT Agent's default resource; may be empty
  */
 public record FleetSettings(
         URI contextBroker,
@@ -20,7 +21,26 @@ public record FleetSettings(
         String mqttUser,
         String mqttPassword,
         String fiwareService,
-        String servicePath) {
+        String servicePath,
+        String iotAgentResource) {
+    public static final String DEFAULT_RESOURCE = "/iot/json";
+
+    /** With the default resource. */
+    public FleetSettings(
+            URI contextBroker,
+            URI iotAgent,
+            URI mqtt,
+            String mqttUser,
+            String mqttPassword,
+            String fiwareService,
+            String servicePath) {
+        this(contextBroker, iotAgent, mqtt, mqttUser, mqttPassword, fiwareService, servicePath, DEFAULT_RESOURCE);
+    }
+
+    public FleetSettings withIotAgentResource(String resource) {
+        return new FleetSettings(
+                contextBroker, iotAgent, mqtt, mqttUser, mqttPassword, fiwareService, servicePath, resource);
+    }
 
     @Override
     public String toString() {

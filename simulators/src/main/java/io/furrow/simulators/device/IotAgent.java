@@ -31,7 +31,7 @@ public final class IotAgent {
     public void provision(String apiKey, List<Registration> devices) throws IOException, InterruptedException {
         ObjectNode group = NODES.objectNode()
                 .put("apikey", apiKey)
-                .put("resource", "/iot/json")
+                .put("resource", settings.iotAgentResource())
                 .put("entity_type", "Thing")
                 .put("cbroker", settings.contextBroker().toString());
         post("/iot/services", "services", List.of(group));

@@ -51,7 +51,12 @@ record AttributeInput(Optional<String> type, JsonNode value, Optional<ObjectNode
 
     private Attribute attribute(String resolvedType, ObjectNode resolvedMetadata, Instant created, Instant modified)
             throws NgsiError {
-        return new Attribute(resolvedType, dated(resolvedType, value), datedAll(resolvedMetadata), created, modified);
+        return new Attribute(
+                resolvedType,
+                dated(resolvedType, value, "attribute value"),
+                datedAll(resolvedMetadata),
+                created,
+                modified);
     }
 
     private static ObjectNode datedAll(ObjectNode metadata) throws NgsiError {
@@ -59,19 +64,19 @@ record AttributeInput(Optional<String> type, JsonNode value, Optional<ObjectNode
         for (Map.Entry<String, JsonNode> entry : metadata.properties()) {
             String type = entry.getValue().path("type").asText();
             ObjectNode dated = JsonNodeFactory.instance.objectNode().put("type", type);
-            dated.set("value", dated(type, entry.getValue().get("value")));
+            dated.set("value", dated(type, entry.getValue().get("value"), "metadata value"));
             all.set(entry.getKey(), dated);
         }
         return all;
     }
 
     /** The context broker keeps a date as a number, so it gives every date back in its own spelling. */
-    private static JsonNode dated(String type, JsonNode value) throws NgsiError {
+    static JsonNode dated(String type, JsonNode value, String what) throws NgsiError {
         if (value.isNull() || !type.equals("DateTime") && !type.equals("ISO8601")) {
             return value;
         }
         Instant time = (value.isTextual() ? NgsiTime.parse(value.textValue()) : Optional.<Instant>empty())
-                .orElseThrow(() -> NgsiError.badRequest("date has an invalid format"));
+                .orElseThrow(() -> NgsiError.badRequest("date has invalid format in " + what));
         return JsonNodeFactory.instance.textNode(NgsiTime.format(time));
     }
 

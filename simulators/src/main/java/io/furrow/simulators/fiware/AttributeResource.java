@@ -19,6 +19,7 @@ import io.furrow.simulators.fiware.EntityUpdate.Action;
 final class AttributeResource {
     private static final int ATTRS = 4;
     private static final int ONE = 5;
+    private static final int UNPROCESSABLE = 422;
 
     private final ContextBroker broker;
 
@@ -59,10 +60,7 @@ final class AttributeResource {
             case "PUT", "PATCH":
                 return put(call, new EntityReader(false).attribute(call.json()));
             case "DELETE":
-                return change(
-                        call,
-                        Map.of(call.path().get(ATTRS), AttributeInput.valueOnly(JsonNodeFactory.instance.nullNode())),
-                        Action.DELETE);
+                return change(call, AttributeInput.valueOnly(JsonNodeFactory.instance.nullNode()), Action.DELETE);
             default:
                 throw NgsiError.badMethod();
         }
@@ -71,13 +69,22 @@ final class AttributeResource {
     private Reply value(Call call) throws NgsiError {
         return switch (call.method()) {
             case "GET" -> Reply.ok(attribute(call).get("value"));
-            case "PUT" -> put(call, AttributeInput.valueOnly(EntityReader.canonical(given(call))));
+            case "PUT" -> put(call, new EntityReader(true).attribute(given(call)));
             default -> throw NgsiError.badMethod();
         };
     }
 
     private Reply put(Call call, AttributeInput input) throws NgsiError {
-        return change(call, Map.of(call.path().get(ATTRS), input), Action.UPDATE);
+        return change(call, input, Action.UPDATE);
+    }
+
+    /** An attribute that the path names is itself what is not found. */
+    private Reply change(Call call, AttributeInput input, Action action) throws NgsiError {
+        try {
+            return change(call, Map.of(call.path().get(ATTRS), input), action);
+        } catch (NgsiError e) {
+            throw e.status() == UNPROCESSABLE ? NgsiError.noAttribute() : e;
+        }
     }
 
     private Reply update(Call call, Action action) throws NgsiError {
@@ -88,7 +95,7 @@ final class AttributeResource {
 
     private Reply change(Call call, Map<String, AttributeInput> attributes, Action action) throws NgsiError {
         String id = call.path().get(2);
-        EntityReader.checkEntity(id, call.parameter("type"));
+        SyntaxRules.checkEntity(id, call.parameter("type"));
         EntityUpdate update = new EntityUpdate(id, call.parameter("type"), attributes);
         broker.update(call.scope(), update, action, EntityResource.options(call), call.correlator());
         return Reply.noContent();

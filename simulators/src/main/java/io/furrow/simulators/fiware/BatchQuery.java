@@ -3,7 +3,6 @@ package io.furrow.simulators.fiware;
 import java.util.ArrayList;
 import java.util.LinkedHashSet;
 import java.util.List;
-import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 import java.util.function.Predicate;
@@ -40,13 +39,13 @@ final class BatchQuery {
                 .limit(EntityQuery.limit(call))
                 .map(shown::of)
                 .forEach(entities::add);
-        return new Reply(200, Optional.of(entities), Map.of());
+        return Reply.ok(entities);
     }
 
     private static List<StoredEntity> find(Tenant tenant, PathFilter paths, JsonNode asked) throws NgsiError {
         Optional<String> type = Optional.ofNullable(asked.path("type").textValue());
         if (asked.path("id").isTextual()) {
-            EntityReader.checkEntity(asked.get("id").textValue(), type);
+            SyntaxRules.checkEntity(asked.get("id").textValue(), type);
             return tenant.find(paths, asked.get("id").textValue(), type);
         }
         if (!asked.path("idPattern").isTextual()) {

@@ -59,7 +59,7 @@ final class BatchResource {
         }
         if (!refused.isEmpty()) {
             throw NgsiError.partial(String.join(
-                    "; ", refused.stream().map(NgsiError::getMessage).toList()));
+                    ", ", refused.stream().map(NgsiError::getMessage).toList()));
         }
     }
 
@@ -67,9 +67,13 @@ final class BatchResource {
         boolean known = !broker.tenant(scope.service())
                 .find(scope.servicePath(), update.id(), update.type())
                 .isEmpty();
+        boolean appends = action == Action.APPEND || action == Action.APPEND_STRICT;
+        if (!known && !appends) {
+            throw NgsiError.noEntity(update);
+        }
         if (action == Action.DELETE && update.attributes().isEmpty()) {
             broker.delete(scope, update.id(), update.type(), call.correlator());
-        } else if (!known && (action == Action.APPEND || action == Action.APPEND_STRICT)) {
+        } else if (!known) {
             broker.upsert(scope, update, EntityResource.options(call), call.correlator());
         } else {
             broker.update(scope, update, action, EntityResource.options(call), call.correlator());

@@ -19,8 +19,8 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param correlator as the request names itself, else a fresh one
  */
 record Call(String method, List<String> path, Fields query, HttpFields headers, Correlator correlator, byte[] body) {
-    private static final String SERVICE = "fiware-service";
-    private static final String SERVICE_PATH = "fiware-servicepath";
+    static final String SERVICE = "fiware-service";
+    static final String SERVICE_PATH = "fiware-servicepath";
 
     Optional<String> parameter(String name) {
         return Optional.ofNullable(query.getValue(name)).filter(value -> !value.isEmpty());
@@ -35,15 +35,15 @@ record Call(String method, List<String> path, Fields query, HttpFields headers, 
         return list("options").contains(name);
     }
 
-    boolean hasScopeHeaders() {
-        return headers.contains(SERVICE) && headers.contains(SERVICE_PATH);
+    boolean lacks(String header) {
+        return !headers.contains(header);
     }
 
     String service() throws NgsiError {
         String service = FiwareScope.of(headers.get(SERVICE), null).service();
         if (!service.matches("[a-z0-9_]{0,50}")) {
-            throw NgsiError.badRequest("bad character in tenant name - only underscore and alphanumeric characters are "
-                    + "allowed. Offending tenant: " + service);
+            throw NgsiError.badRequest(
+                    "bad character in tenant name - only underscore and alphanumeric characters are allowed");
         }
         return service;
     }

@@ -20,9 +20,11 @@ import io.furrow.simulators.fiware.EntityUpdate.Options;
 
 /** The entities of all tenants, and what happens when one changes: the subscriptions that match are notified. */
 final class ContextBroker {
-    /** Where updates of command attributes go instead of into the entity, as with a registration in Orion. */
+    /** Where updates of command attributes go instead of into the entity: the provider of Orion's registrations. */
     interface Commands {
-        Set<String> names(FiwareScope scope, String entityId, Optional<String> type);
+        Optional<Registration> registration(FiwareScope scope, String entityId, Optional<String> type);
+
+        List<Registration> registrations(String service, PathFilter paths);
 
         void issue(FiwareScope scope, String entityId, Map<String, JsonNode> commands) throws NgsiError;
     }
@@ -84,12 +86,15 @@ final class ContextBroker {
     }
 
     /**
-     * Changes an existing entity. What cannot be done is refused after the rest is done.
+     * Changes an existing entity. What cannot be done is refused after the rest is done. A device has an entity, and takes commands
+     * through it, from its first measure on.
      *
      * @throws NgsiError 404, 409 or 422, as Orion
      */
     void update(FiwareScope scope, EntityUpdate request, Action action, Options options, Correlator correlator)
             throws NgsiError {
+        Tenant tenant = tenant(scope.service());
+        single(tenant.find(scope.servicePath(), request.id(), request.type()));
         Map<String, AttributeInput> own = new LinkedHashMap<>(request.attributes());
         Map<String, JsonNode> issued = commandsIn(scope, request, action, own);
         if (!issued.isEmpty()) {
@@ -98,7 +103,6 @@ final class ContextBroker {
                 return;
             }
         }
-        Tenant tenant = tenant(scope.service());
         synchronized (tenant) {
             StoredEntity before = single(tenant.find(scope.servicePath(), request.id(), request.type()));
             Set<String> refused = refused(before, own.keySet(), action);
@@ -107,7 +111,10 @@ final class ContextBroker {
                 commit(tenant, change(before, own, action, options), correlator);
             }
             if (!refused.isEmpty()) {
-                throw refusal(before, refused, action, own.isEmpty());
+                NgsiError refusal = action == Action.APPEND_STRICT
+                        ? NgsiError.attributesExist(request, refused)
+                        : NgsiError.noAttributes(request, refused);
+                throw own.isEmpty() ? refusal : NgsiError.partial(refusal.getMessage());
             }
         }
     }
@@ -122,6 +129,28 @@ final class ContextBroker {
         }
     }
 
+    /**
+     * An entity as a query by id shows it, with the commands of its device; a list shows what is stored only.
+     *
+     * @throws NgsiError 404 or 409
+     */
+    StoredEntity get(String service, PathFilter paths, String id, Optional<String> type) throws NgsiError {
+        List<StoredEntity> stored = tenant(service).find(paths, id, type);
+        Optional<Registration> registration = stored.isEmpty()
+                ? commands.registrations(service, paths).stream()
+                        .filter(any -> any.covers(id, type))
+                        .findFirst()
+                : commands.registration(
+                        single(stored).scope(), id, Optional.of(single(stored).type()));
+        return registration.isEmpty()
+                ? single(stored)
+                : registration.get().addTo(stored.stream().findFirst());
+    }
+
+    List<Registration> registrations(String service, PathFilter paths) {
+        return commands.registrations(service, paths);
+    }
+
     static StoredEntity single(List<StoredEntity> found) throws NgsiError {
         if (found.size() > 1) {
             throw NgsiError.ambiguous();
@@ -133,7 +162,10 @@ final class ContextBroker {
             FiwareScope scope, EntityUpdate request, Action action, Map<String, AttributeInput> own) {
         Map<String, JsonNode> issued = new LinkedHashMap<>();
         if (action != Action.DELETE) {
-            for (String name : commands.names(scope, request.id(), request.type())) {
+            Set<String> names = commands.registration(scope, request.id(), request.type())
+                    .map(Registration::commands)
+                    .orElse(Set.of());
+            for (String name : names) {
                 AttributeInput command = own.remove(name);
                 if (command != null) {
                     issued.put(name, command.value());
@@ -160,18 +192,6 @@ final class ContextBroker {
             case APPEND, REPLACE -> refused.clear();
         }
         return refused;
-    }
-
-    private static NgsiError refusal(StoredEntity entity, Set<String> names, Action action, boolean all) {
-        boolean exist = action == Action.APPEND_STRICT;
-        String text = (exist ? "already exist: { " : "do not exist: { ") + entity.id() + "/" + entity.type() + " : "
-                + names + " }";
-        if (!all) {
-            return NgsiError.partial("The following attributes " + text);
-        }
-        return exist
-                ? NgsiError.unprocessable("one or more of the attributes in the request " + text)
-                : NgsiError.noAttribute();
     }
 
     private void commit(Tenant tenant, Change change, Correlator correlator) {

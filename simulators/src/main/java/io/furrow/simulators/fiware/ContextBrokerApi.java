@@ -1,27 +1,36 @@
 package io.furrow.simulators.fiware;
 
 import java.util.List;
+import java.util.Set;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** {@code /version} and {@code /v2}: which resource answers what, with Orion's status codes and error bodies. */
 final class ContextBrokerApi implements LoopbackServer.Endpoint {
+    private static final Set<String> WITH_BODY = Set.of("POST", "PUT", "PATCH");
+
     private final EntityResource entities;
     private final AttributeResource attributes;
     private final BatchResource batches;
     private final SubscriptionResource subscriptions;
+    private final TypeResource types;
+    private final RegistrationResource registrations;
 
     ContextBrokerApi(ContextBroker broker, Notifier notifier) {
         this.entities = new EntityResource(broker);
         this.attributes = new AttributeResource(broker);
         this.batches = new BatchResource(broker);
         this.subscriptions = new SubscriptionResource(broker, notifier);
+        this.types = new TypeResource(broker);
+        this.registrations = new RegistrationResource(broker);
     }
 
     @Override
     public Reply answer(Call call) throws NgsiError {
+        if (WITH_BODY.contains(call.method()) && call.body().length == 0) {
+            throw NgsiError.noBody();
+        }
         List<String> path = call.path();
         if (path.equals(List.of("version"))) {
             return Reply.ok(version());
@@ -36,13 +45,16 @@ final class ContextBrokerApi implements LoopbackServer.Endpoint {
             case "entities" -> path.size() <= 3 ? entities.answer(call) : attributes.answer(call);
             case "subscriptions" -> subscriptions.answer(call);
             case "op" -> batches.answer(call);
+            case "types" -> types.answer(call);
+            case "registrations" -> registrations.answer(call);
             default -> throw NgsiError.noService();
         };
     }
 
     @Override
-    public JsonNode describe(NgsiError error) {
-        return JsonNodeFactory.instance.objectNode().put("error", error.error()).put("description", error.getMessage());
+    public Reply describe(NgsiError error) {
+        ObjectNode json = JsonNodeFactory.instance.objectNode().put("error", error.error());
+        return Reply.json(error.status(), json.put("description", error.getMessage()));
     }
 
     /** Orion's own form, so that a client's check works; the version says what it is. */
@@ -56,6 +68,8 @@ final class ContextBrokerApi implements LoopbackServer.Endpoint {
         return JsonNodeFactory.instance
                 .objectNode()
                 .put("entities_url", "/v2/entities")
-                .put("subscriptions_url", "/v2/subscriptions");
+                .put("types_url", "/v2/types")
+                .put("subscriptions_url", "/v2/subscriptions")
+                .put("registrations_url", "/v2/registrations");
     }
 }

@@ -28,14 +28,14 @@ record Device(
     /** @param group of its scope, if there is one: gives what the device leaves open */
     static Device read(FiwareScope scope, JsonNode json, Optional<ServiceGroup> group) throws NgsiError {
         if (!json.path("device_id").isTextual()) {
-            throw new NgsiError(400, "WRONG_SYNTAX", "Wrong syntax in request: a device needs a device_id");
+            throw AgentErrors.missingAttributes(json);
         }
         String id = json.get("device_id").textValue();
         String type = json.path("entity_type")
                 .asText(group.map(ServiceGroup::entityType).orElse(EntityUpdate.DEFAULT_TYPE));
         DeviceMapping own = DeviceMapping.read(json);
         String entityId = json.path("entity_name").asText(type + ":" + id);
-        EntityReader.checkEntity(entityId, Optional.of(type));
+        SyntaxRules.checkEntity(entityId, Optional.of(type));
         return new Device(
                 scope,
                 id,

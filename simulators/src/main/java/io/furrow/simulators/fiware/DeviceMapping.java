@@ -67,15 +67,6 @@ record DeviceMapping(
                 allActive, allFixed, allCommands, timestamped && group.timestamped, explicit || group.explicit);
     }
 
-    /** What the entity is given when the device is provisioned: static attributes, and a state for each command. */
-    Map<String, AttributeInput> initial() {
-        Map<String, AttributeInput> attributes = new LinkedHashMap<>(fixed);
-        for (String command : commands) {
-            attributes.putAll(commandState(command, "UNKNOWN", NODES.textNode(" ")));
-        }
-        return attributes;
-    }
-
     static Map<String, AttributeInput> commandState(String command, String status, JsonNode info) {
         Map<String, AttributeInput> state = new LinkedHashMap<>();
         state.put(command + "_status", AttributeInput.of("commandStatus", NODES.textNode(status)));
@@ -94,7 +85,7 @@ record DeviceMapping(
             } else if (member.getKey().equals(TIME_INSTANT)) {
                 attributes.put(TIME_INSTANT, AttributeInput.of("DateTime", value));
             } else if (!explicit) {
-                EntityReader.checkAttribute(member.getKey());
+                SyntaxRules.checkAttributeName(member.getKey());
                 attributes.put(member.getKey(), AttributeInput.of(AttributeInput.defaultType(value), value));
             }
         }
@@ -117,7 +108,7 @@ record DeviceMapping(
 
     private static String text(JsonNode json, String field) throws NgsiError {
         if (!json.path(field).isTextual()) {
-            throw new NgsiError(400, "WRONG_SYNTAX", "an attribute or command without " + field);
+            throw AgentErrors.wrongSyntax();
         }
         return json.get(field).textValue();
     }

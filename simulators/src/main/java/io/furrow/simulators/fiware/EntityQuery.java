@@ -3,7 +3,6 @@ package io.furrow.simulators.fiware;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
-import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
 import java.util.function.Predicate;
@@ -29,8 +28,7 @@ record EntityQuery(
             "orderBy",
             "options");
 
-    /** @param counted whether the answer says how many there are on all pages */
-    private record Page(int offset, int limit, boolean counted) {}
+    private record Page(int offset, int limit) {}
 
     static EntityQuery of(Call call) throws NgsiError {
         for (String name : call.query().getNames()) {
@@ -38,11 +36,11 @@ record EntityQuery(
                 throw NgsiError.unsupported("parameter '" + name + "' in a query of entities");
             }
         }
-        Page page = new Page(number(call, "offset", 0), limit(call), call.option("count"));
+        Page page = new Page(number(call, "offset", 0), limit(call));
         return new EntityQuery(filter(call), order(call.list("orderBy")), page, call.paths(), rendering(call));
     }
 
-    Reply reply(Tenant tenant) {
+    Reply reply(Call call, Tenant tenant) {
         List<StoredEntity> found = new ArrayList<>();
         for (StoredEntity entity : tenant.all(paths)) {
             if (filter.test(entity)) {
@@ -52,9 +50,7 @@ record EntityQuery(
         found.sort(order);
         ArrayNode entities = JsonNodeFactory.instance.arrayNode();
         found.stream().skip(page.offset()).limit(page.limit()).map(shown::of).forEach(entities::add);
-        Map<String, String> headers =
-                page.counted() ? Map.of("Fiware-Total-Count", Integer.toString(found.size())) : Map.of();
-        return new Reply(200, Optional.of(entities), headers);
+        return Reply.page(call, entities, found.size());
     }
 
     static Rendering rendering(Call call) {
@@ -121,9 +117,6 @@ record EntityQuery(
 
     static int limit(Call call) throws NgsiError {
         int limit = number(call, "limit", DEFAULT_LIMIT);
-        if (limit == 0) {
-            throw NgsiError.badRequest("Bad pagination limit: /0/ [a value of ZERO is unacceptable]");
-        }
         if (limit > MAX_LIMIT) {
             throw NgsiError.badRequest("Bad pagination limit: /" + limit + "/ [max: " + MAX_LIMIT + "]");
         }

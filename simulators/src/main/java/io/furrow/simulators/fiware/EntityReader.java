@@ -5,7 +5,6 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
-import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
@@ -14,7 +13,6 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** Reads entities and attributes of requests, normalized or {@code keyValues}, and refuses what Orion refuses. */
 final class EntityReader {
-    private static final Pattern IDENTIFIER = Pattern.compile("[\\x21-\\x7e&&[^&?/#<>\"'=;()]]{1,256}");
     private static final Set<String> ATTRIBUTE_FIELDS = Set.of("type", "value", "metadata");
     private static final Set<String> NOT_ATTRIBUTES = Set.of("id", "type");
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
@@ -30,7 +28,7 @@ final class EntityReader {
         String id = text(json, "id")
                 .orElseThrow(() -> NgsiError.badRequest("entity id length: 0, min length supported: 1"));
         Optional<String> type = text(json, "type");
-        checkEntity(id, type);
+        SyntaxRules.checkEntity(id, type);
         return new EntityUpdate(id, type, members(json));
     }
 
@@ -47,7 +45,7 @@ final class EntityReader {
         Map<String, AttributeInput> attributes = new LinkedHashMap<>();
         for (Map.Entry<String, JsonNode> member : json.properties()) {
             if (!NOT_ATTRIBUTES.contains(member.getKey())) {
-                checkAttribute(member.getKey());
+                SyntaxRules.checkAttributeName(member.getKey());
                 attributes.put(member.getKey(), attribute(member.getValue()));
             }
         }
@@ -55,9 +53,12 @@ final class EntityReader {
     }
 
     AttributeInput attribute(JsonNode json) throws NgsiError {
-        if (keyValues) {
-            return AttributeInput.valueOnly(canonical(json));
-        }
+        AttributeInput attribute = keyValues ? AttributeInput.valueOnly(canonical(json)) : normalized(json);
+        SyntaxRules.check(attribute);
+        return attribute;
+    }
+
+    private static AttributeInput normalized(JsonNode json) throws NgsiError {
         if (!json.isObject()) {
             throw NgsiError.badRequest("attribute must be a JSON object, unless keyValues option is used");
         }
@@ -66,22 +67,7 @@ final class EntityReader {
                 throw NgsiError.badRequest("unrecognized property for context attribute");
             }
         }
-        Optional<String> type = text(json, "type");
-        if (type.isPresent()) {
-            check(type.get(), "attribute type");
-        }
-        return new AttributeInput(type, value(json), metadata(json.path("metadata")));
-    }
-
-    static void checkEntity(String id, Optional<String> type) throws NgsiError {
-        check(id, "entity id");
-        if (type.isPresent()) {
-            check(type.get(), "entity type");
-        }
-    }
-
-    static void checkAttribute(String name) throws NgsiError {
-        check(name, "attribute name");
+        return new AttributeInput(text(json, "type"), value(json), metadata(json.path("metadata")));
     }
 
     private static Optional<ObjectNode> metadata(JsonNode json) throws NgsiError {
@@ -93,7 +79,6 @@ final class EntityReader {
         }
         ObjectNode all = NODES.objectNode();
         for (Map.Entry<String, JsonNode> member : json.properties()) {
-            check(member.getKey(), "metadata name");
             if (!member.getValue().isObject()) {
                 throw NgsiError.badRequest("metadata item must be a JSON object");
             }
@@ -147,17 +132,5 @@ final class EntityReader {
             throw NgsiError.badRequest("Invalid JSON type for " + field);
         }
         return Optional.of(value.textValue());
-    }
-
-    private static void check(String text, String what) throws NgsiError {
-        if (text.isEmpty()) {
-            throw NgsiError.badRequest(what + " length: 0, min length supported: 1");
-        }
-        if (text.length() > 256) {
-            throw NgsiError.badRequest(what + " length: " + text.length() + ", max length supported: 256");
-        }
-        if (!IDENTIFIER.matcher(text).matches()) {
-            throw NgsiError.badRequest("Invalid characters in " + what);
-        }
     }
 }

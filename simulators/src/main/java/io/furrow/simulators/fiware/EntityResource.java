@@ -17,7 +17,7 @@ final class EntityResource {
     Reply answer(Call call) throws NgsiError {
         if (call.path().size() == 2) {
             return switch (call.method()) {
-                case "GET" -> EntityQuery.of(call).reply(broker.tenant(call.service()));
+                case "GET" -> EntityQuery.of(call).reply(call, broker.tenant(call.service()));
                 case "POST" -> create(call);
                 default -> throw NgsiError.badMethod();
             };
@@ -39,7 +39,7 @@ final class EntityResource {
                     .find(call.scope().servicePath(), entity.id(), entity.type())
                     .isEmpty();
             broker.upsert(call.scope(), entity, options(call), call.correlator());
-            return known ? Reply.noContent() : Reply.created(location);
+            return known ? Reply.noContent().with("Location", location) : Reply.created(location);
         }
         broker.create(call.scope(), entity, call.correlator());
         return Reply.created(location);
@@ -57,9 +57,8 @@ final class EntityResource {
     static StoredEntity find(ContextBroker broker, Call call) throws NgsiError {
         String id = call.path().get(2);
         Optional<String> type = call.parameter("type");
-        EntityReader.checkEntity(id, type);
-        PathFilter paths = call.paths();
-        return ContextBroker.single(broker.tenant(call.service()).find(paths, id, type));
+        SyntaxRules.checkEntity(id, type);
+        return broker.get(call.service(), call.paths(), id, type);
     }
 
     static Options options(Call call) {

@@ -13,8 +13,9 @@ record EntityUpdate(String id, Optional<String> type, Map<String, AttributeInput
     /** The type that a new entity gets where none is given. */
     static final String DEFAULT_TYPE = "Thing";
 
-    EntityUpdate withAttributes(Map<String, AttributeInput> others) {
-        return new EntityUpdate(id, type, others);
+    /** As Orion's errors name it: with its type where the request gives one. */
+    String label() {
+        return type.map(given -> id + "/" + given).orElse(id);
     }
 
     /** What an update does with the attributes that it names. */
@@ -33,8 +34,8 @@ record EntityUpdate(String id, Optional<String> type, Map<String, AttributeInput
                 case "replace", "REPLACE" -> REPLACE;
                 case "delete", "DELETE" -> DELETE;
                 default ->
-                    throw NgsiError.badRequest("invalid update action type: '" + text
-                            + "', accepted values: append, appendStrict, update, replace, delete");
+                    throw NgsiError.badRequest("invalid update action type: right ones are: append, appendStric,"
+                            + " delete, replace, update"); // spelled as Orion does
             };
         }
     }

@@ -4,6 +4,8 @@ import java.net.URI;
 import java.nio.file.Path;
 import java.util.Objects;
 
+import io.furrow.http.AllowedNames;
+
 /**
  * Where a stand-in listens, which MQTT broker its agent uses, where it keeps its state, and how it connects to receivers.
  *
@@ -15,6 +17,7 @@ import java.util.Objects;
  * @param state the file that entities, subscriptions, service groups and devices outlive a restart in, made when there is
  *     something to keep; null for memory only
  * @param connections to the receivers of notifications
+ * @param allowed hosts and origins of both APIs beside loopback
  */
 public record FiwareSettings(
         int contextBrokerPort,
@@ -23,7 +26,8 @@ public record FiwareSettings(
         String mqttUser,
         String mqttPassword,
         Path state,
-        Connections connections) {
+        Connections connections,
+        AllowedNames allowed) {
     /** Orion's {@code -notificationMode}, as far as a receiver sees it. */
     public enum Connections {
         /** Kept for the next notification; the default here, for a machine that has more to do than to connect. */
@@ -37,28 +41,44 @@ public record FiwareSettings(
             Objects.requireNonNull(mqttPassword, "an MQTT user needs a password");
         }
         Objects.requireNonNull(connections);
+        Objects.requireNonNull(allowed);
     }
 
     /** Without state: all is gone when it is closed. */
     public FiwareSettings(
             int contextBrokerPort, int iotAgentPort, URI mqttBroker, String mqttUser, String mqttPassword) {
-        this(contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, null, Connections.PERSISTENT);
+        this(
+                contextBrokerPort,
+                iotAgentPort,
+                mqttBroker,
+                mqttUser,
+                mqttPassword,
+                null,
+                Connections.PERSISTENT,
+                AllowedNames.NONE);
     }
 
     /** The same with a state file. */
     public FiwareSettings withState(Path file) {
         return new FiwareSettings(
-                contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, file, connections);
+                contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, file, connections, allowed);
     }
 
     /** The same with the context broker on another port; 0 for a free one. */
     public FiwareSettings withContextBrokerPort(int port) {
-        return new FiwareSettings(port, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, connections);
+        return new FiwareSettings(port, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, connections, allowed);
     }
 
     /** The same with other connections to receivers. */
     public FiwareSettings withConnections(Connections others) {
-        return new FiwareSettings(contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, others);
+        return new FiwareSettings(
+                contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, others, allowed);
+    }
+
+    /** The same for further hosts and origins. */
+    public FiwareSettings withAllowed(AllowedNames names) {
+        return new FiwareSettings(
+                contextBrokerPort, iotAgentPort, mqttBroker, mqttUser, mqttPassword, state, connections, names);
     }
 
     /** Free ports and no MQTT. */

@@ -39,7 +39,7 @@ public final class FiwareStandIn implements AutoCloseable {
 
     private FiwareStandIn(FiwareSettings settings, Clock clock) {
         Revision revision = new Revision();
-        DeviceRegistry registry = new DeviceRegistry(revision);
+        DeviceRegistry registry = new DeviceRegistry(revision, clock);
         notifier = new Notifier(clock, settings.connections());
         agent = new IotAgent(registry);
         ContextBroker broker = new ContextBroker(notifier, agent, clock, revision);
@@ -53,10 +53,15 @@ public final class FiwareStandIn implements AutoCloseable {
             notifier.start();
             started.push(notifier::close);
             contextBroker = LoopbackServer.start(
-                    "context-broker", settings.contextBrokerPort(), new ContextBrokerApi(broker, notifier));
+                    "context-broker",
+                    settings.contextBrokerPort(),
+                    settings.allowed(),
+                    new ContextBrokerApi(broker, notifier));
             started.push(contextBroker::close);
-            iotAgent = LoopbackServer.start("iot-agent", settings.iotAgentPort(), new IotAgentApi(registry, agent));
+            iotAgent = LoopbackServer.start(
+                    "iot-agent", settings.iotAgentPort(), settings.allowed(), new IotAgentApi(registry, agent));
             started.push(iotAgent::close);
+            agent.connect(iotAgent.uri());
             if (settings.mqttBroker() != null) {
                 MqttLink link = MqttLink.open(settings, agent);
                 started.push(link::close);

@@ -1,6 +1,8 @@
 package io.furrow.simulators.fiware;
 
+import java.net.URI;
 import java.util.LinkedHashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
@@ -19,8 +21,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.fiware.EntityUpdate.Options;
 
 /**
- * What the IoT agent does between devices and the context broker: measures become updates of entities, updates of command
- * attributes become messages to devices, with {@code <command>_status} {@code PENDING} until the device answers, then {@code OK}.
+ * What the IoT agent does between devices and the context broker: measures become updates of entities, the first one makes the entity;
+ * updates of command attributes become messages to devices, with {@code <command>_status} {@code PENDING} until the device answers, then {@code OK}.
  */
 final class IotAgent implements ContextBroker.Commands {
     /** The way to a device. */
@@ -36,6 +38,7 @@ final class IotAgent implements ContextBroker.Commands {
     private final LongAdder refused = new LongAdder();
     private final Set<String> warned = ConcurrentHashMap.newKeySet();
     private volatile ContextBroker broker;
+    private volatile URI provider = URI.create("http://127.0.0.1");
     private volatile Downlink downlink = (apikey, deviceId, command) -> false;
 
     IotAgent(DeviceRegistry registry) {
@@ -45,6 +48,11 @@ final class IotAgent implements ContextBroker.Commands {
     /** Each needs the other, so the second is given when both exist. */
     void connect(ContextBroker contextBroker) {
         broker = contextBroker;
+    }
+
+    /** @param base of the agent, under which the context broker shall know it */
+    void connect(URI base) {
+        provider = base;
     }
 
     void connect(Downlink toDevices) {
@@ -59,12 +67,12 @@ final class IotAgent implements ContextBroker.Commands {
         return refused.sum();
     }
 
-    /** Gives a newly provisioned device its entity. */
-    void introduce(Device device) throws NgsiError {
-        Map<String, AttributeInput> initial = device.mapping().initial();
-        if (!initial.isEmpty()) {
-            broker.upsert(device.scope(), device.update(initial), Options.NONE, Correlator.fresh());
-        }
+    /** Whether the device has an entity: it gets one with its first measure. */
+    boolean hasEntity(Device device) {
+        FiwareScope scope = device.scope();
+        return !broker.tenant(scope.service())
+                .find(scope.servicePath(), device.entityId(), Optional.of(device.entityType()))
+                .isEmpty();
     }
 
     /** One message of a device: an object, or an array of objects that are one measure each. */
@@ -76,8 +84,7 @@ final class IotAgent implements ContextBroker.Commands {
                     throw NgsiError.badRequest("a measure is a JSON object or an array of them");
                 }
                 String now = NgsiTime.format(broker.now());
-                EntityUpdate update = device.update(device.mapping().attributes(object, now));
-                broker.upsert(device.scope(), update, Options.NONE, Correlator.fresh());
+                update(device, device.mapping().attributes(object, now));
             }
             measures.increment();
         });
@@ -88,18 +95,32 @@ final class IotAgent implements ContextBroker.Commands {
         received("command result", apikey, deviceId, payload, (device, json) -> {
             for (Map.Entry<String, JsonNode> result : json.properties()) {
                 if (device.mapping().commands().contains(result.getKey())) {
-                    state(device, DeviceMapping.commandState(result.getKey(), "OK", result.getValue()));
+                    update(device, DeviceMapping.commandState(result.getKey(), "OK", result.getValue()));
                 }
             }
         });
     }
 
     @Override
-    public Set<String> names(FiwareScope scope, String entityId, Optional<String> type) {
+    public Optional<Registration> registration(FiwareScope scope, String entityId, Optional<String> type) {
         return registry.ofEntity(scope, entityId)
-                .filter(device -> type.isEmpty() || type.get().equals(device.entityType()))
-                .map(device -> device.mapping().commands())
-                .orElse(Set.of());
+                .flatMap(this::registration)
+                .filter(registration -> registration.covers(entityId, type));
+    }
+
+    @Override
+    public List<Registration> registrations(String service, PathFilter paths) {
+        return registry.devices(service, paths).stream()
+                .flatMap(device -> registration(device).stream())
+                .toList();
+    }
+
+    private Optional<Registration> registration(Device device) {
+        Set<String> names = device.mapping().commands();
+        return names.isEmpty()
+                ? Optional.empty()
+                : Optional.of(
+                        new Registration(device.scope(), device.entityId(), device.entityType(), names, provider));
     }
 
     @Override
@@ -110,17 +131,21 @@ final class IotAgent implements ContextBroker.Commands {
             Map<String, AttributeInput> pending = new LinkedHashMap<>(
                     DeviceMapping.commandState(command.getKey(), "PENDING", JsonNodeFactory.instance.nullNode()));
             pending.remove(command.getKey() + "_info");
-            state(device, pending);
+            update(device, pending);
             ObjectNode message = JsonNodeFactory.instance.objectNode();
             message.set(command.getKey(), command.getValue());
             if (!downlink.send(device.apikey(), device.id(), NgsiJson.write(message))) {
                 JsonNode reason = JsonNodeFactory.instance.textNode("the device cannot be reached: no MQTT connection");
-                state(device, DeviceMapping.commandState(command.getKey(), "ERROR", reason));
+                update(device, DeviceMapping.commandState(command.getKey(), "ERROR", reason));
             }
         }
     }
 
-    private void state(Device device, Map<String, AttributeInput> attributes) throws NgsiError {
+    /** Refuses as a whole what the context broker would refuse. */
+    private void update(Device device, Map<String, AttributeInput> attributes) throws NgsiError {
+        for (AttributeInput attribute : attributes.values()) {
+            SyntaxRules.check(attribute);
+        }
         broker.upsert(device.scope(), device.update(attributes), Options.NONE, Correlator.fresh());
     }
 
@@ -134,7 +159,8 @@ final class IotAgent implements ContextBroker.Commands {
             if (device.isEmpty()) {
                 refuse(
                         "unknown API key " + apikey,
-                        what + " of device " + deviceId + " with unknown API key " + apikey);
+                        "%s of device %s: there is no device with this id and API key %s, or no service group with this key and resource %s"
+                                .formatted(what, deviceId, apikey, DeviceRegistry.RESOURCE));
                 return;
             }
             reaction.to(device.get(), NgsiJson.read(payload));

@@ -10,7 +10,6 @@ import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 
-import com.fasterxml.jackson.databind.JsonNode;
 import org.eclipse.jetty.http.HttpHeader;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
@@ -23,13 +22,18 @@ import org.eclipse.jetty.util.Callback;
 import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.http.AccessRule;
+import io.furrow.http.AllowedNames;
+import io.furrow.http.Decision;
+import io.furrow.http.OptionNames;
+import io.furrow.http.jetty.AccessHandler;
 
-/** An HTTP/1.1 server on 127.0.0.1 that answers JSON; request bodies are at most {@value #MAX_BODY} bytes, as Orion's. */
+/** An HTTP/1.1 server on 127.0.0.1 that answers what its endpoint says; request bodies are at most {@value #MAX_BODY} bytes, as Orion's. */
 final class LoopbackServer implements AutoCloseable {
     static final int MAX_BODY = 1 << 20;
     private static final long MAX_SKIPPED = 64L << 20;
     private static final String HOST = "127.0.0.1";
+    private static final OptionNames OPTIONS = new OptionNames("--allowed-hosts", "--allowed-origins");
     private static final int THREADS = 24;
     private static final long IDLE_TIMEOUT_MS = 60_000;
 
@@ -37,15 +41,16 @@ final class LoopbackServer implements AutoCloseable {
     interface Endpoint {
         Reply answer(Call call) throws NgsiError;
 
-        JsonNode describe(NgsiError error);
+        /** The answer to a call that was refused. */
+        Reply describe(NgsiError error);
     }
 
     private final Server server;
     private final ServerConnector connector;
 
-    /** @param name of the threads */
-    static LoopbackServer start(String name, int port, Endpoint endpoint) {
-        LoopbackServer server = new LoopbackServer(name, port, endpoint);
+    /** @param name of the threads @param allowed hosts and origins beside loopback */
+    static LoopbackServer start(String name, int port, AllowedNames allowed, Endpoint endpoint) {
+        LoopbackServer server = new LoopbackServer(name, port, allowed, endpoint);
         try {
             server.connector.open();
         } catch (IOException e) {
@@ -58,7 +63,7 @@ final class LoopbackServer implements AutoCloseable {
         return server;
     }
 
-    private LoopbackServer(String name, int port, Endpoint endpoint) {
+    private LoopbackServer(String name, int port, AllowedNames allowed, Endpoint endpoint) {
         QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
         threads.setName(name);
         threads.setDaemon(true);
@@ -72,7 +77,11 @@ final class LoopbackServer implements AutoCloseable {
         connector.setShutdownIdleTimeout(0);
         server.addConnector(connector);
         server.setStopTimeout(0);
-        server.setHandler(new Answering(endpoint));
+        server.setHandler(new AccessHandler(
+                AccessRule.allowing(allowed, OPTIONS),
+                refused -> (endpoint.describe(new NgsiError(Decision.REFUSED_STATUS, refused.error(), refused.reason()))
+                        .body()),
+                new Answering(endpoint)));
     }
 
     URI uri() {
@@ -96,15 +105,9 @@ final class LoopbackServer implements AutoCloseable {
             Correlator correlator = correlator(request);
             response.getHeaders().put(Correlator.HEADER, correlator.id());
             try {
-                Reply reply = endpoint.answer(call(request, correlator));
-                reply.headers().forEach(response.getHeaders()::put);
-                write(
-                        response,
-                        callback,
-                        reply.status(),
-                        reply.body().map(NgsiJson::write).orElse(new byte[0]));
+                write(response, callback, endpoint.answer(call(request, correlator)));
             } catch (NgsiError e) {
-                write(response, callback, e.status(), NgsiJson.write(endpoint.describe(e)));
+                write(response, callback, endpoint.describe(e));
             }
             return true;
         }
@@ -150,12 +153,13 @@ final class LoopbackServer implements AutoCloseable {
             }
         }
 
-        private static void write(Response response, Callback callback, int status, byte[] body) {
-            response.setStatus(status);
-            if (body.length > 0) {
-                response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
+        private static void write(Response response, Callback callback, Reply reply) {
+            response.setStatus(reply.status());
+            reply.headers().forEach(response.getHeaders()::put);
+            if (reply.body().length > 0) {
+                response.getHeaders().put(HttpHeader.CONTENT_TYPE, reply.mediaType());
             }
-            response.write(true, ByteBuffer.wrap(body), callback);
+            response.write(true, ByteBuffer.wrap(reply.body()), callback);
         }
     }
 }

@@ -1,5 +1,7 @@
 package io.furrow.simulators.fiware;
 
+import java.util.Collection;
+
 /** A refused request: the HTTP status and the two texts that Orion puts into {@code {"error", "description"}}. */
 final class NgsiError extends Exception {
     private static final long serialVersionUID = 1;
@@ -29,6 +31,10 @@ final class NgsiError extends Exception {
         return badRequest("Service not found. Check your URL as probably it is wrong.");
     }
 
+    static NgsiError noBody() {
+        return new NgsiError(411, "ContentLengthRequired", "Zero/No Content-Length in PUT/POST/PATCH request");
+    }
+
     static NgsiError noEntity() {
         return notFound("The requested entity has not been found. Check type and id");
     }
@@ -39,6 +45,19 @@ final class NgsiError extends Exception {
 
     static NgsiError noSubscription() {
         return notFound("The requested subscription has not been found. Check id");
+    }
+
+    static NgsiError noType() {
+        return notFound("Entity type not found");
+    }
+
+    static NgsiError noRegistration() {
+        return notFound("The requested registration has not been found. Check id");
+    }
+
+    /** Of a batch. */
+    static NgsiError noEntity(EntityUpdate request) {
+        return notFound("do not exist: " + request.label() + " - [entity itself]");
     }
 
     private static NgsiError notFound(String description) {
@@ -65,7 +84,20 @@ final class NgsiError extends Exception {
         return unprocessable("Already Exists");
     }
 
-    static NgsiError unprocessable(String description) {
+    static NgsiError noAttributes(EntityUpdate request, Collection<String> names) {
+        return unprocessable("do not exist: " + request.label() + listed(names));
+    }
+
+    static NgsiError attributesExist(EntityUpdate request, Collection<String> names) {
+        return unprocessable(
+                "one or more of the attributes in the request already exist: " + request.label() + listed(names));
+    }
+
+    private static String listed(Collection<String> names) {
+        return " - [ " + String.join(", ", names) + " ]";
+    }
+
+    private static NgsiError unprocessable(String description) {
         return new NgsiError(422, "Unprocessable", description);
     }
 

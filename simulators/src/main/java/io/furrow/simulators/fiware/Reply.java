@@ -1,21 +1,44 @@
 package io.furrow.simulators.fiware;
 
+import java.nio.charset.StandardCharsets;
 import java.util.Map;
-import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** An HTTP answer; without a body its length is 0. */
-record Reply(int status, Optional<JsonNode> body, Map<String, String> headers) {
+import io.furrow.model.ngsi.NgsiJson;
+
+/** An HTTP answer; one without a body has no media type. */
+record Reply(int status, String mediaType, byte[] body, Map<String, String> headers) {
+    private static final byte[] NOTHING = {};
+
+    static Reply json(int status, JsonNode body) {
+        return new Reply(status, "application/json", NgsiJson.write(body), Map.of());
+    }
+
     static Reply ok(JsonNode body) {
-        return new Reply(200, Optional.of(body), Map.of());
+        return json(200, body);
+    }
+
+    /** A page of a list. @param total how many there are on all pages, said where {@code options=count} asks for it */
+    static Reply page(Call call, JsonNode body, int total) {
+        Reply page = ok(body);
+        return call.option("count") ? page.with("Fiware-Total-Count", Integer.toString(total)) : page;
     }
 
     static Reply created(String location) {
-        return new Reply(201, Optional.empty(), Map.of("Location", location));
+        return new Reply(201, "", NOTHING, Map.of("Location", location));
     }
 
     static Reply noContent() {
-        return new Reply(204, Optional.empty(), Map.of());
+        return new Reply(204, "", NOTHING, Map.of());
+    }
+
+    static Reply html(int status, String text) {
+        return new Reply(status, "text/html; charset=utf-8", text.getBytes(StandardCharsets.UTF_8), Map.of());
+    }
+
+    /** The same with one header. */
+    Reply with(String header, String value) {
+        return new Reply(status, mediaType, body, Map.of(header, value));
     }
 }

@@ -1,6 +1,9 @@
 package io.furrow.simulators.fiware;
 
+import java.util.Map;
+
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.event.FiwareScope;
@@ -8,27 +11,93 @@ import io.furrow.model.event.FiwareScope;
 /**
  * A service group: the API key that devices share, and what they have in common.
  *
- * @param resource the agent's path, part of the group's identity
- * @param json as it was provisioned
+ * @param json as it was provisioned, with the number and the date that the registry gave it
  */
-record ServiceGroup(
-        FiwareScope scope, String apikey, String resource, String entityType, DeviceMapping mapping, ObjectNode json) {
+record ServiceGroup(FiwareScope scope, Key key, String entityType, DeviceMapping mapping, ObjectNode json) {
+    private static final Map<String, String> INTERNAL = Map.of(
+            "entity_type", "type",
+            "static_attributes", "staticAttributes",
+            "internal_attributes", "internalAttributes");
+
+    /**
+     * There is one group of a key in all tenants.
+     *
+     * @param resource path of the agent
+     */
+    record Key(String resource, String apikey) {}
+
     static ServiceGroup read(FiwareScope scope, JsonNode json) throws NgsiError {
-        if (!json.path("apikey").isTextual() || !json.isObject()) {
-            throw new NgsiError(400, "WRONG_SYNTAX", "Wrong syntax in request: a service needs an apikey");
+        if (!json.path("apikey").isTextual()) {
+            throw AgentErrors.wrongSyntax();
         }
         String type = json.path("entity_type").asText(json.path("type").asText(EntityUpdate.DEFAULT_TYPE));
         return new ServiceGroup(
                 scope,
-                json.get("apikey").textValue(),
-                json.path("resource").asText(""),
+                new Key(json.path("resource").asText(""), json.get("apikey").textValue()),
                 type,
                 DeviceMapping.read(json),
-                json.deepCopy());
+                members(json));
+    }
+
+    static ObjectNode members(JsonNode json) throws NgsiError {
+        if (json instanceof ObjectNode object) {
+            return object.deepCopy();
+        }
+        throw AgentErrors.wrongSyntax();
+    }
+
+    String apikey() {
+        return key.apikey();
+    }
+
+    String resource() {
+        return key.resource();
     }
 
     /** Whether a device that is not provisioned becomes one with its first measure. */
     boolean takesUnprovisioned() {
         return json.path("autoprovision").asBoolean(true);
+    }
+
+    /** The same under a number and a date, unless it has them already. */
+    ServiceGroup registered(int number, long now) {
+        ObjectNode registered = json.deepCopy();
+        if (!json.has("_id")) {
+            registered.put("_id", number).put("creationDate", now);
+        }
+        return new ServiceGroup(scope, key, entityType, mapping, registered);
+    }
+
+    /** The same with other members; scope and key stay. */
+    ServiceGroup changed(ObjectNode change) throws NgsiError {
+        ObjectNode changed = json.deepCopy();
+        changed.setAll(change);
+        changed.put("resource", resource()).put("apikey", apikey());
+        return read(scope, changed);
+    }
+
+    /** As {@code GET /iot/services} lists it. */
+    ObjectNode listed() {
+        ObjectNode listed = json.deepCopy().put("service", scope.service()).put("subservice", scope.servicePath());
+        if (listed.has("type")) {
+            listed.set("entity_type", listed.remove("type"));
+        }
+        return listed;
+    }
+
+    /** As the agent's error messages show it: renamed members come after the others. */
+    ObjectNode internal() {
+        ObjectNode internal = JsonNodeFactory.instance.objectNode();
+        ObjectNode renamed = JsonNodeFactory.instance.objectNode();
+        json.properties().forEach(member -> {
+            String name = INTERNAL.get(member.getKey());
+            if (name == null) {
+                internal.set(member.getKey(), member.getValue());
+            } else {
+                renamed.set(name, member.getValue());
+            }
+        });
+        internal.setAll(renamed);
+        return internal.put("service", scope.service()).put("subservice", scope.servicePath());
     }
 }

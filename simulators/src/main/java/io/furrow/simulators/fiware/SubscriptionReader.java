@@ -14,6 +14,7 @@ import java.util.Set;
 import java.util.function.Predicate;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.simulators.fiware.SubscriptionDefinition.Limits;
@@ -21,32 +22,29 @@ import io.furrow.simulators.fiware.SubscriptionDefinition.Selector;
 import io.furrow.simulators.fiware.SubscriptionDefinition.Subject;
 import io.furrow.simulators.fiware.SubscriptionDefinition.Target;
 
-/** Reads {@code POST /v2/subscriptions}; an option that the stand-in does not have is refused, never ignored. */
+/**
+ * Reads {@code POST /v2/subscriptions}. An option of Orion's that the stand-in does not have is refused by name; what Orion does not
+ * know either is passed over, as Orion does.
+ */
 final class SubscriptionReader {
-    private static final Set<String> FIELDS =
-            Set.of("description", "subject", "notification", "expires", "status", "throttling");
-    private static final Set<String> SUBJECT_FIELDS = Set.of("entities", "condition");
-    private static final Set<String> SELECTOR_FIELDS = Set.of("id", "idPattern", "type", "typePattern");
-    private static final Set<String> CONDITION_FIELDS = Set.of("attrs", "expression", "alterationTypes");
-    private static final Set<String> NOTIFICATION_FIELDS = Set.of(
-            "http",
-            "httpCustom",
-            "attrs",
-            "exceptAttrs",
-            "attrsFormat",
-            "metadata",
-            "onlyChangedAttrs",
-            "maxFailsLimit");
-    private static final Set<String> TARGET_FIELDS = Set.of("url", "headers", "timeout");
+    private static final Set<String> CONDITION_UNSUPPORTED = Set.of("mq", "georel", "geometry", "coords");
+    private static final Set<String> NOTIFICATION_UNSUPPORTED = Set.of("mqtt", "mqttCustom", "kafka", "kafkaCustom");
+    private static final Set<String> TARGET_UNSUPPORTED = Set.of("qs", "method", "payload", "json", "ngsi");
 
     private SubscriptionReader() {}
 
     static SubscriptionDefinition read(JsonNode json) throws NgsiError {
-        only(FIELDS, json, "subscription");
+        if (!json.isObject()) {
+            throw NgsiError.badRequest("subscription is not a JSON object");
+        }
+        Subject subject = subject(required(json, "subject"));
         JsonNode notification = required(json, "notification");
-        only(NOTIFICATION_FIELDS, notification, "notification");
+        refuse(NOTIFICATION_UNSUPPORTED, notification, "notification");
+        if (notification.path("covered").asBoolean(false)) {
+            throw NgsiError.unsupported("notification with 'covered'");
+        }
         return new SubscriptionDefinition(
-                subject(required(json, "subject")),
+                subject,
                 target(notification),
                 rendering(notification),
                 notification.path("onlyChangedAttrs").asBoolean(false),
@@ -55,22 +53,22 @@ final class SubscriptionReader {
     }
 
     private static Subject subject(JsonNode json) throws NgsiError {
-        only(SUBJECT_FIELDS, json, "subject");
         List<Selector> selectors = new ArrayList<>();
-        for (JsonNode entity : required(json, "entities")) {
-            only(SELECTOR_FIELDS, entity, "subject.entities");
+        for (JsonNode entity : json.path("entities")) {
             if (entity.has("id") == entity.has("idPattern")) {
                 throw NgsiError.badRequest("subject entities: exactly one of id and idPattern is needed");
             }
             selectors.add(new Selector(matcher(entity, "id", "idPattern"), matcher(entity, "type", "typePattern")));
         }
         if (selectors.isEmpty()) {
-            throw NgsiError.badRequest("subject entities is empty");
+            throw NgsiError.badRequest("no subject entities specified");
         }
         JsonNode condition = json.path("condition");
-        only(CONDITION_FIELDS, condition, "condition");
+        if (!condition.path("notifyOnMetadataChange").asBoolean(true)) {
+            throw NgsiError.unsupported("condition with 'notifyOnMetadataChange' false");
+        }
         JsonNode expression = condition.path("expression");
-        only(Set.of("q"), expression, "condition.expression");
+        refuse(CONDITION_UNSUPPORTED, expression, "condition.expression");
         Optional<QueryFilter> filter = expression.has("q")
                 ? Optional.of(QueryFilter.parse(expression.get("q").asText()))
                 : Optional.empty();
@@ -106,7 +104,7 @@ final class SubscriptionReader {
             throw NgsiError.badRequest("exactly one of http and httpCustom is needed");
         }
         JsonNode json = notification.has("http") ? notification.get("http") : notification.get("httpCustom");
-        only(TARGET_FIELDS, json, "http notification");
+        refuse(TARGET_UNSUPPORTED, json, "http notification");
         Map<String, String> headers = new LinkedHashMap<>();
         json.path("headers")
                 .properties()
@@ -143,8 +141,8 @@ final class SubscriptionReader {
                         texts(json, "attrs"), Set.copyOf(texts(json, "exceptAttrs")), texts(json, "metadata"), format);
             }
         }
-        throw NgsiError.badRequest("invalid attrsFormat, accepted values: normalized, keyValues, values, "
-                + "simplifiedNormalized, simplifiedKeyValues");
+        throw NgsiError.badRequest("invalid attrsFormat, accepted values: normalized, simplifiedNormalized, "
+                + "keyValues, simplifiedkeyValues, values"); // spelled as Orion does
     }
 
     private static Limits limits(JsonNode json, JsonNode notification) throws NgsiError {
@@ -164,31 +162,48 @@ final class SubscriptionReader {
         return new Limits(status.equals("active"), end, throttling, maxFails);
     }
 
+    /** As {@code GET} shows it: what is known, with defaults. */
     private static ObjectNode shown(JsonNode json) {
-        ObjectNode shown = ((ObjectNode) json.deepCopy());
-        shown.remove("status");
+        ObjectNode shown = copy(json, List.of("description", "expires", "throttling"));
         if (shown.path("expires").asText("").isEmpty()) {
             shown.remove("expires");
         }
-        ObjectNode subject = (ObjectNode) shown.get("subject");
-        if (!subject.has("condition")) {
-            subject.putObject("condition");
+        if (shown.path("throttling").asLong() <= 0) {
+            shown.remove("throttling");
         }
-        ObjectNode condition = (ObjectNode) subject.get("condition");
-        if (!condition.has("attrs")) {
-            condition.putArray("attrs");
+        ObjectNode subject = shown.putObject("subject");
+        json.at("/subject/entities")
+                .forEach(entity -> subject.withArray("entities")
+                        .add(copy(entity, List.of("id", "idPattern", "type", "typePattern"))));
+        JsonNode condition = json.at("/subject/condition");
+        ObjectNode conditionShown = copy(condition, List.of("attrs", "expression", "alterationTypes"));
+        if (!conditionShown.has("attrs")) {
+            conditionShown.putArray("attrs");
         }
-        ObjectNode notification = (ObjectNode) shown.get("notification");
-        if (!notification.has("attrs") && !notification.has("exceptAttrs")) {
-            notification.putArray("attrs");
-        }
-        if (!notification.has("onlyChangedAttrs")) {
-            notification.put("onlyChangedAttrs", false);
-        }
-        if (!notification.has("attrsFormat")) {
-            notification.put("attrsFormat", "normalized");
-        }
+        subject.set("condition", conditionShown.put("notifyOnMetadataChange", true));
+        shown.set("notification", notification(json.path("notification")));
         return shown;
+    }
+
+    private static ObjectNode notification(JsonNode json) {
+        ObjectNode shown =
+                copy(json, List.of("http", "httpCustom", "attrs", "exceptAttrs", "metadata", "maxFailsLimit"));
+        if (!shown.has("attrs") && !shown.has("exceptAttrs")) {
+            shown.putArray("attrs");
+        }
+        return shown.put("onlyChangedAttrs", json.path("onlyChangedAttrs").asBoolean(false))
+                .put("attrsFormat", json.path("attrsFormat").asText("normalized"))
+                .put("covered", false);
+    }
+
+    private static ObjectNode copy(JsonNode json, List<String> members) {
+        ObjectNode copy = JsonNodeFactory.instance.objectNode();
+        for (String member : members) {
+            if (json.has(member)) {
+                copy.set(member, json.get(member).deepCopy());
+            }
+        }
+        return copy;
     }
 
     private static JsonNode required(JsonNode json, String field) throws NgsiError {
@@ -204,12 +219,9 @@ final class SubscriptionReader {
         return List.copyOf(texts);
     }
 
-    private static void only(Set<String> known, JsonNode json, String what) throws NgsiError {
-        if (!json.isObject() && !json.isMissingNode()) {
-            throw NgsiError.badRequest(what + " is not a JSON object");
-        }
+    private static void refuse(Set<String> unsupported, JsonNode json, String what) throws NgsiError {
         for (Map.Entry<String, JsonNode> member : json.properties()) {
-            if (!known.contains(member.getKey())) {
+            if (unsupported.contains(member.getKey())) {
                 throw NgsiError.unsupported(what + " with '" + member.getKey() + "'");
             }
         }

@@ -2,8 +2,6 @@ package io.furrow.simulators.fiware;
 
 import java.security.SecureRandom;
 import java.util.List;
-import java.util.Map;
-import java.util.Optional;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -13,6 +11,8 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** {@code /v2/subscriptions} and {@code /v2/subscriptions/<id>}. A new subscription sends nothing by itself. */
 final class SubscriptionResource {
+    private static final int ID_LENGTH = 24;
+
     private final ContextBroker broker;
     private final Notifier notifier;
     private final long instance = new SecureRandom().nextLong(1L << 40);
@@ -75,14 +75,16 @@ final class SubscriptionResource {
                 .limit(EntityQuery.limit(call))
                 .map(subscription -> subscription.json(broker.now()))
                 .forEach(page::add);
-        Map<String, String> headers =
-                call.option("count") ? Map.of("Fiware-Total-Count", Integer.toString(all.size())) : Map.of();
-        return new Reply(200, Optional.of(page), headers);
+        return Reply.page(call, page, all.size());
     }
 
     private Subscription find(Call call) throws NgsiError {
+        String id = call.path().get(2);
+        if (id.length() != ID_LENGTH) {
+            throw NgsiError.badRequest("Invalid subscription ID: bad length - 24 chars expected");
+        }
         return visible(call).stream()
-                .filter(subscription -> subscription.id().equals(call.path().get(2)))
+                .filter(subscription -> subscription.id().equals(id))
                 .findFirst()
                 .orElseThrow(NgsiError::noSubscription);
     }

@@ -15,8 +15,10 @@ import java.util.Queue;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ConcurrentLinkedQueue;
+import java.util.function.Supplier;
 import java.util.function.ToLongFunction;
 import java.util.function.UnaryOperator;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -60,29 +62,46 @@ final class Connections implements AutoCloseable {
 
     /** A connection, or what is to become one, and whose it is. */
     final class Way {
-        private final Line.Plan plan;
+        private final Supplier<Line.Plan> plans;
         private final String mission;
         private final boolean gateway;
         private final Set<String> devices = new LinkedHashSet<>();
+        private Line.Plan plan;
         private Line line;
+        private Line next;
         private boolean ended;
 
-        private Way(Line.Plan plan, String mission, boolean gateway) {
-            this.plan = plan;
+        private Way(Supplier<Line.Plan> plans, String mission, boolean gateway) {
+            this.plans = plans;
+            this.plan = plans.get();
             this.mission = mission;
             this.gateway = gateway;
         }
 
         /**
-         * Opens it, on any thread.
+         * Opens it, on any thread; where it is open already a second line, which takes the place of the first when {@link
+         * Connections#change} comes to it.
          *
          * @throws IOException if the broker is away or refuses
          */
         void open() throws IOException {
-            Line opened = Line.open(access.mqtt(), plan, this::heard);
-            if (!keep(opened)) {
-                opened.close();
+            Line opened = Line.open(access.mqtt(), plan(), this::heard);
+            Line needless = keep(opened);
+            if (needless != null) {
+                needless.close();
             }
+        }
+
+        private synchronized Line.Plan plan() {
+            return plan;
+        }
+
+        /** Takes up the login and the topics of now. @return whether it is open with others */
+        private synchronized boolean isOutdated() {
+            Line.Plan fresh = plans.get();
+            boolean same = fresh.equals(plan);
+            plan = fresh;
+            return !same && line != null;
         }
 
         private void heard(String topic, byte[] payload) {
@@ -90,9 +109,30 @@ final class Connections implements AutoCloseable {
             commands.add(new Command(this, parts[parts.length - 2], payload));
         }
 
-        private synchronized boolean keep(Line opened) {
-            line = ended ? null : opened;
-            return !ended;
+        /** Answers the line that is not needed, if one is not. */
+        private synchronized Line keep(Line opened) {
+            if (ended) {
+                return opened;
+            }
+            if (line == null) {
+                line = opened;
+                return null;
+            }
+            Line before = next;
+            next = opened;
+            return before;
+        }
+
+        /** Lets the second line take the place of the first, if there is one; answers the first, which is to be closed. */
+        private synchronized Optional<Line> change() {
+            if (next == null) {
+                return Optional.empty();
+            }
+            Line before = line;
+            next.takeOver(before);
+            line = next;
+            next = null;
+            return Optional.of(before);
         }
 
         /** Whether nobody needs it any more. */
@@ -108,11 +148,12 @@ final class Connections implements AutoCloseable {
             return Optional.ofNullable(line);
         }
 
-        /** No line of it is kept from now on; answers the one that was. */
-        private synchronized Optional<Line> end() {
+        /** No line of it is kept from now on; answers those that were. */
+        private synchronized List<Line> end() {
             ended = true;
-            Optional<Line> last = Optional.ofNullable(line);
+            List<Line> last = Stream.of(line, next).filter(Objects::nonNull).toList();
             line = null;
+            next = null;
             return last;
         }
 
@@ -133,32 +174,65 @@ final class Connections implements AutoCloseable {
         Set<Way> fresh = new LinkedHashSet<>();
         for (Identity device : devices) {
             String mission = device.mission();
-            String key = "/" + apiKeys.apply(mission) + "/";
             Way way = gateways.get(mission);
             if (way == null && many) {
-                way = new Way(gateway(mission, key), mission, true);
+                way = new Way(() -> gateway(mission), mission, true);
                 gateways.put(mission, way);
                 fresh.add(way);
             } else if (way == null) {
-                way = new Way(own(device, key), mission, false);
+                way = new Way(() -> own(device), mission, false);
                 fresh.add(way);
             }
             way.devices.add(device.id());
             ways.put(device.id(), way);
-            topics.put(device.id(), key + device.id() + "/");
+            topics.put(device.id(), topic(mission, device.id()));
         }
         all.addAll(fresh);
         return fresh;
     }
 
-    private Line.Plan own(Identity device, String key) {
+    private Line.Plan own(Identity device) {
         MqttAccess.Login login = access.logins().device(device);
-        return new Line.Plan(login, device.id(), List.of(key + device.id() + "/cmd"), OWN_KEPT, OWN_BYTES);
+        String commands = topic(device.mission(), device.id()) + "cmd";
+        return new Line.Plan(login, device.id(), List.of(commands), OWN_KEPT, OWN_BYTES);
     }
 
-    private Line.Plan gateway(String mission, String key) {
+    private Line.Plan gateway(String mission) {
         MqttAccess.Login login = access.logins().gateway(mission);
-        return new Line.Plan(login, "gateway-" + mission, List.of(key + "+/cmd"), GATEWAY_KEPT, GATEWAY_BYTES);
+        String commands = topic(mission, "+") + "cmd";
+        return new Line.Plan(login, "gateway-" + mission, List.of(commands), GATEWAY_KEPT, GATEWAY_BYTES);
+    }
+
+    /** The start of a device's topics. */
+    private String topic(String mission, String device) {
+        return "/" + apiKeys.apply(mission) + "/" + device + "/";
+    }
+
+    /**
+     * Takes up logins and API keys as they are now.
+     *
+     * @return what is open with others, and is to be opened again: it stays in use until then
+     */
+    Collection<Way> renew() {
+        List<Way> outdated = all.stream().filter(Way::isOutdated).toList();
+        all.stream().filter(way -> !way.isOpen()).forEach(this::retopic);
+        return outdated;
+    }
+
+    private void retopic(Way way) {
+        way.devices.forEach(device -> topics.put(device, topic(way.mission, device)));
+    }
+
+    /** Uses what was opened again; answers the lines whose place it takes, which are to be closed. */
+    Collection<Line> change() {
+        List<Line> replaced = new ArrayList<>();
+        for (Way way : all) {
+            way.change().ifPresent(line -> {
+                retopic(way);
+                replaced.add(line);
+            });
+        }
+        return replaced;
     }
 
     /** The connection of a device, open or not. */
@@ -166,12 +240,12 @@ final class Connections implements AutoCloseable {
         return Optional.ofNullable(ways.get(device));
     }
 
-    /** Lets a device go; answers the line that nobody uses any more, which is to be closed. */
-    Optional<Line> remove(String device) {
+    /** Lets a device go; answers the lines that nobody uses any more, which are to be closed. */
+    List<Line> remove(String device) {
         Way way = ways.remove(device);
         topics.remove(device);
         if (way == null || !way.devices.remove(device) || !way.devices.isEmpty()) {
-            return Optional.empty();
+            return List.of();
         }
         all.remove(way);
         gateways.remove(way.mission, way);
@@ -220,7 +294,7 @@ final class Connections implements AutoCloseable {
     @Override
     public void close() {
         Set<Line> lines = new HashSet<>();
-        all.forEach(way -> way.end().ifPresent(lines::add));
-        lines.parallelStream().filter(Objects::nonNull).forEach(Line::close);
+        all.forEach(way -> lines.addAll(way.end()));
+        lines.parallelStream().forEach(Line::close);
     }
 }

@@ -142,8 +142,13 @@ public final class FarmFleet implements AutoCloseable {
             scene.remove(device);
             robots.remove(device);
             commands.remove(device);
-            connections.remove(device).ifPresent(opener::close);
+            connections.remove(device).forEach(opener::close);
         });
+    }
+
+    /** Takes up logins and API keys as they are now; a device goes on with what it has until the MQTT broker takes the new. */
+    public void renew() {
+        changes.add(() -> connections.renew().forEach(way -> opener.open(way, openings)));
     }
 
     /** How many reports have been made since the start. */
@@ -223,6 +228,7 @@ public final class FarmFleet implements AutoCloseable {
                 due = timetable.take(now)) {
             scene.report(due.get().device(), due.get().time()).ifPresent(this::send);
         }
+        connections.change().forEach(opener::close);
         connections.push();
         tally = connections.tally();
         steps = steps + 1;

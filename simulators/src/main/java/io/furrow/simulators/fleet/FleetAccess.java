@@ -1,5 +1,7 @@
 package io.furrow.simulators.fleet;
 
+import java.util.function.Supplier;
+
 import io.furrow.model.device.FarmSecret;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
@@ -34,17 +36,21 @@ public record FleetAccess(FleetSettings fiware, MqttAccess mqtt, Logins logins) 
             };
         }
 
-        /** As the control plane provisions them. */
-        static Logins of(FarmSecret secret) {
+        /**
+         * As the control plane provisions them.
+         *
+         * @param secret as it is now
+         */
+        static Logins of(Supplier<FarmSecret> secret) {
             return new Logins() {
                 @Override
                 public MqttAccess.Login device(SimulatedDevice.Identity device) {
-                    return login(secret.device(device.mission(), device.id()));
+                    return login(secret.get().device(device.mission(), device.id(), device.generation()));
                 }
 
                 @Override
                 public MqttAccess.Login gateway(String mission) {
-                    return login(secret.gateway(mission));
+                    return login(secret.get().gateway(mission));
                 }
 
                 private MqttAccess.Login login(FarmSecret.Login login) {

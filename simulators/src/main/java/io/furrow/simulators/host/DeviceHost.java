@@ -2,56 +2,37 @@ package io.furrow.simulators.host;
 
 import java.io.IOException;
 import java.time.Duration;
-import java.util.Collection;
-import java.util.LinkedHashMap;
-import java.util.List;
-import java.util.Map;
-import java.util.Properties;
-import java.util.Queue;
-import java.util.concurrent.ConcurrentLinkedQueue;
+import java.time.Instant;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 
 import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.model.device.WantedDevice;
-import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.topic.Topics;
-import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.fleet.FarmFleet;
-import io.furrow.simulators.fleet.FleetAccess;
-import io.furrow.simulators.fleet.FleetEvents;
 
 /**
  * Runs the devices that are wanted on {@code service.devices} as a simulated fleet, and says on {@code service.devices.status} how
  * each is. It provisions none: the control plane does. All is on Kafka, so that a host that was killed goes on where it is
- * started again. There is to be one host at a time, because each runs all.
+ * started again, and one that failed begins anew by itself. There is to be one host at a time, because each runs all.
  */
 public final class DeviceHost implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(DeviceHost.class);
-    private static final Duration PATIENCE = Duration.ofSeconds(10);
-    private static final Duration PAUSE = Duration.ofSeconds(1);
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(10);
+    private static final Duration MIN_BACKOFF = Duration.ofSeconds(1);
+    private static final Duration MAX_BACKOFF = Duration.ofSeconds(30);
 
-    private final WantedRecords records;
-    private final StatusRecords statuses;
-    private final FarmFleet fleet;
-    private final StatusBoard board;
-    private final Hosting hosting;
-    private final KnownFields fields = new KnownFields();
-    private final Queue<Runnable> told = new ConcurrentLinkedQueue<>();
+    private final HostSettings settings;
+    private final CountDownLatch closing = new CountDownLatch(1);
     private final Thread thread = new Thread(this::run, "device-host");
-    private volatile boolean caughtUp;
-    private volatile boolean closed;
+    private volatile HostLoop loop;
+    private volatile String refusal;
+    private volatile String lastFailure;
 
     private DeviceHost(HostSettings settings) {
-        Properties kafka = settings.kafka();
-        FleetSettings fiware = new FleetSettings(settings.contextBroker(), null, null, null, null, "", "/");
-        FleetAccess access = new FleetAccess(fiware, settings.mqtt(), FleetAccess.Logins.of(settings.secret()));
-        this.records = new WantedRecords(kafka, List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS));
-        this.statuses = new StatusRecords(kafka);
-        this.board = new StatusBoard(statuses::say);
-        this.fleet = FarmFleet.open(access, settings.secret()::apiKey, new Told());
-        this.hosting = new Hosting(new Running(), board, settings.seed());
+        this.settings = settings;
+        this.loop = new HostLoop(settings);
         thread.setDaemon(true);
     }
 
@@ -73,105 +54,85 @@ public final class DeviceHost implements AutoCloseable {
 
     /** Whether all that was wanted at the start has been taken up; connections may still be on their way. */
     public boolean isCaughtUp() {
-        return caughtUp;
+        return loop.isCaughtUp();
     }
 
-    /** Waits until it takes up nothing any more: because it was closed, or broke down, which is in the log. */
-    public void await() throws InterruptedException {
+    /** Whether it goes on taking up what is wanted. */
+    public boolean isAlive() {
+        return thread.isAlive();
+    }
+
+    /** When it last read what is wanted; null if it has not since it began anew. */
+    public Instant lastPoll() {
+        return loop.lastPoll();
+    }
+
+    /** What made it begin anew or end; empty where nothing has. */
+    public String lastFailure() {
+        return refusal == null ? lastFailure == null ? "" : lastFailure : refusal;
+    }
+
+    /**
+     * Waits until it takes up nothing any more, because it was closed.
+     *
+     * @throws IOException if it has ended because the farm has another secret; the message says what to do
+     */
+    public void await() throws InterruptedException, IOException {
         thread.join();
+        if (refusal != null) {
+            throw new IOException(refusal);
+        }
     }
 
     /** The fleet at work, for figures. */
     public FarmFleet fleet() {
-        return fleet;
+        return loop.fleet();
     }
 
     /** Stops all devices within seconds. Their statuses stay as they are: another host may go on. */
     @Override
     public void close() {
-        closed = true;
+        closing.countDown();
         try {
-            thread.join(PATIENCE.toMillis());
+            thread.join(CLOSE_TIMEOUT.toMillis());
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
-        fleet.close();
+        loop.fleet().close(); // where it did not end in time
     }
 
     private void run() {
-        try (records;
-                statuses) {
-            while (!closed) {
-                try {
-                    step();
-                } catch (KafkaException e) {
-                    LOG.warn("Kafka does not answer the host of devices, which goes on trying: {}", e.toString());
-                    Thread.sleep(PAUSE.toMillis());
+        try {
+            Duration backoff = MIN_BACKOFF;
+            while (!isClosing()) {
+                if (!host()) {
+                    backoff = loop.isCaughtUp() ? MIN_BACKOFF : backoff;
+                    closing.await(backoff.toMillis(), TimeUnit.MILLISECONDS);
+                    backoff = backoff.compareTo(MAX_BACKOFF.dividedBy(2)) > 0 ? MAX_BACKOFF : backoff.multipliedBy(2);
                 }
             }
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
-        } catch (RuntimeException e) {
-            LOG.error("the host of devices stops taking up what is wanted; start it again", e);
+        } catch (FarmSecretCheck.AnotherSecretException e) {
+            refusal = e.getMessage();
+            LOG.error("the host of devices stops: {}", refusal);
         }
     }
 
-    private void step() {
-        Map<String, Map<String, byte[]>> fresh = records.next();
-        if (!caughtUp) {
-            statuses.remember(fresh.getOrDefault(Topics.DEVICES_STATUS, Map.of()));
-        }
-        if (fresh.containsKey(Topics.FIELDS)) {
-            fields.take(fresh.get(Topics.FIELDS));
-            hosting.know(fields.at(System.currentTimeMillis()));
-        }
-        if (fresh.containsKey(Topics.DEVICES)) {
-            hosting.take(read(fresh.get(Topics.DEVICES)));
-        }
-        if (!caughtUp && records.isCaughtUp()) {
-            hosting.forgetAllBut(statuses.keys());
-            caughtUp = true;
-        }
-        for (Runnable next = told.poll(); next != null; next = told.poll()) {
-            next.run();
-        }
-        statuses.repeatLost();
-    }
-
-    private static Map<String, WantedDevice> read(Map<String, byte[]> records) {
-        Map<String, WantedDevice> devices = new LinkedHashMap<>();
-        records.forEach((key, value) -> {
-            try {
-                devices.put(key, value == null ? null : WantedDevice.read(value));
-            } catch (UnreadableException e) {
-                LOG.warn("what is wanted of {} cannot be read and is passed over: {}", key, e.getMessage());
-            }
-        });
-        return devices;
-    }
-
-    /** What the fleet tells, taken on the thread of the host. */
-    private final class Told implements FleetEvents {
-        @Override
-        public void up(String device) {
-            told.add(() -> board.up(device));
-        }
-
-        @Override
-        public void failed(String device, int attempts, String reason) {
-            told.add(() -> board.failed(device, attempts, reason));
+    /** Answers whether it ended without failing. The devices of one that failed are stopped and started again. */
+    private boolean host() throws InterruptedException, FarmSecretCheck.AnotherSecretException {
+        try (HostLoop now = lastFailure == null ? loop : new HostLoop(settings)) {
+            loop = now;
+            now.run(this::isClosing);
+            return true;
+        } catch (RuntimeException e) { // whatever it is, the devices shall run
+            lastFailure = e.toString();
+            LOG.error("the host of devices failed and begins anew", e);
+            return false;
         }
     }
 
-    private final class Running implements Hosting.Fleet {
-        @Override
-        public void add(Collection<FarmFleet.Member> members) {
-            fleet.add(members);
-        }
-
-        @Override
-        public void remove(String device) {
-            fleet.remove(device);
-        }
+    private boolean isClosing() {
+        return closing.getCount() == 0;
     }
 }

@@ -5,10 +5,13 @@ import java.io.Reader;
 import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.List;
 import java.util.Properties;
 import java.util.concurrent.Callable;
 import java.util.concurrent.atomic.AtomicBoolean;
 
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Model.CommandSpec;
@@ -16,6 +19,8 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.file.PrivateFile;
+import io.furrow.model.file.ReloadedFile;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /** The host of simulated devices as a process of its own, in a container for instance: each option may be a variable too. */
@@ -25,6 +30,8 @@ import io.furrow.simulators.mqtt.MqttAccess;
         mixinStandardHelpOptions = true,
         sortOptions = false)
 public final class DeviceHostCommand implements Callable<Integer> {
+    private static final Logger LOG = LoggerFactory.getLogger(DeviceHostCommand.class);
+
     @Spec
     private CommandSpec spec;
 
@@ -92,16 +99,20 @@ public final class DeviceHostCommand implements Callable<Integer> {
 
     /** Ends with 1 where it cannot start or broke down, which is in the log. */
     public static void main(String[] arguments) {
-        System.exit(new CommandLine(new DeviceHostCommand())
-                .setExecutionExceptionHandler((failure, command, result) -> {
-                    command.getErr().println(failure.getMessage());
-                    return 1;
-                })
-                .execute(arguments));
+        System.exit(new CommandLine(new DeviceHostCommand()).execute(arguments));
     }
 
     @Override
-    public Integer call() throws IOException, InterruptedException {
+    public Integer call() throws InterruptedException {
+        try {
+            return runUntilStopped();
+        } catch (IOException e) { // says what is wrong, and what to do
+            spec.commandLine().getErr().println(e.getMessage());
+            return 1;
+        }
+    }
+
+    private int runUntilStopped() throws IOException, InterruptedException {
         DeviceHost host = DeviceHost.start(settings());
         AtomicBoolean asked = new AtomicBoolean();
         Runtime.getRuntime()
@@ -126,6 +137,16 @@ public final class DeviceHostCommand implements Callable<Integer> {
         }
         client.setProperty("bootstrap.servers", kafka);
         MqttAccess access = new MqttAccess(mqtt, trusted.isBlank() ? null : Path.of(trusted), qos);
-        return new HostSettings(client, access, contextBroker, FarmSecret.read(secret), seed);
+        return new HostSettings(client, access, contextBroker, secret(), seed);
+    }
+
+    private ReloadedFile<FarmSecret> secret() throws IOException {
+        return ReloadedFile.open(List.of(secret), this::readSecret, LOG::warn);
+    }
+
+    private FarmSecret readSecret() throws IOException {
+        FarmSecret read = FarmSecret.read(secret);
+        PrivateFile.exposure(secret).ifPresent(LOG::warn);
+        return read;
     }
 }

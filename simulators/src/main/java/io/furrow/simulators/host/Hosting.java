@@ -8,12 +8,18 @@ import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Set;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.SimulatedDevice;
@@ -27,6 +33,7 @@ import io.furrow.simulators.wanted.Reconciler.Step;
  * have lacked. One thread uses it.
  */
 final class Hosting {
+    private static final Logger LOG = LoggerFactory.getLogger(Hosting.class);
     private static final String ROBOT = "Robot";
 
     private final Fleet fleet;
@@ -35,6 +42,10 @@ final class Hosting {
     private final Reconciler reconciler = new Reconciler();
     private final Map<String, WantedDevice> wanted = new HashMap<>();
     private final Map<String, Step> stuck = new LinkedHashMap<>();
+    private final MissionDeviceLists lists = new MissionDeviceLists();
+    /** Devices whose settings are not known yet: the record with them is on its way. */
+    private final Map<String, WantedDevice> unresolved = new LinkedHashMap<>();
+
     private WantedDeviceReader reader;
 
     /** What runs devices. */
@@ -57,8 +68,42 @@ final class Hosting {
         start(retried());
     }
 
+    /** Takes records of {@code service.missions.devices}, null for a part that was deleted. */
+    void takeLists(Map<String, byte[]> records) {
+        records.forEach(lists::take);
+        Map<String, WantedDevice> waiting = new LinkedHashMap<>(unresolved);
+        unresolved.clear();
+        take(waiting);
+    }
+
     /** Takes records of {@code service.devices}, the newest of each key, null for a device that was deleted. */
     void take(Map<String, WantedDevice> records) {
+        Map<String, WantedDevice> resolved = new LinkedHashMap<>();
+        records.forEach((key, device) -> {
+            unresolved.remove(key);
+            if (device == null || !device.running()) {
+                resolved.put(key, device);
+            } else {
+                resolve(device)
+                        .ifPresentOrElse(complete -> resolved.put(key, complete), () -> unresolved.put(key, device));
+            }
+        });
+        takeResolved(resolved);
+    }
+
+    private Optional<WantedDevice> resolve(WantedDevice device) {
+        try {
+            return lists.resolve(device);
+        } catch (UnreadableException e) {
+            LOG.warn(
+                    "the device list of mission {} cannot be read: {}",
+                    device.version().mission(),
+                    e.getMessage());
+            return Optional.empty();
+        }
+    }
+
+    private void takeResolved(Map<String, WantedDevice> records) {
         List<Step> starts = new ArrayList<>();
         boolean robots = false;
         for (Map.Entry<String, WantedDevice> each : records.entrySet()) {
@@ -122,11 +167,18 @@ final class Hosting {
                 missions.computeIfAbsent(device.version().mission(), none -> new ArrayList<>())
                         .add(member);
             } catch (UnusableScenarioException e) {
-                stuck.put(step.key(), new Step.Start(step.key(), device));
-                board.ended(step.key(), reconciler.done(step, e.getMessage()).orElseThrow());
+                failed(step, device, e.getMessage());
+            } catch (RuntimeException e) { // geometry that nobody foresaw, for instance; the others shall run
+                LOG.warn("device {} cannot be simulated", device.device(), e);
+                failed(step, device, "it cannot be simulated: " + e);
             }
         });
         missions.values().forEach(fleet::add);
+    }
+
+    private void failed(Step step, WantedDevice device, String reason) {
+        stuck.put(step.key(), new Step.Start(step.key(), device));
+        board.ended(step.key(), reconciler.done(step, reason).orElseThrow());
     }
 
     private FarmFleet.Member member(String key, WantedDevice device) throws UnusableScenarioException {
@@ -150,6 +202,8 @@ final class Hosting {
 
     /** Takes back what was said of devices that are no longer on the topic. */
     void forgetAllBut(Set<String> said) {
-        said.stream().filter(key -> !wanted.containsKey(key)).forEach(key -> board.ended(key, null));
+        said.stream()
+                .filter(key -> !wanted.containsKey(key) && !unresolved.containsKey(key))
+                .forEach(key -> board.ended(key, null));
     }
 }

@@ -44,12 +44,13 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
     private final MqttAccess access;
     private final MqttAccess.Login login;
     private final MqttAsyncClient client;
-    private final Outbox outbox;
+    private Outbox outbox;
     private final Queue<Long> acknowledgements = new ConcurrentLinkedQueue<>();
     private final BiConsumer<String, byte[]> heard;
     private final String[] topics;
     private volatile boolean closed;
     private long lastAttempt = System.nanoTime();
+    private final Outage outage = new Outage(System::nanoTime);
     private Long watched;
     private long watchedSince;
 
@@ -98,6 +99,12 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
                 line.close();
             }
         }
+    }
+
+    /** Sends what another line of the same device has not brought through yet; that one is not to be used any more. */
+    public void takeOver(Line other) {
+        outbox = other.outbox;
+        outbox.broken();
     }
 
     /** Publishes a message, at once if the connection stands; with QoS 0 only then. */
@@ -165,6 +172,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
 
     @Override
     public void connectComplete(boolean again, String uri) {
+        outage.end();
         try {
             for (int from = 0; from < topics.length; from += TOPICS_PER_SUBSCRIPTION) {
                 String[] some =
@@ -180,7 +188,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
 
     @Override
     public void connectionLost(Throwable cause) {
-        LOG.warn("{} lost its connection and tries again: {}", this, cause.getMessage());
+        outage.begin(this, cause.getMessage());
     }
 
     @Override
@@ -225,6 +233,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
         }
         if (!closed && System.nanoTime() - lastAttempt > RETRY_NANOS) {
             lastAttempt = System.nanoTime();
+            outage.report(this);
             try {
                 client.reconnect();
             } catch (MqttException e) {

@@ -20,11 +20,13 @@ final class Rows {
     /** Shorter pieces are left out. */
     static final double SHORTEST = 0.5;
 
+    private static final int MAX_ROWS = 10_000;
+
     private Rows() {}
 
     /**
      * @param bearing direction of the rows, degrees clockwise from north; null for that of the field's longer side
-     * @throws IllegalArgumentException where no row has room
+     * @throws IllegalArgumentException where no row has room, or there are more than {@value #MAX_ROWS}
      */
     static List<LineSegment> of(WorkField field, double spacing, double margin, Double bearing) {
         double angle = bearing == null ? longerSide(field.area()) : Math.toRadians(90 - bearing);
@@ -35,6 +37,11 @@ final class Rows {
         List<LineSegment> rows = new ArrayList<>();
         boolean east = true;
         Envelope extent = flat.getEnvelopeInternal();
+        if (extent.getHeight() / spacing > MAX_ROWS) {
+            throw new IllegalArgumentException(
+                    "field '%s' has more than %d rows %s m apart: give a greater spacing, or a smaller field"
+                            .formatted(field.id(), MAX_ROWS, spacing));
+        }
         for (double y = extent.getMinY() + spacing / 2; y < extent.getMaxY(); y += spacing) {
             for (LineSegment piece : pieces(flat, y, east)) {
                 rows.add(new LineSegment(turned(back, piece.p0), turned(back, piece.p1)));

@@ -172,7 +172,7 @@ final class GroupReader {
         // A group may be carried by a group: the nth by the nth. Which of the two is meant is known when all devices
         // are.
         String carrier = group.text("carriedBy");
-        return new Place(group.text("where", ""), null, group.has("count") ? carrier + "-" + number : carrier);
+        return new Place(group.reported("where", ""), null, group.has("count") ? carrier + "-" + number : carrier);
     }
 
     private static Weather weather(Members group, long own) throws UnusableScenarioException {

@@ -53,6 +53,18 @@ final class Members {
         return has(name) ? text(name) : otherwise;
     }
 
+    /** A text that devices report as the value of an attribute. */
+    String reported(String name, String otherwise) throws UnusableScenarioException {
+        String text = text(name, otherwise);
+        if (text.matches(".*[<>\"'=;()].*")) {
+            throw refused(
+                    name,
+                    "must not contain any of < > \" ' = ; ( ), which the context broker refuses in a text"
+                            + found(node(name)));
+        }
+        return text;
+    }
+
     boolean truth(String name, boolean otherwise) throws UnusableScenarioException {
         if (has(name) && !node(name).isBoolean()) {
             throw refused(name, "must be true or false" + found(node(name)));

@@ -17,7 +17,7 @@ import io.furrow.simulators.signal.Draw;
 /** Reads where a device is: {@code at} a place, along a {@code route}, somewhere in an {@code area}, or in {@code rows} of a field. */
 final class PlaceReader {
     private static final double MOST_SPEED = 50;
-    private static final int TRIES = 10_000;
+    private static final int TRIES = 1_000;
     private static final int MOST_NAMED = 20;
 
     private final Map<String, WorkField> fields;
@@ -34,7 +34,7 @@ final class PlaceReader {
     /** Of a device that is not carried. */
     SimulatedDevice.Place place(Members device, long seed) throws UnusableScenarioException {
         once(device, "area", "at", "route", "carriedBy");
-        String where = device.text("where", device.text("area", ""));
+        String where = device.reported("where", device.reported("area", ""));
         if (device.has("area")) {
             Position drawn = somewhereIn(field(device, "area"), seed);
             return new SimulatedDevice.Place(where, standing(drawn), null);

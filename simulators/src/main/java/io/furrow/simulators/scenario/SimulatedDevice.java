@@ -33,8 +33,14 @@ public sealed interface SimulatedDevice {
      * @param id at the IoT Agent and in MQTT topics; of a robot, which has none there, its name
      * @param entity id of its entity in the context broker
      * @param type NGSI type of the entity
+     * @param generation how often its credentials were rotated
      */
-    record Identity(String id, String entity, String type, String domain, String mission) {}
+    record Identity(String id, String entity, String type, String domain, String mission, int generation) {
+        /** A device whose credentials were never rotated. */
+        public Identity(String id, String entity, String type, String domain, String mission) {
+            this(id, entity, type, domain, mission, 0);
+        }
+    }
 
     /**
      * Where a device is.

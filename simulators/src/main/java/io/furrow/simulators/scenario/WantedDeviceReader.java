@@ -32,6 +32,10 @@ public final class WantedDeviceReader {
 
     private final PlaceReader places;
     private final long seed;
+    /** The area that was drawn last, and who knows it: devices of one group come together, and share it. */
+    private JsonNode drawnArea;
+
+    private PlaceReader drawnPlaces;
 
     /** @param fields by id */
     public WantedDeviceReader(Map<String, WorkField> fields, long seed) {
@@ -50,7 +54,8 @@ public final class WantedDeviceReader {
                 wanted.version().id(),
                 wanted.type(),
                 wanted.version().domain(),
-                wanted.version().mission());
+                wanted.version().mission(),
+                wanted.generation());
         ObjectNode entry = parameters(wanted.settings());
         Duration period = wanted.period() == null ? PERIODS.getOrDefault(wanted.type(), PERIOD) : wanted.period();
         entry.put("period", period.toString());
@@ -120,7 +125,15 @@ public final class WantedDeviceReader {
         } else {
             entry.put("area", field);
         }
-        return area.isObject() ? new PlaceReader(Map.of(field, drawn((ObjectNode) area))) : places;
+        return area.isObject() ? drawnPlaces((ObjectNode) area) : places;
+    }
+
+    private PlaceReader drawnPlaces(ObjectNode area) throws UnusableScenarioException {
+        if (area != drawnArea) {
+            drawnPlaces = new PlaceReader(Map.of("area", drawn(area)));
+            drawnArea = area;
+        }
+        return drawnPlaces;
     }
 
     private static WorkField drawn(ObjectNode area) throws UnusableScenarioException {

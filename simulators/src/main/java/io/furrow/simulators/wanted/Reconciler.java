@@ -84,6 +84,7 @@ public final class Reconciler {
                 && a.device().equals(b.device())
                 && Objects.equals(a.period(), b.period())
                 && a.settings().equals(b.settings())
+                && a.generation() == b.generation()
                 && a.version().domain().equals(b.version().domain())
                 && a.version().mission().equals(b.version().mission())
                 && Objects.equals(a.version().carriedBy(), b.version().carriedBy());

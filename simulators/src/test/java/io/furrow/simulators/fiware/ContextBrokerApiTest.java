@@ -39,7 +39,18 @@ class ContextBrokerApiTest {
                 "DELETE | /v2/entities/none                  | -                        | 404 | NotFound | The requested entity has not been found. Check type and id",
                 "DELETE | /v2/entities/P1/attrs/none         | -                        | 404 | NotFound | The entity does not have such an attribute",
                 "PATCH  | /v2/entities/none/attrs            | {'a':{'value':1}}        | 404 | NotFound | The requested entity has not been found. Check type and id",
-                "PATCH  | /v2/entities/P1/attrs              | {'a':{'value':1}}        | 404 | NotFound | The entity does not have such an attribute",
+                "PATCH  | /v2/entities/P1/attrs              | {'a':{'value':1}}        | 422 | Unprocessable | do not exist: P1 - [ a ]",
+                "PATCH  | /v2/entities/P1/attrs?type=Probe   | {'b':{'value':1},'a':{'value':1}} | 422 | Unprocessable | do not exist: P1/Probe - [ a, b ]",
+                "PUT    | /v2/entities/P1/attrs/none         | {'value':1}              | 404 | NotFound | The entity does not have such an attribute",
+                "POST   | /v2/entities                       | {'id':'F','a':{'value':'x=y'}} | 400 | BadRequest | Invalid characters in attribute value",
+                "POST   | /v2/entities?options=keyValues     | {'id':'F','a':{'deep':['(x)']}} | 400 | BadRequest | Invalid characters in attribute value",
+                "POST   | /v2/entities                       | {'id':'F','a':{'value':1,'metadata':{'m':{'value':'a;b'}}}} | 400 | BadRequest | Invalid characters in metadata value",
+                "PUT    | /v2/entities/P1/attrs/moisture/value | 'a;b'                  | 400 | BadRequest | Invalid characters in attribute value",
+                "POST   | /v2/op/update                      | {'actionType':'append','entities':[{'id':'ok'},{'id':'F','a':{'value':'x=y'}}]} | 400 | BadRequest | Invalid characters in attribute value",
+                "PATCH  | /v2/entities/P1/attrs              | -                        | 411 | ContentLengthRequired | Zero/No Content-Length in PUT/POST/PATCH request",
+                "GET    | /v2/types/None                     | -                        | 404 | NotFound | Entity type not found",
+                "GET    | /v2/registrations/x                | -                        | 404 | NotFound | The requested registration has not been found. Check id",
+                "POST   | /v2/registrations                  | {}                       | 400 | BadRequest | not supported by the stand-in: registrations by clients",
                 "PATCH  | /v2/entities/P1/attrs              | {'id':'x'}               | 400 | BadRequest | entity id specified in payload",
                 "PATCH  | /v2/entities/P1/attrs              | {'a':1}                  | 400 | BadRequest | attribute must be a JSON object, unless keyValues option is used",
                 "POST   | /v2/entities/P1/attrs              | {}                       | 400 | BadRequest | empty payload",
@@ -47,16 +58,15 @@ class ContextBrokerApiTest {
                 "POST   | /v2/entities                       | {'id':'P 1'}             | 400 | BadRequest | Invalid characters in entity id",
                 "POST   | /v2/entities                       | {'type':'Probe'}         | 400 | BadRequest | entity id length: 0, min length supported: 1",
                 "POST   | /v2/entities                       | {'id':                   | 400 | ParseError | Errors found in incoming JSON buffer",
-                "POST   | /v2/entities                       | {'id':'D','at':{'type':'DateTime','value':'soon'}} | 400 | BadRequest | date has an invalid format",
+                "POST   | /v2/entities                       | {'id':'D','at':{'type':'DateTime','value':'soon'}} | 400 | BadRequest | date has invalid format in attribute value",
                 "PUT    | /v2/entities                       | {}                       | 405 | MethodNotAllowed | method not allowed",
                 "GET    | /v2/nothing                        | -                        | 400 | BadRequest | Service not found. Check your URL as probably it is wrong.",
-                "GET    | /v2/entities?limit=0               | -                        | 400 | BadRequest | Bad pagination limit: /0/ [a value of ZERO is unacceptable]",
                 "GET    | /v2/entities?limit=1001            | -                        | 400 | BadRequest | Bad pagination limit: /1001/ [max: 1000]",
                 "GET    | /v2/entities?offset=x              | -                        | 400 | BadRequest | Bad pagination offset: /x/ [must be a decimal number]",
                 "GET    | /v2/entities?georel=near           | -                        | 400 | BadRequest | not supported by the stand-in: parameter 'georel' in a query of entities",
                 "GET    | /v2/subscriptions/000000000000000000000000 | -                | 404 | NotFound | The requested subscription has not been found. Check id",
                 "POST   | /v2/op/update                      | {'actionType':'append','entities':[]} | 400 | BadRequest | empty entities vector",
-                "POST   | /v2/op/update                      | {'actionType':'update','entities':[{'id':'none','a':{'value':1}}]} | 404 | NotFound | The requested entity has not been found. Check type and id",
+                "POST   | /v2/op/update                      | {'actionType':'update','entities':[{'id':'none','a':{'value':1}}]} | 404 | NotFound | do not exist: none - [entity itself]",
             })
     void refusesAsOrionDoes(String method, String path, String body, int status, String error, String description) {
         Client.Answer answer = client.send(method, path, body == null ? "" : body.replace('\'', '"'));
@@ -202,6 +212,42 @@ class ContextBrokerApiTest {
         assertThat(answer.status()).isEqualTo(422);
         assertThat(answer.json().path("error").asText()).isEqualTo("PartialUpdate");
         assertThat(client.get("/v2/entities/P2/attrs/moisture/value").body()).isEqualTo("1");
+    }
+
+    @Test
+    void keepsAnyTextOfAnAttributeThatIsUnrestricted() {
+        String text = "{\"value\": [\"<a href='x'>;(=)</a>\"], \"type\": \"TextUnrestricted\"}";
+
+        assertThat(client.post("/v2/entities", "{\"id\": \"F\", \"note\": " + text + "}")
+                        .status())
+                .isEqualTo(201);
+        assertThat(client.get("/v2/entities/F/attrs/note/value").body()).isEqualTo("[\"<a href='x'>;(=)</a>\"]");
+    }
+
+    @Test
+    void listsTypesWithTheirAttributes() {
+        client.post("/v2/entities", "{\"id\": \"A\", \"type\": \"Anchor\", \"moisture\": {\"value\": \"wet\"}}");
+        client.patch("/v2/entities/P1/attrs", "{\"moisture\": {\"value\": \"dry\", \"type\": \"Text\"}}");
+
+        assertThat(client.get("/v2/types").body()).isEqualTo("""
+                [{"type":"Anchor","attrs":{"moisture":{"types":["Text"]}},"count":1},\
+                {"type":"Probe","attrs":{"moisture":{"types":["Number","Text"]}},"count":2}]""");
+        assertThat(client.get("/v2/types/Anchor").body()).isEqualTo("""
+                {"attrs":{"moisture":{"types":["Text"]}},"count":1}""");
+        Client.Answer page = client.get("/v2/types?options=values,count&limit=1&offset=1");
+        assertThat(page.body()).isEqualTo("[\"Probe\"]");
+        assertThat(page.total()).isEqualTo("2");
+    }
+
+    @Test
+    void namesAllThatABatchDidNotFind() {
+        Client.Answer answer = client.post("/v2/op/update?options=keyValues", """
+                {"actionType": "update", "entities": [{"id": "none", "moisture": 1}, {"id": "P1", "type": "Probe", "lost": 1},
+                    {"id": "P2", "type": "Probe", "moisture": 1}]}""");
+
+        assertThat(answer.body())
+                .isEqualTo("{\"error\":\"PartialUpdate\",\"description\":\"do not exist: none - [entity itself],"
+                        + " do not exist: P1/Probe - [ lost ]\"}");
     }
 
     @Test

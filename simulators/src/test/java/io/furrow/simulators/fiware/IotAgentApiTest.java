@@ -45,7 +45,7 @@ class IotAgentApiTest {
         assertThat(client.delete("/iot/devices/d1").status()).isEqualTo(204);
         assertThat(client.delete("/iot/services?resource=/iot/json&apikey=k1").status())
                 .isEqualTo(204);
-        assertThat(client.get("/iot/services").json().path("count").asInt()).isZero();
+        assertThat(client.get("/iot/services").status()).isEqualTo(404);
         assertThat(client.get("/iot/devices").json().path("count").asInt()).isZero();
     }
 
@@ -57,13 +57,17 @@ class IotAgentApiTest {
             value = {
                 "GET    | /iot/devices/none | -  | 404 | DEVICE_NOT_FOUND",
                 "DELETE | /iot/devices/none | -  | 404 | DEVICE_NOT_FOUND",
-                "DELETE | /iot/services?apikey=none | - | 404 | DEVICE_GROUP_NOT_FOUND",
+                "DELETE | /iot/services?apikey=none&resource= | - | 404 | DEVICE_GROUP_NOT_FOUND",
+                "DELETE | /iot/services?apikey=k1&resource= | - | 404 | DEVICE_GROUP_NOT_FOUND",
+                "DELETE | /iot/services?apikey=k1 | - | 400 | MISSING_HEADERS",
+                "PUT    | /iot/services?resource=/iot/json | {} | 400 | MISSING_HEADERS",
                 "POST   | /iot/devices      | {'devices':[{'device_id':'d1'}]} | 409 | DUPLICATE_DEVICE_ID",
                 "POST   | /iot/services     | {'services':[{'apikey':'k1','resource':'/iot/json'}]} | 409 | DUPLICATE_GROUP",
-                "POST   | /iot/devices      | {'devices':[{}]} | 400 | WRONG_SYNTAX",
+                "POST   | /iot/devices      | {'devices':[{}]} | 400 | MISSING_ATTRIBUTES",
+                "POST   | /iot/devices      | {} | 400 | WRONG_SYNTAX",
+                "PUT    | /iot/devices/d1   | {'device_id':'d2'} | 400 | BAD_REQUEST",
                 "POST   | /iot/services     | {} | 400 | WRONG_SYNTAX",
-                "POST   | /iot/services     | {' | 400 | ParseError",
-                "GET    | /iot/nothing      | -  | 404 | NOT_FOUND",
+                "POST   | /iot/services     | {' | 500 | SyntaxError",
             })
     void refusesAsTheAgentDoes(String method, String path, String body, int status, String name) {
         client.post("/iot/services", GROUP);
@@ -85,10 +89,66 @@ class IotAgentApiTest {
     }
 
     @Test
+    void saysWhichHeaderIsMissing() {
+        Client.Answer answer = client.as("", "").with("fiware-service", "farm").get("/iot/devices");
+
+        assertThat(answer.json().path("message").asText()).endsWith("[\"fiware-servicepath\"]");
+    }
+
+    @Test
+    void answersWithAPageWhatItHasNoRouteFor() {
+        assertThat(client.get("/iot/nothing").body()).contains("<pre>Cannot GET /iot/nothing</pre>");
+        assertThat(client.send("PATCH", "/iot/devices", "{}").body()).contains("<pre>Cannot PATCH /iot/devices</pre>");
+    }
+
+    @Test
+    void makesTheOtherDevicesOfABatchOfWhichOneIsRefused() {
+        client.post("/iot/devices", DEVICE);
+
+        Client.Answer answer = client.post(
+                "/iot/devices",
+                "{\"devices\": [{\"device_id\": \"d0\"}, {\"device_id\": \"d1\"}, {\"device_id\": \"d2\"}]}");
+
+        assertThat(answer.status()).isEqualTo(409);
+        assertThat(client.get("/iot/devices").json().findValuesAsText("device_id"))
+                .containsExactly("d1", "d0", "d2");
+    }
+
+    @Test
+    void listsAllGroupsOfATenantWhateverPageIsAskedFor() {
+        for (int i = 0; i < 3; i++) {
+            client.post("/iot/services", "{\"services\": [{\"apikey\": \"k%d\", \"resource\": \"\"}]}".formatted(i));
+        }
+
+        assertThat(client.get("/iot/services?limit=1&offset=2").json().path("services"))
+                .hasSize(3);
+    }
+
+    @Test
+    void listsADeviceWhateverItsListsHold() {
+        client.post(
+                "/iot/devices", "{\"devices\": [{\"device_id\": \"odd\", \"lazy\": [1], \"static_attributes\": {}}]}");
+
+        assertThat(client.get("/iot/devices/odd").json().path("lazy").toString())
+                .isEqualTo("[1]");
+    }
+
+    @Test
+    void keepsOneGroupOfAResourceAndAKeyInAllTenants() {
+        client.post("/iot/services", GROUP);
+
+        assertThat(client.as("other", "/").post("/iot/services", GROUP).status())
+                .isEqualTo(409);
+        assertThat(client.post("/iot/services", GROUP.replace("/iot/json", "")).status())
+                .isEqualTo(201);
+    }
+
+    @Test
     void saysThatACommandReachesNobodyWithoutMqtt() {
         client.post("/iot/services", GROUP);
         client.post("/iot/devices", DEVICE);
         Client broker = Client.of(standIn.contextBroker());
+        broker.post("/v2/entities", "{\"id\": \"Probe:d1\", \"type\": \"Probe\"}");
 
         broker.patch("/v2/entities/Probe:d1/attrs?options=keyValues", "{\"on\": 1}");
 

@@ -19,7 +19,6 @@ import org.junit.jupiter.api.Test;
 import io.furrow.embedded.EmbeddedMqtt;
 
 import static org.assertj.core.api.Assertions.assertThat;
-import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 class IotAgentTest {
@@ -160,7 +159,7 @@ class IotAgentTest {
 
     @Test
     void sendsACommandAndShowsWhatBecameOfIt() throws MqttException {
-        assertThat(broker.get(THERMOMETER + "/attrs/on_status/value").body()).isEqualTo("\"UNKNOWN\"");
+        report();
 
         Client.Answer answer =
                 broker.patch(THERMOMETER + "/attrs", "{\"on\": {\"type\": \"command\", \"value\": {\"level\": 2}}}");
@@ -174,11 +173,82 @@ class IotAgentTest {
 
         awaitValue(THERMOMETER, "on_status", "OK");
         assertThat(broker.get(THERMOMETER + "/attrs/on_info/value").body()).isEqualTo("\"done\"");
-        assertThat(broker.get(THERMOMETER + "/attrs/on").status()).isEqualTo(404);
+        assertThat(broker.get("/v2/entities?type=Thermometer").json().path(0).has("on"))
+                .isFalse();
     }
 
     @Test
-    void sendsACommandHoweverItIsWritten() {
+    void takesCommandsFromTheFirstMeasureOn() throws MqttException {
+        String command = "{\"on\": {\"type\": \"command\", \"value\": 1}}";
+        assertThat(broker.get(THERMOMETER).body()).isEqualTo("""
+                {"id":"urn:ngsi-ld:Thermometer:1","type":"Thermometer","on":{"type":"command","value":"","metadata":{}}}""");
+        assertThat(broker.patch(THERMOMETER + "/attrs", command).status()).isEqualTo(404);
+        assertThat(broker.patch(THERMOMETER + "/attrs?type=Thermometer", command)
+                        .status())
+                .isEqualTo(404);
+
+        report();
+
+        assertThat(broker.get(THERMOMETER).json().path("Domain").path("value").asText())
+                .isEqualTo("canary");
+        assertThat(broker.get(THERMOMETER).json().path("on").path("type").asText())
+                .isEqualTo("command");
+        assertThat(broker.patch(THERMOMETER + "/attrs", command).status()).isEqualTo(204);
+        await().until(() -> commands.size() == 1);
+    }
+
+    @Test
+    void refusesAMeasureAsAWholeThatTheContextBrokerWouldRefuse() throws MqttException {
+        report();
+
+        publish("/k1/t1/attrs", "{\"temp\": 22, \"note\": \"a=b\"}");
+        publish("/k1/t1/attrs", "{\"temp\": 23, \"note\": {\"deep\": [\"(x)\"]}}");
+        publish("/k1/t1/attrs", "{\"temp\": 24}");
+
+        awaitValue(THERMOMETER, "Temperature", "24");
+        assertThat(standIn.counters().measuresRefused()).isEqualTo(2);
+        assertThat(broker.get(THERMOMETER + "/attrs/note").status()).isEqualTo(404);
+    }
+
+    @Test
+    void findsADeviceOnlyThroughAGroupOfItsOwnResource() throws MqttException {
+        for (String group : List.of("{'apikey': 'k3', 'resource': ''}", "{'apikey': 'k4', 'resource': '/iot/d'}")) {
+            agent.post("/iot/services", "{\"services\": [" + group.replace('\'', '"') + "]}");
+        }
+        agent.post("/iot/devices", """
+                {"devices": [{"device_id": "d3", "apikey": "k3"}, {"device_id": "d4", "apikey": "k4"},
+                             {"device_id": "d5", "apikey": "k5"}]}""");
+
+        for (int number = 3; number <= 5; number++) {
+            publish("/k%d/d%d/attrs".formatted(number, number), "{\"temp\": 1}");
+        }
+
+        await().until(() -> standIn.counters().measuresRefused() == 3);
+        agent.post("/iot/services", "{\"services\": [{\"apikey\": \"k5\", \"resource\": \"/iot/json\"}]}");
+        publish("/k5/d5/attrs", "{\"temp\": 1}");
+        awaitValue("/v2/entities/Thing:d5", "temp", "1");
+    }
+
+    @Test
+    void changesADeviceOnceItHasAnEntity() throws MqttException {
+        String change = """
+                {"attributes": [{"object_id": "h", "name": "Humidity", "type": "Float"}]}""";
+        assertThat(agent.send("PUT", "/iot/devices/t1", change).status()).isEqualTo(404);
+        report();
+
+        assertThat(agent.send("PUT", "/iot/devices/t1", change).status()).isEqualTo(204);
+
+        publish("/k1/t1/attrs", "{\"h\": 40}");
+        awaitValue(THERMOMETER, "Humidity", "40");
+        assertThat(agent.get("/iot/devices/t1").json().at("/attributes/0/name").asText())
+                .isEqualTo("Humidity");
+        assertThat(agent.get("/iot/devices/t1").json().at("/commands/0/name").asText())
+                .isEqualTo("on");
+    }
+
+    @Test
+    void sendsACommandHoweverItIsWritten() throws MqttException {
+        report();
         broker.patch(THERMOMETER + "/attrs/on", "{\"type\": \"command\", \"value\": 1}");
         broker.post(THERMOMETER + "/attrs?options=keyValues", "{\"on\": 2, \"Note\": \"mixed\"}");
         broker.post("/v2/op/update?options=keyValues", """
@@ -190,35 +260,6 @@ class IotAgentTest {
         assertThat(broker.get(THERMOMETER + "/attrs/Note/value").body()).isEqualTo("\"mixed\"");
     }
 
-    @Test
-    void refusesToStartWithAWrongPassword() {
-        assertThatThrownBy(() -> FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "agent", "wrong")))
-                .isInstanceOf(IllegalStateException.class)
-                .hasMessageContaining(mqtt.uri().toString())
-                .hasMessageContaining("password");
-    }
-
-    @Test
-    void comesBackWhenTheBrokerWasAway() throws MqttException {
-        EmbeddedMqtt first = EmbeddedMqtt.start(PASSWORDS);
-        int port = first.uri().getPort();
-        try (FiwareStandIn other = FiwareStandIn.start(new FiwareSettings(0, 0, first.uri(), "agent", "secret"))) {
-            Client.of(other.iotAgent()).post("/iot/services", "{\"services\": [{\"apikey\": \"k2\"}]}");
-            first.close();
-            EmbeddedMqtt second = EmbeddedMqtt.start(port, PASSWORDS);
-            MqttClient thing = device(second);
-
-            await().until(() -> {
-                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(StandardCharsets.UTF_8), 1, false);
-                return other.counters().measures() > 0;
-            });
-
-            thing.disconnect();
-            thing.close();
-            second.close();
-        }
-    }
-
     private static MqttClient device(EmbeddedMqtt at) throws MqttException {
         MqttConnectOptions options = new MqttConnectOptions();
         options.setUserName("device");
@@ -226,6 +267,12 @@ class IotAgentTest {
         MqttClient client = new MqttClient(at.uri().toString(), "device", new MemoryPersistence());
         client.connect(options);
         return client;
+    }
+
+    /** Sends a first measure and waits until it is there. */
+    private void report() throws MqttException {
+        publish("/k1/t1/attrs", "{\"temp\": 21}");
+        awaitValue(THERMOMETER, "Temperature", "21");
     }
 
     private void publish(String topic, String payload) throws MqttException {

@@ -2,12 +2,14 @@ package io.furrow.simulators.fiware;
 
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
+import java.io.InputStream;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.BasicFileAttributes;
 import java.util.Arrays;
+import java.util.Objects;
 import java.util.zip.GZIPOutputStream;
 
 import org.junit.jupiter.api.Test;
@@ -140,7 +142,7 @@ class StateTest {
             agent.post("/iot/services", """
                     {"services": [{"apikey": "k1", "type": "Probe", "commands": [{"name": "on"}]}, {"apikey": "k2"}]}""");
             agent.post("/iot/devices", "{\"devices\": [{\"device_id\": \"d1\", \"apikey\": \"k1\"}]}");
-            agent.delete("/iot/services?apikey=k1");
+            agent.delete("/iot/services?resource=&apikey=k1");
             devices = agent.get("/iot/devices").body();
             groups = agent.get("/iot/services").body();
         }
@@ -153,11 +155,36 @@ class StateTest {
             assertThat(agent.get("/iot/devices").body()).isEqualTo(devices);
             assertThat(agent.get("/iot/services").body()).isEqualTo(groups);
 
+            broker.post("/v2/entities", "{\"id\": \"Probe:d1\", \"type\": \"Probe\"}");
             broker.patch("/v2/entities/Probe:d1/attrs?options=keyValues", "{\"on\": 1}");
 
             // Nobody can be reached without MQTT, but it was taken for a command.
             assertThat(broker.get("/v2/entities/Probe:d1/attrs/on_status/value").body())
                     .isEqualTo("\"ERROR\"");
+        }
+    }
+
+    /** Written when groups had no number, devices had an entity at once, and any text was taken. */
+    @Test
+    void goesOnFromAFileOfTheTimeBeforeItAnsweredAsRecorded() throws IOException {
+        Files.createDirectories(file().getParent());
+        try (InputStream old = StateTest.class.getResourceAsStream("/fiware-state/before-recorded-exchanges.json.gz")) {
+            Files.copy(Objects.requireNonNull(old), file());
+        }
+
+        try (FiwareStandIn standIn = start()) {
+            Client broker = Client.of(standIn.contextBroker());
+            Client agent = Client.of(standIn.iotAgent());
+            assertThat(broker.get("/v2/entities/t1/attrs/note/value").body()).isEqualTo("\"a=b\"");
+            assertThat(broker.get("/v2/entities/Probe:d1/attrs/Domain/value").body())
+                    .isEqualTo("\"farm (north)\"");
+            assertThat(broker.get(SUBSCRIPTIONS).json().at("/0/id").asText()).isEqualTo("6b02998677c3a0d176000001");
+            assertThat(broker.get(SUBSCRIPTIONS).json().at("/0/throttling").asInt())
+                    .isEqualTo(3);
+            assertThat(agent.get("/iot/services").json().at("/services/0/_id").asInt())
+                    .isEqualTo(1);
+            assertThat(agent.get("/iot/devices/d1").json().at("/commands/0/object_id"))
+                    .hasToString("\"on\"");
         }
     }
 

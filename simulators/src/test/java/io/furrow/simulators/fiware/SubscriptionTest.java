@@ -8,6 +8,8 @@ import java.util.List;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -218,12 +220,32 @@ class SubscriptionTest {
         assertThat(client.get(location).status()).isEqualTo(404);
     }
 
-    @Test
-    void refusesAnOptionThatItDoesNotHave() {
-        Client.Answer answer = client.post("/v2/subscriptions", subscription("/x", "", "\"covered\": true,"));
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "notification with 'covered' | '' | 'covered': true,",
+                "notification with 'kafka'   | '' | 'kafka': {'url': 'x'},",
+                "condition.expression with 'georel' | 'condition': {'expression': {'georel': 'near'}}, | ''",
+                "condition with 'notifyOnMetadataChange' false | 'condition': {'notifyOnMetadataChange': false}, | ''",
+            })
+    void refusesAnOptionOfOrionThatItDoesNotHave(String example) {
+        String[] parts = example.replace("''", "").replace('\'', '"').split("\\|");
+
+        Client.Answer answer = client.post("/v2/subscriptions", subscription("/x", parts[1], parts[2]));
 
         assertThat(answer.status()).isEqualTo(400);
-        assertThat(answer.body()).contains("not supported by the stand-in: notification with 'covered'");
+        assertThat(answer.json().path("description").asText())
+                .isEqualTo("not supported by the stand-in: " + parts[0].trim().replace('"', '\''));
+    }
+
+    @Test
+    void passesOverWhatOrionDoesNotKnow() {
+        String location = subscribe("\"nothing\": 1, \"condition\": {\"neither\": 2},", "\"this\": 3,");
+
+        assertThat(client.get(location).body())
+                .doesNotContain("nothing", "neither", "this")
+                .contains("\"notifyOnMetadataChange\":true", "\"covered\":false");
+        assertThat(client.get("/v2/subscriptions/short").status()).isEqualTo(400);
     }
 
     private String subscribe(String condition, String options) {

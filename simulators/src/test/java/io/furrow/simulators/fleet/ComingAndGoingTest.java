@@ -35,32 +35,35 @@ class ComingAndGoingTest {
     private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
     private static final int MOST_OWN = 3;
 
-    private final Map<String, String> passwords = new ConcurrentHashMap<>(Map.of("farmer", "plough"));
+    private final Map<String, String> passwords = new ConcurrentHashMap<>();
+    private final Set<String> connectedAs = ConcurrentHashMap.newKeySet();
     private final Set<String> up = ConcurrentHashMap.newKeySet();
     private final Queue<String> failures = new ConcurrentLinkedQueue<>();
     private EmbeddedMqtt mqtt;
     private Listener listener;
     private FarmFleet fleet;
+    private volatile FarmSecret secret = SECRET;
 
     @BeforeEach
     void start() throws Exception {
-        mqtt = EmbeddedMqtt.start(passwords);
+        mqtt = EmbeddedMqtt.start(0, Map.of("farmer", "plough"), new Devices());
         FleetSettings settings =
                 new FleetSettings(URI.create("http://127.0.0.1:1"), null, mqtt.uri(), "farmer", "plough", "farm", "/");
         listener = new Listener(settings);
         FleetAccess access =
-                new FleetAccess(settings, new MqttAccess(mqtt.uri(), null, 1), FleetAccess.Logins.of(SECRET));
-        fleet = FarmFleet.open(access, new Connections(access, SECRET::apiKey, MOST_OWN), new FleetEvents() {
-            @Override
-            public void up(String device) {
-                up.add(device);
-            }
+                new FleetAccess(settings, new MqttAccess(mqtt.uri(), null, 1), FleetAccess.Logins.of(() -> secret));
+        fleet = FarmFleet.open(
+                access, new Connections(access, mission -> secret.apiKey(mission), MOST_OWN), new FleetEvents() {
+                    @Override
+                    public void up(String device) {
+                        up.add(device);
+                    }
 
-            @Override
-            public void failed(String device, int attempts, String reason) {
-                failures.add(device + " " + attempts + " " + reason);
-            }
-        });
+                    @Override
+                    public void failed(String device, int attempts, String reason) {
+                        failures.add(device + " " + attempts + " " + reason);
+                    }
+                });
     }
 
     @AfterEach
@@ -99,7 +102,7 @@ class ComingAndGoingTest {
     void triesARefusedLoginUntilItIsKnownAndNotWhenTheDeviceIsGone() throws Exception {
         fleet.add(mission("late", 2));
         await().until(() -> failures.stream().anyMatch(failure -> failure.startsWith("late-1 3 the MQTT broker")));
-        assertThat(failures).allMatch(failure -> failure.contains("refuses user 'late.late-"));
+        assertThat(failures).allMatch(failure -> failure.contains("refuses user 'furrow.d.late.late-"));
         assertThat(up).isEmpty();
         fleet.remove("late-2");
 
@@ -111,9 +114,50 @@ class ComingAndGoingTest {
         assertThat(fleet.connections()).isEqualTo(1);
     }
 
+    /** A device goes on with its old login until the broker takes the new one: nothing is lost in between. */
+    @Test
+    void movesToNewLoginsWithoutAGapAndTriesUntilTheyAreKnown() throws Exception {
+        letIn("small", 2);
+        letInGateway("large");
+        fleet.add(mission("small", 2));
+        await().until(() -> up.size() == 2);
+        fleet.add(mission("large", 2));
+        await().until(() -> up.size() == 4);
+        Instant now = Instant.now();
+
+        secret = SECRET.rotated(now, now.plusSeconds(60), false);
+        fleet.renew();
+        await().until(() -> failures.stream().anyMatch(failure -> failure.contains("furrow.d.small.small-1.2.0'")));
+        assertThat(fleet.connections()).isEqualTo(3);
+        int before = listener.heard(topic("small", 1, "attrs")).size();
+        await().until(() -> listener.heard(topic("small", 1, "attrs")).size() > before + 5);
+
+        letIn(secret, "small", 2);
+        FarmSecret.Login gateway = secret.gateway("large");
+        passwords.put(gateway.user(), gateway.password());
+        await().until(() -> connectedAs.containsAll(List.of(
+                secret.device("small", "small-1").user(),
+                secret.device("small", "small-2").user(),
+                gateway.user())));
+        passwords.keySet().removeIf(user -> user.endsWith(".1.0") || user.endsWith(".1"));
+        int moved = listener.heard(topic("large", 1, "attrs")).size();
+        await().until(() -> listener.heard(topic("large", 1, "attrs")).size() > moved + 5);
+        listener.say(topic("large", 2, "cmd"), "{\"off\": \"\"}");
+        await().until(() -> !listener.heard(topic("large", 2, "cmdexe")).isEmpty());
+
+        assertThat(fleet.connections()).isEqualTo(3);
+        assertThat(fleet.drain(Duration.ofSeconds(20))).isTrue();
+        // All reports, and the answer to the command.
+        assertThat(fleet.tally()).isEqualTo(new FarmFleet.Tally(fleet.reports() + 1, 0, 0));
+    }
+
     private void letIn(String mission, int devices) {
+        letIn(SECRET, mission, devices);
+    }
+
+    private void letIn(FarmSecret secret, String mission, int devices) {
         for (int number = 1; number <= devices; number++) {
-            FarmSecret.Login login = SECRET.device(mission, mission + "-" + number);
+            FarmSecret.Login login = secret.device(mission, mission + "-" + number);
             passwords.put(login.user(), login.password());
         }
     }
@@ -141,5 +185,27 @@ class ComingAndGoingTest {
                     new WantedDeviceReader(Map.of(), 0).read(wanted), FiwareScope.of("farm", "/"), now));
         }
         return members;
+    }
+
+    /** Those with a password, who may do everything. */
+    private final class Devices implements EmbeddedMqtt.Users {
+        @Override
+        public boolean knows(String user, byte[] password) {
+            boolean known = new String(password, StandardCharsets.UTF_8).equals(passwords.get(user));
+            if (known) {
+                connectedAs.add(user);
+            }
+            return known;
+        }
+
+        @Override
+        public boolean mayWrite(String user, String topic) {
+            return passwords.containsKey(user);
+        }
+
+        @Override
+        public boolean mayRead(String user, String filter) {
+            return passwords.containsKey(user);
+        }
     }
 }

@@ -93,6 +93,20 @@ class FleetEndsTest {
     }
 
     @Test
+    void makesItsGroupUnderTheResourceThatIsSet() throws Exception {
+        FleetSettings settings = ends.settings().withIotAgentResource("");
+
+        FarmFleet.start(farm(THERMOMETER), FleetAccess.of(settings)).close();
+
+        assertThat(ends.asked("/iot/services")
+                        .get(0)
+                        .body()
+                        .at("/services/0/resource")
+                        .textValue())
+                .isEmpty();
+    }
+
+    @Test
     void startsAgainWhereTheAgentKnowsItsDevices() throws Exception {
         ends.answer(request -> 409);
 

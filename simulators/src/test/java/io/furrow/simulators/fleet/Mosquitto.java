@@ -54,6 +54,12 @@ final class Mosquitto {
         return broker;
     }
 
+    /** Gives it one more user, while it runs. */
+    void add(String user, String password) throws Exception {
+        run("mosquitto_passwd", "-b", file("passwords"), user, password);
+        run("kill", "-HUP", Long.toString(process.pid()));
+    }
+
     URI uri() {
         return URI.create("ssl://127.0.0.1:" + port);
     }

@@ -15,6 +15,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.model.device.FarmSecret;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 import io.furrow.simulators.scenario.Farm;
@@ -73,22 +74,48 @@ class MosquittoIT {
                 broker.restart();
             }
             long before = fleet.tally().acknowledged();
-            await().atMost(Duration.ofSeconds(30)).until(() -> fleet.tally().acknowledged() > before + 500);
+            await().atMost(Duration.ofSeconds(60)).until(() -> fleet.tally().acknowledged() > before + 500);
 
             assertThat(fleet.drain(Duration.ofSeconds(60))).isTrue();
             assertThat(fleet.tally()).isEqualTo(new FarmFleet.Tally(fleet.reports(), 0, 0));
-            await().atMost(Duration.ofSeconds(30))
+            await().atMost(Duration.ofSeconds(60))
                     .untilAsserted(() -> assertThat(subscriber.measures()).hasSize((int) fleet.reports()));
         }
     }
 
+    /** The mission has the name of a user that somebody else has, as the IoT Agent may be. */
+    @Test
+    void connectsWithTheLoginsOfTheFarmsSecretBesideAUserOfTheMissionsName() throws Exception {
+        FarmSecret secret = FarmSecret.generate();
+        FarmSecret.Login gateway = secret.gateway("farmer");
+        broker.add(gateway.user(), gateway.password());
+        String farm = FARM.replace("weeding", "farmer");
+        FleetAccess access = new FleetAccess(
+                new FleetSettings(null, null, broker.uri(), null, null, "farm", "/"),
+                new MqttAccess(broker.uri(), broker.certificate(), 1),
+                FleetAccess.Logins.of(() -> secret));
+
+        // Mosquitto reads its files a moment after it is told to.
+        try (FarmFleet fleet = await().atMost(PATIENCE)
+                        .ignoreExceptions()
+                        .until(() -> fleet(farm, access, 5), started -> started.connections() == 1);
+                Subscriber subscriber = Subscriber.to(broker, "subscriber-farmer")) {
+            await().atMost(PATIENCE).until(() -> subscriber.measures().size() > 20);
+            assertThat(fleet.tally().dropped()).isZero();
+        }
+    }
+
     private static FarmFleet fleet(Path trusted, String password, int mostOwn) throws IOException {
-        Farm farm = Farm.read(new ByteArrayInputStream(FARM.getBytes(StandardCharsets.UTF_8)), Instant.now());
         FleetSettings settings = new FleetSettings(null, null, broker.uri(), "farmer", password, "farm", "/");
         FleetAccess access = new FleetAccess(
                 settings,
                 new MqttAccess(broker.uri(), trusted, 1),
                 FleetAccess.Logins.all(new MqttAccess.Login("farmer", password)));
+        return fleet(FARM, access, mostOwn);
+    }
+
+    private static FarmFleet fleet(String scenario, FleetAccess access, int mostOwn) throws IOException {
+        Farm farm = Farm.read(new ByteArrayInputStream(scenario.getBytes(StandardCharsets.UTF_8)), Instant.now());
         return FarmFleet.start(farm, access, mostOwn, Clock.systemUTC());
     }
 }

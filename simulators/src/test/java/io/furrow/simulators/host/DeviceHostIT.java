@@ -2,6 +2,7 @@ package io.furrow.simulators.host;
 
 import java.nio.file.Path;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.List;
 
 import org.junit.jupiter.api.AfterAll;
@@ -13,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.model.device.FarmSecret;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.Listener;
 
@@ -62,7 +64,8 @@ class DeviceHostIT {
         await().atMost(PATIENCE)
                 .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
                     assertThat(status.state()).isEqualTo(State.FAILED);
-                    assertThat(status.reason()).contains("refuses user 'late.urn%3Angsi-ld%3AThermometer%3Alate-1'");
+                    assertThat(status.reason())
+                            .contains("refuses user 'furrow.d.late.urn%3Angsi-ld%3AThermometer%3Alate-1.1.0'");
                 }));
 
         bench.admit("late", device);
@@ -73,6 +76,23 @@ class DeviceHostIT {
         await().atMost(PATIENCE)
                 .untilAsserted(() -> assertThat(listener.heard(topic("late", device, "attrs")))
                         .hasSizeGreaterThan(3));
+    }
+
+    @Test
+    void beginsAnewAfterAFailureThatNobodyForesaw() throws Exception {
+        String device = run("anew", 1);
+        FarmSecret before = bench.secret;
+        bench.secret = null;
+        await().atMost(PATIENCE)
+                .untilAsserted(() -> assertThat(host.lastFailure()).contains("NullPointerException"));
+        bench.secret = before;
+
+        await().atMost(PATIENCE).until(host::isCaughtUp);
+        await().atMost(PATIENCE).until(() -> host.fleet().connections() == 1);
+        int heard = heard("anew", device);
+        await().atMost(PATIENCE).until(() -> heard("anew", device) > heard);
+        assertThat(host.isAlive()).isTrue();
+        bench.delete(device);
     }
 
     @Test
@@ -185,6 +205,50 @@ class DeviceHostIT {
         }
         assertThat(longest).as("ms without a measure, by the device's clock").isGreaterThanOrEqualTo(1900);
         bench.delete(device);
+    }
+
+    @Test
+    void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
+        String device = run("stolen", 1);
+        bench.passwords.remove(HostBench.SECRET.device("stolen", device).user());
+        FarmSecret.Login login = HostBench.SECRET.device("stolen", device, 1);
+        bench.passwords.put(login.user(), login.password());
+
+        long sequence = bench.wantRotated("stolen", device, YARD, 1);
+
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        int before = heard("stolen", device);
+        await().atMost(PATIENCE).until(() -> heard("stolen", device) > before + 3);
+        bench.delete(device);
+    }
+
+    @Test
+    void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
+        String device = run("rotated", 1);
+        bench.putFingerprints(HostBench.SECRET);
+        Instant now = Instant.now();
+        FarmSecret rotated = HostBench.SECRET.rotated(now, now.plusSeconds(60), false);
+        FarmSecret.Login login = rotated.device("rotated", device);
+        bench.passwords.put(login.user(), login.password());
+
+        bench.secret = rotated;
+        // One that is wanted from now on has the new login only.
+        String second = entity("Thermometer", "rotated", 2);
+        FarmSecret.Login other = rotated.device("rotated", second);
+        bench.passwords.put(other.user(), other.password());
+        long sequence = bench.want("rotated", second, true, YARD);
+
+        await().atMost(PATIENCE)
+                .untilAsserted(() ->
+                        assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
+        bench.passwords.remove(HostBench.SECRET.device("rotated", device).user());
+        int before = heard("rotated", device);
+        await().atMost(PATIENCE).until(() -> heard("rotated", device) > before + 10);
+        bench.secret = HostBench.SECRET;
+        bench.delete(device);
+        bench.delete(second);
     }
 
     private String run(String mission, int number) throws Exception {

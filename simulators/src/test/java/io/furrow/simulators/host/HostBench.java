@@ -31,6 +31,7 @@ import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.SecretFingerprints;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
@@ -45,6 +46,9 @@ final class HostBench implements AutoCloseable {
     static final String SECRET_TEXT = "0123456789abcdef";
     static final FarmSecret SECRET = new FarmSecret(SECRET_TEXT.getBytes(StandardCharsets.UTF_8));
 
+    /** What hosts are given. */
+    volatile FarmSecret secret = SECRET;
+
     final Map<String, String> passwords = new ConcurrentHashMap<>(Map.of("farmer", "plough"));
     final FiwareStandIn fiware;
     private final EmbeddedKafka kafka;
@@ -58,7 +62,7 @@ final class HostBench implements AutoCloseable {
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
         producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
         try (Admin admin = Admin.create(client())) {
-            admin.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS).stream()
+            admin.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS).stream()
                             .map(topic ->
                                     new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
                             .toList())
@@ -78,7 +82,7 @@ final class HostBench implements AutoCloseable {
                 client(),
                 new MqttAccess(mqtt.uri(), null, 1),
                 URI.create(fiware.contextBroker().toString()),
-                SECRET);
+                () -> secret);
     }
 
     Listener listener() throws Exception {
@@ -106,6 +110,16 @@ final class HostBench implements AutoCloseable {
 
     /** Asks for a device, or for its end; answers the sequence. */
     long want(String mission, String entity, boolean running, String settings) throws Exception {
+        return want(mission, entity, running, settings, 0);
+    }
+
+    /** Asks for a device with new credentials. */
+    long wantRotated(String mission, String entity, String settings, int generation) throws Exception {
+        return want(mission, entity, true, settings, generation);
+    }
+
+    private long want(String mission, String entity, boolean running, String settings, int generation)
+            throws Exception {
         long number = sequence.incrementAndGet();
         long now = System.currentTimeMillis();
         DeviceVersion version = new DeviceVersion(
@@ -116,10 +130,17 @@ final class HostBench implements AutoCloseable {
             version = new DeviceVersion(entity, "farm", "/", "farm", mission, now, null, number, carrier.textValue());
         }
         String type = entity.split(":")[2];
-        WantedDevice wanted = new WantedDevice(version, type, entity, running, Duration.ofMillis(100), json);
+        WantedDevice wanted = new WantedDevice(version, type, entity, running, Duration.ofMillis(100), json)
+                .withGeneration(generation);
         producer.send(new ProducerRecord<>(Topics.DEVICES, key(entity), wanted.toBytes()))
                 .get();
         return number;
+    }
+
+    /** Says which secret the farm has, as the control plane does. */
+    void putFingerprints(FarmSecret farms) throws Exception {
+        byte[] value = SecretFingerprints.of(farms).toBytes();
+        put(Topics.SECRETS, SecretFingerprints.KEY, new String(value, StandardCharsets.UTF_8));
     }
 
     void delete(String entity) throws Exception {

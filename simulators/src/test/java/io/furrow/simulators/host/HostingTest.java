@@ -22,6 +22,8 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.GroupRef;
+import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.simulators.fleet.FarmFleet;
@@ -91,6 +93,45 @@ class HostingTest {
 
         assertThat(running).isEmpty();
         assertThat(statuses).containsEntry("t-1", null);
+    }
+
+    /** The records of a device and of its mission's list are on two topics: either may come first. */
+    @Test
+    void waitsForTheSettingsOfADevice() {
+        MissionDeviceList list = new MissionDeviceList(
+                "weeding",
+                0,
+                5,
+                JsonNodeFactory.instance.arrayNode().add(path(-3.5).put("type", "Thermometer")));
+        WantedDevice device = inGroup(wanted("t-1", 6, true, JsonNodeFactory.instance.objectNode()), 5);
+        take("t-1", device);
+        assertThat(running).isEmpty();
+        assertThat(statuses).isEmpty();
+        hosting.forgetAllBut(Set.of("t-1"));
+        assertThat(statuses).isEmpty();
+
+        hosting.takeLists(Map.of(list.key(), list.toBytes()));
+        board.up("t-1");
+        assertThat(running).containsExactly("t-1");
+        assertThat(statuses).containsEntry("t-1", status(6, State.RUNNING));
+
+        take("t-1", inGroup(wanted("t-1", 9, true, JsonNodeFactory.instance.objectNode()), 8));
+        take("t-1", wanted("t-1", 10, false, JsonNodeFactory.instance.objectNode()));
+        assertThat(running).isEmpty();
+        hosting.takeLists(Map.of(list.key(), new MissionDeviceList("weeding", 0, 8, list.devices()).toBytes()));
+        assertThat(running).isEmpty();
+    }
+
+    private static WantedDevice inGroup(WantedDevice device, long sequence) {
+        return new WantedDevice(
+                device.version(),
+                device.type(),
+                device.device(),
+                device.running(),
+                device.period(),
+                device.settings(),
+                new GroupRef(0, 0, sequence),
+                device.generation());
     }
 
     @Test

@@ -13,6 +13,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.model.device.FarmSecret;
 import io.furrow.simulators.device.Listener;
 
 import static io.furrow.simulators.host.HostBench.entity;
@@ -87,6 +88,32 @@ class KilledHostIT {
         assertThat(process.waitFor()).isEqualTo(1);
         assertThat(Files.readString(directory.resolve("host-with-a-short-secret.log")))
                 .contains("short: a farm's secret has at least 16 bytes");
+    }
+
+    @Test
+    void endsWithASentenceWhereTheFarmHasAnotherSecret() throws Exception {
+        bench.putFingerprints(FarmSecret.generate());
+        bench.want("killed", entity("Thermometer", "killed", 1), true, YARD);
+
+        Process host = host();
+
+        assertThat(host.waitFor()).isEqualTo(1);
+        assertThat(Files.readString(directory.resolve("host-0.log")))
+                .contains(
+                        "this farm has another secret",
+                        HostBench.SECRET.toString(),
+                        "a copy of the control plane's file");
+        assertThat(bench.statuses()).isEmpty();
+    }
+
+    @Test
+    void endsWithASentenceWhereThereIsNoSecret() throws Exception {
+        Process process = run(directory.resolve("missing"), "host-without-a-secret");
+
+        assertThat(process.waitFor()).isEqualTo(1);
+        assertThat(Files.readString(directory.resolve("host-without-a-secret.log")))
+                .contains("there is no file " + directory.resolve("missing"), "./furrow secret new")
+                .doesNotContain("Exception");
     }
 
     private Process host() throws Exception {

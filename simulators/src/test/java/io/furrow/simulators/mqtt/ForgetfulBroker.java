@@ -11,7 +11,10 @@ import java.nio.charset.StandardCharsets;
 import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 
-/** As much of an MQTT broker as one publisher needs; the first message of all it drops without a word, as a busy one does. */
+/**
+ * As much of an MQTT broker as one publisher needs; the first message of all it drops without a word, as a busy one does, or, where
+ * told to, the connection at the first subscription.
+ */
 final class ForgetfulBroker implements AutoCloseable {
     private static final int CONNECT = 1;
     private static final int PUBLISH = 3;
@@ -19,9 +22,12 @@ final class ForgetfulBroker implements AutoCloseable {
 
     private final ServerSocket server = new ServerSocket(0, 5, InetAddress.getLoopbackAddress());
     private final List<String> taken = new CopyOnWriteArrayList<>();
+    private final boolean cuts;
     private boolean forgot;
 
-    ForgetfulBroker() throws IOException {
+    /** @param cuts the connection instead of dropping a message */
+    ForgetfulBroker(boolean cuts) throws IOException {
+        this.cuts = cuts;
         Thread thread = new Thread(this::serve, "forgetful-broker");
         thread.setDaemon(true);
         thread.start();
@@ -54,6 +60,9 @@ final class ForgetfulBroker implements AutoCloseable {
     private void answer(int kind, byte[] packet, OutputStream out) throws IOException {
         if (kind == CONNECT) {
             out.write(new byte[] {0x20, 2, 0, 0});
+        } else if (kind == SUBSCRIBE && cuts && !forgot) {
+            forgot = true;
+            throw new IOException("cut");
         } else if (kind == SUBSCRIBE) {
             out.write(new byte[] {(byte) 0x90, 3, packet[0], packet[1], 1});
         } else if (kind == PUBLISH && !forgot) {

@@ -12,7 +12,7 @@ import static org.awaitility.Awaitility.await;
 class LineTest {
     @Test
     void sendsAgainWhatABrokerDroppedThoughTheConnectionHolds() throws Exception {
-        try (ForgetfulBroker broker = new ForgetfulBroker()) {
+        try (ForgetfulBroker broker = new ForgetfulBroker(false)) {
             Line.Plan plan =
                     new Line.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
             try (Line line = Line.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
@@ -28,5 +28,28 @@ class LineTest {
                 assertThat(line.acknowledged()).isEqualTo(2);
             }
         }
+    }
+
+    /** As an embedded broker does that is not ready for the subscription though it has accepted the connection. */
+    @Test
+    void getsOverAConnectionThatIsCutAtTheSubscriptionWithoutAWarning() throws Exception {
+        Warnings warnings = Warnings.record(LineTest.class.getPackageName());
+        try (ForgetfulBroker broker = new ForgetfulBroker(true)) {
+            Line.Plan plan =
+                    new Line.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of("/k/d/cmd"), 10, 1000);
+            try (Line line = Line.open(new MqttAccess(broker.uri(), null, 1), plan, (topic, payload) -> {})) {
+                line.send("/k/d/attrs", "1".getBytes(StandardCharsets.UTF_8));
+
+                await().until(() -> {
+                    line.push();
+                    return line.open() == 0;
+                });
+
+                assertThat(broker.taken()).containsExactly("1");
+            }
+        } finally {
+            warnings.close();
+        }
+        assertThat(warnings.messages()).isEmpty();
     }
 }

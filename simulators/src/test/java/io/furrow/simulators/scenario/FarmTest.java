@@ -149,6 +149,7 @@ class FarmTest {
         "count": 5                  | "count": 0                  | missions[0].devices[0].count: must be a whole number from 1 to 100000, not 0
         "meanCelsius": 20           | "meanCelsius": 200          | missions[0].devices[0].meanCelsius: must be a number from -60 to 60, not 200
         "meanCelsius": 20           | "meanCelcius": 20           | missions[0].devices[0].meanCelcius: is not known here; known are area, at, battery, carriedBy, count, entity, faults, id, meanCelsius, period, route, type, where
+        "meanCelsius": 20           | "where": "yard (north)"     | missions[0].devices[0].where: must not contain any of < > " ' = ; ( ), which the context broker refuses in a text, not "yard (north)"
         "area": "field-1"           | "area": "field-2"           | missions[0].devices[0].area: there is no field 'field-2'; there are: field-1
         "area": "field-1",          | ''                          | missions[0].devices[0].area: is missing; say where it is with one of area, at, route or carriedBy
         "area": "field-1"           | "area": "field-1", "carriedBy": "r" | missions[0].devices[0].carriedBy: says again where the device is, after area; leave one out

@@ -66,6 +66,15 @@ class ReconcilerTest {
     }
 
     @Test
+    void replacesADeviceThatHasNewCredentials() {
+        WantedDevice first = wanted(1, true, 18);
+        WantedDevice rotated = wanted(2, true, 18).withGeneration(1);
+        reconciler.done(reconciler.take(KEY, first).orElseThrow(), null);
+
+        assertThat(reconciler.take(KEY, rotated)).contains(new Step.Replace(KEY, first, rotated));
+    }
+
+    @Test
     void saysWhyADeviceFailedAndTriesAnewWithTheNextSequence() {
         Step start = reconciler.take(KEY, wanted(1, true, 18)).orElseThrow();
         assertThat(reconciler.done(start, "there is no field 'x'"))

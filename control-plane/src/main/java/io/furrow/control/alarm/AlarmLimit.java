@@ -1,0 +1,187 @@
+package io.furrow.control.alarm;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.EnumSet;
+import java.util.LinkedHashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Objects;
+import java.util.Set;
+import java.util.TreeMap;
+
+import io.furrow.control.manager.Records;
+import io.furrow.model.control.AlarmKind;
+
+/**
+ * Limits how many alarms of a kind a mission or field has at a time. Causes beyond the limit are counted, and have one alarm
+ * together.
+ */
+final class AlarmLimit {
+    /** Alarms of a kind and group; further causes are counted. */
+    static final int MAX_ALARMS = 20;
+    /** Causes that are counted of a kind and group; further ones are not stored until there is room. */
+    static final int MAX_COUNTED = 1000;
+
+    /** Those that are raised one by one. */
+    static final Set<AlarmKind> KINDS =
+            EnumSet.of(AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR);
+
+    private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
+
+    private final Records<Group> groups;
+    private final Records<Counted> counted;
+    private long recounted;
+
+    /**
+     * What there is of a kind and group.
+     *
+     * @param key kind and group
+     * @param alarms how many are open
+     * @param counted how many causes have no alarm
+     * @param devices some of these concern
+     */
+    record Group(String key, AlarmKind kind, String group, int alarms, int counted, List<Cause.Device> devices) {
+        Group with(int newAlarms, int newCounted) {
+            return new Group(key, kind, group, newAlarms, newCounted, devices);
+        }
+    }
+
+    /**
+     * A cause without an alarm.
+     *
+     * @param key kind and subject
+     * @param until how long it is so, epoch ms; null until something says that it is over
+     */
+    record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until) {}
+
+    AlarmLimit(Records<Group> groups, Records<Counted> counted) {
+        this.groups = groups;
+        this.counted = counted;
+    }
+
+    /** Counts a cause that has no alarm yet. @return whether it was counted; else it is to have an alarm */
+    boolean take(Cause cause, long now) {
+        if (cause.group() == null) {
+            return false;
+        }
+        Group group = group(cause.kind(), cause.group());
+        Counted before = counted.get(cause.key());
+        boolean known = before != null;
+        if (!known && group.alarms() < MAX_ALARMS) {
+            return false;
+        }
+        boolean hasRoom = group.counted() < MAX_COUNTED;
+        if (known ? !Objects.equals(before.until(), cause.until(now)) : hasRoom) {
+            counted.put(
+                    cause.key(),
+                    new Counted(cause.key(), cause.kind(), cause.group(), cause.devices(), cause.until(now)));
+        }
+        if (!known && hasRoom) {
+            store(new Group(
+                    group.key(),
+                    group.kind(),
+                    group.group(),
+                    group.alarms(),
+                    group.counted() + 1,
+                    joined(group.devices(), cause.devices())));
+        }
+        return true;
+    }
+
+    /** A cause without an alarm is over, if there is one. */
+    void end(AlarmKind kind, String subject) {
+        Counted known = counted.get(Cause.key(kind, subject));
+        if (known != null) {
+            counted.put(known.key(), null);
+            Group group = group(kind, known.group());
+            store(group.with(group.alarms(), Math.max(0, group.counted() - 1)));
+        }
+    }
+
+    /** An alarm was opened or closed. */
+    void changed(Alarm alarm, int by) {
+        if (alarm.group() != null && !alarm.isOfGroup()) {
+            Group group = group(alarm.kind(), alarm.group());
+            store(group.with(Math.max(0, group.alarms() + by), group.counted()));
+        }
+    }
+
+    /** What the groups are to have an alarm of, after causes that are over by themselves were forgotten. */
+    List<Cause> causes(long now) {
+        if (now - recounted >= RECOUNT_EVERY) {
+            recounted = now;
+            recount(now);
+        }
+        List<Cause> causes = new ArrayList<>();
+        groups.forEach(group -> {
+            if (group.counted() > 0) {
+                causes.add(Cause.ofMany(
+                        group.kind(),
+                        group.group(),
+                        text(group),
+                        group.devices(),
+                        new Cause.Extent(group.counted(), null)));
+            }
+        });
+        return causes;
+    }
+
+    private void recount(long now) {
+        List<String> over = new ArrayList<>();
+        Map<String, List<Counted>> lasting = new TreeMap<>();
+        counted.forEach(each -> {
+            if (each.until() != null && each.until() <= now) {
+                over.add(each.key());
+            } else {
+                lasting.computeIfAbsent(Cause.key(each.kind(), each.group()), any -> new ArrayList<>())
+                        .add(each);
+            }
+        });
+        over.forEach(key -> counted.put(key, null));
+        List<Group> all = new ArrayList<>();
+        groups.forEach(all::add);
+        for (Group group : all) {
+            List<Counted> members = lasting.getOrDefault(group.key(), List.of());
+            List<Cause.Device> devices = List.of();
+            for (Counted each : members) {
+                devices = joined(devices, each.devices());
+            }
+            store(new Group(group.key(), group.kind(), group.group(), group.alarms(), members.size(), devices));
+        }
+    }
+
+    private static List<Cause.Device> joined(List<Cause.Device> some, List<Cause.Device> others) {
+        if (some.size() >= Cause.MAX_DEVICES) {
+            return some;
+        }
+        Set<Cause.Device> joined = new LinkedHashSet<>(some);
+        joined.addAll(others);
+        return joined.stream().limit(Cause.MAX_DEVICES).toList();
+    }
+
+    private Group group(AlarmKind kind, String group) {
+        String key = Cause.key(kind, group);
+        Group known = groups.get(key);
+        return known == null ? new Group(key, kind, group, 0, 0, List.of()) : known;
+    }
+
+    private void store(Group group) {
+        Group stored = group.alarms() == 0 && group.counted() == 0 ? null : group;
+        if (!Objects.equals(stored, groups.get(group.key()))) {
+            groups.put(group.key(), stored);
+        }
+    }
+
+    private static String text(Group group) {
+        String number = group.counted() < MAX_COUNTED ? group.counted() + " more" : MAX_COUNTED + " or more further";
+        String what = switch (group.kind()) {
+            case COLLISION -> "%s pairs of %s are too close";
+            case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
+            case SUSPECT_SENSOR -> "%s sensors of %s show what the others do not";
+            case SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
+                throw new IllegalStateException("alarms of silence are grouped already: " + group.key());
+        };
+        return what.formatted(number, AlarmGroup.label(group.group()));
+    }
+}

@@ -1,0 +1,145 @@
+package io.furrow.control.manager;
+
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.errors.RecordTooLargeException;
+import org.apache.kafka.common.errors.RetriableException;
+import org.apache.kafka.common.errors.SerializationException;
+import org.apache.kafka.common.header.Headers;
+import org.apache.kafka.common.header.internals.RecordHeaders;
+import org.apache.kafka.streams.errors.DeserializationExceptionHandler;
+import org.apache.kafka.streams.errors.ErrorHandlerContext;
+import org.apache.kafka.streams.errors.ProcessingExceptionHandler;
+import org.apache.kafka.streams.errors.ProductionExceptionHandler;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RequestExcerpt;
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.topic.Topics;
+
+/**
+ * What Kafka Streams does where a record makes it fail, in all applications of the control plane: the record becomes a dead letter and
+ * the rest goes on. Processors handle their failures themselves, whole and with an answer, see {@link AnswerRequests} and {@link
+ * GuardedWork}; this is for what escapes them. Where Kafka itself failed the thread is replaced instead, and the record read again.
+ */
+public final class FailureHandler
+        implements DeserializationExceptionHandler, ProcessingExceptionHandler, ProductionExceptionHandler {
+    private static final Logger LOG = LoggerFactory.getLogger(FailureHandler.class);
+
+    @Override
+    public DeserializationExceptionHandler.Response handleError(
+            ErrorHandlerContext context, ConsumerRecord<byte[], byte[]> record, Exception failure) {
+        String source = "%s-%d@%d".formatted(record.topic(), record.partition(), record.offset());
+        LOG.error("{} cannot be deserialized and is a dead letter", source, failure);
+        return DeserializationExceptionHandler.Response.resume(List.of(letter(
+                record.topic(),
+                record.key(),
+                record.value(),
+                record.headers(),
+                new DeadLetter(Reason.NOT_AN_EVENT, failure.toString(), DeadLetters.STAGE, source))));
+    }
+
+    @Override
+    public ProcessingExceptionHandler.Response handleError(
+            ErrorHandlerContext context,
+            org.apache.kafka.streams.processor.api.Record<?, ?> record,
+            Exception failure) {
+        if (isKafka(failure)) {
+            return ProcessingExceptionHandler.Response.fail();
+        }
+        LOG.error("{} failed at {} and is a dead letter", context.processorNodeId(), source(context), failure);
+        return ProcessingExceptionHandler.Response.resume(letters(context, failure));
+    }
+
+    @Override
+    public ProductionExceptionHandler.Response handleError(
+            ErrorHandlerContext context, ProducerRecord<byte[], byte[]> record, Exception failure) {
+        if (failure instanceof RetriableException) {
+            return ProductionExceptionHandler.Response.retry();
+        }
+        LOG.error("a record for {} made of {} cannot be written", record.topic(), source(context), failure);
+        return ProductionExceptionHandler.Response.fail();
+    }
+
+    @Override
+    @SuppressWarnings("rawtypes") // as it is declared
+    public ProductionExceptionHandler.Response handleSerializationError(
+            ErrorHandlerContext context,
+            ProducerRecord record,
+            Exception failure,
+            SerializationExceptionOrigin origin) {
+        LOG.error("a record for {} made of {} cannot be serialized", record.topic(), source(context), failure);
+        return ProductionExceptionHandler.Response.resume(letters(context, failure));
+    }
+
+    @Override
+    public void configure(Map<String, ?> configs) {
+        // There is nothing to set.
+    }
+
+    /** Whether Kafka failed, not the record. */
+    private static boolean isKafka(Throwable failure) {
+        for (Throwable cause = failure; cause != null; cause = cause.getCause()) {
+            if (cause instanceof RecordTooLargeException || cause instanceof SerializationException) {
+                return false;
+            }
+            if (cause instanceof KafkaException) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /** The dead letter, and the answer where the record is a request; of a punctuation, which has no record, there is neither. */
+    private static List<ProducerRecord<byte[], byte[]>> letters(ErrorHandlerContext context, Exception failure) {
+        RecordOrigin origin = origin(context);
+        if (origin == null || context.sourceRawValue() == null) {
+            return List.of();
+        }
+        List<ProducerRecord<byte[], byte[]>> letters = new ArrayList<>();
+        DeadLetter letter = new DeadLetter(Reason.FAILED, failure.toString(), DeadLetters.STAGE, origin.toString());
+        letters.add(
+                letter(origin.topic(), context.sourceRawKey(), context.sourceRawValue(), context.headers(), letter));
+        if (ManagerTopic.isManager(origin.topic())) {
+            letters.add(answer(origin.topic(), context));
+        }
+        return letters;
+    }
+
+    private static ProducerRecord<byte[], byte[]> answer(String topic, ErrorHandlerContext context) {
+        RequestExcerpt excerpt = RequestExcerpt.of(context.sourceRawValue());
+        io.furrow.model.control.Response refusal = excerpt.refusal(
+                ErrorCode.INTERNAL_ERROR,
+                "the manager failed at it; its log says why, and the request is a dead letter");
+        byte[] key = excerpt.requestId() == null ? null : excerpt.requestId().getBytes(StandardCharsets.UTF_8);
+        byte[] value = refusal.to(excerpt.requestId()).toBytes();
+        return new ProducerRecord<>(topic, null, context.timestamp(), key, value);
+    }
+
+    /** Where the record stood that failed; null where it stood on no topic of ours. */
+    private static RecordOrigin origin(ErrorHandlerContext context) {
+        boolean internal = context.topic() == null || context.topic().endsWith("-repartition");
+        return RecordOrigin.of(context.headers())
+                .orElse(internal ? null : new RecordOrigin(context.topic(), context.partition(), context.offset()));
+    }
+
+    private static String source(ErrorHandlerContext context) {
+        return String.valueOf(origin(context));
+    }
+
+    private static ProducerRecord<byte[], byte[]> letter(
+            String topic, byte[] key, byte[] value, Headers original, DeadLetter letter) {
+        Headers headers = new RecordHeaders(original);
+        letter.headers().forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
+        return new ProducerRecord<>(Topics.dead(topic), null, null, key, value, headers);
+    }
+}

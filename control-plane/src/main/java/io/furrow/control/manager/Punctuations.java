@@ -1,0 +1,44 @@
+package io.furrow.control.manager;
+
+import java.time.Duration;
+import java.util.List;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * Runs what is due from time to time, each step as a whole or not at all: a step that fails is logged, once a minute at most, and
+ * tried again with the next punctuation, while the others go on.
+ */
+final class Punctuations {
+    private static final Logger LOG = LoggerFactory.getLogger(Punctuations.class);
+    private static final long LOGGED_EVERY = Duration.ofMinutes(1).toNanos();
+
+    private final AtomicContext atomic;
+    private long nextLog = System.nanoTime();
+
+    Punctuations(AtomicContext atomic) {
+        this.atomic = atomic;
+    }
+
+    void run(List<Runnable> steps) {
+        for (Runnable step : steps) {
+            try {
+                atomic.call(() -> {
+                    step.run();
+                    return null;
+                });
+            } catch (RuntimeException e) { // a fault of ours, which must not end the thread of all
+                log(e);
+            }
+        }
+    }
+
+    private void log(RuntimeException failure) {
+        if (System.nanoTime() - nextLog >= 0) {
+            nextLog = System.nanoTime() + LOGGED_EVERY;
+            LOG.error(
+                    "a punctuation of task {} failed and changed nothing; it is tried again", atomic.taskId(), failure);
+        }
+    }
+}

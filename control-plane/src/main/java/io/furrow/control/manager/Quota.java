@@ -1,0 +1,49 @@
+package io.furrow.control.manager;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+
+/** Room for all definitions together, which are held in memory: how many bytes are used is remembered. */
+public final class Quota {
+    private static final String USED = "used-bytes";
+
+    private final Records<Long> used;
+    private final long bytes;
+
+    /** @param used where it is remembered how much is used, under a key of its own */
+    public Quota(Records<Long> used, long bytes) {
+        this.used = used;
+        this.bytes = bytes;
+    }
+
+    /** @throws RefusedException where there is not so much room left */
+    public void require(long further) throws RefusedException {
+        if (further > 0 && used() + further > bytes) {
+            throw new RefusedException(
+                    ErrorCode.QUOTA_EXCEEDED,
+                    "all definitions may have %d bytes together, and would have %d; delete what is not needed any more"
+                            .formatted(bytes, used() + further));
+        }
+    }
+
+    /** Uses more, or less where it is negative. */
+    public void use(long further) {
+        used.put(USED, Math.max(0, used() + further));
+    }
+
+    /**
+     * Puts one value in the place of another; either may be null.
+     *
+     * @throws RefusedException where there is no room for it
+     */
+    public void replace(byte[] before, byte[] after) throws RefusedException {
+        long further = (after == null ? 0 : after.length) - (before == null ? 0 : before.length);
+        require(further);
+        use(further);
+    }
+
+    private long used() {
+        Long known = used.get(USED);
+        return known == null ? 0 : known;
+    }
+}

@@ -1,0 +1,68 @@
+package io.furrow.control.mission;
+
+import java.util.List;
+import java.util.function.Predicate;
+
+import io.furrow.control.manager.Quota;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.MissionDevices;
+import io.furrow.model.control.MissionPlan;
+import io.furrow.model.control.MissionTemplate;
+import io.furrow.model.control.RefusedException;
+
+/** Makes of what is asked for a mission with its list of devices, or refuses it. */
+final class MissionPlanner {
+    private final Predicate<String> isDomain;
+    private final TemplateShelf templates;
+    private final MissionLists lists;
+    private final DeviceDesk devices;
+    private final Quota quota;
+
+    /** @param farm what there is besides missions */
+    MissionPlanner(FarmContext farm, TemplateShelf templates, MissionLists lists, DeviceDesk devices) {
+        this.isDomain = farm.isDomain();
+        this.quota = farm.quota();
+        this.templates = templates;
+        this.lists = lists;
+        this.devices = devices;
+    }
+
+    /** The mission with the devices that are asked for; those of a template as it is now. */
+    Mission plan(Mission known, String name, String domain, MissionPlan plan, long now) throws RefusedException {
+        if (domain == null) {
+            throw new RefusedException(ErrorCode.MISSING_MEMBER, "a new mission needs a member 'domain'");
+        }
+        if (known != null && !known.domain().equals(domain)) {
+            throw new RefusedException(
+                    ErrorCode.NAME_TAKEN,
+                    "mission '%s' belongs to domain '%s'; choose another name".formatted(name, known.domain()));
+        }
+        if (!isDomain.test(domain)) {
+            throw new RefusedException(
+                    ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + domain + "'; create it first");
+        }
+        Mission mission = known == null ? fresh(name, domain, now) : lists.inParts(known);
+        if (plan instanceof MissionPlan.OfDevices of) {
+            return listing(mission.from(null), of.devices());
+        } else if (plan instanceof MissionPlan.FromTemplate from) {
+            MissionTemplate template = templates.find(from.template(), from.version());
+            return listing(mission.from(template.key()), template.devices());
+        }
+        return mission;
+    }
+
+    private Mission fresh(String name, String domain, long now) throws RefusedException {
+        quota.require(Limits.MISSION_OVERHEAD_BYTES);
+        quota.use(Limits.MISSION_OVERHEAD_BYTES);
+        return Mission.of(name, domain, now);
+    }
+
+    /** With another list; devices that are not on it any more are forgotten. */
+    private Mission listing(Mission mission, MissionDevices list) throws RefusedException {
+        List<DeviceState> before = devices.of(mission);
+        Mission after = lists.replace(mission, list);
+        devices.forgetAllBut(before, after);
+        return after;
+    }
+}

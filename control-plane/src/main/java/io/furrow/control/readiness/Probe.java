@@ -1,0 +1,106 @@
+package io.furrow.control.readiness;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.DescribeClusterOptions;
+
+/** Asks something every two seconds whether it is there, on a thread of its own; it counts as away after six seconds without an answer. */
+public final class Probe implements AutoCloseable {
+    private static final Duration INTERVAL = Duration.ofSeconds(2);
+    private static final Duration TIMEOUT = Duration.ofSeconds(2);
+    private static final Duration AWAY_AFTER = Duration.ofSeconds(6);
+    private static final int SERVER_ERROR = 500;
+
+    private final String name;
+    private final Check check;
+    private final Runnable closing;
+    private final ScheduledExecutorService executor;
+    private volatile Instant lastSuccess;
+    private volatile String failure = "not asked yet";
+
+    /** Comes back where it is there. */
+    private interface Check {
+        void run() throws IOException, InterruptedException, ExecutionException, TimeoutException;
+    }
+
+    /** @param closing lets go of what the check uses */
+    private Probe(String name, Check check, Runnable closing) {
+        this.name = name;
+        this.check = check;
+        this.closing = closing;
+        this.executor = Executors.newSingleThreadScheduledExecutor(task -> {
+            Thread thread = new Thread(task, name + "-probe");
+            thread.setDaemon(true);
+            return thread;
+        });
+        executor.scheduleWithFixedDelay(this::ask, 0, INTERVAL.toMillis(), TimeUnit.MILLISECONDS);
+    }
+
+    /** Of a Kafka cluster. @param client settings of Kafka clients */
+    public static Probe kafka(Properties client) {
+        Admin admin = Admin.create(client);
+        DescribeClusterOptions options = new DescribeClusterOptions().timeoutMs((int) TIMEOUT.toMillis());
+        return new Probe(
+                "kafka",
+                () -> admin.describeCluster(options).nodes().get(TIMEOUT.toMillis(), TimeUnit.MILLISECONDS),
+                () -> admin.close(Duration.ZERO));
+    }
+
+    /** Of an HTTP server: any answer but a server error counts. @param url of something that costs it little */
+    public static Probe http(String name, URI url) {
+        HttpClient client = HttpClient.newBuilder()
+                .version(HttpClient.Version.HTTP_1_1)
+                .connectTimeout(TIMEOUT)
+                .build();
+        HttpRequest request = HttpRequest.newBuilder(url).timeout(TIMEOUT).GET().build();
+        return new Probe(
+                name,
+                () -> {
+                    int status = client.send(request, HttpResponse.BodyHandlers.discarding())
+                            .statusCode();
+                    if (status >= SERVER_ERROR) {
+                        throw new IOException("%s answers %d".formatted(url, status));
+                    }
+                },
+                () -> {});
+    }
+
+    private void ask() {
+        try {
+            check.run();
+            lastSuccess = Instant.now();
+            failure = "";
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        } catch (ExecutionException e) {
+            failure = String.valueOf(e.getCause());
+        } catch (IOException | TimeoutException | RuntimeException e) { // whatever a client throws, it is not there
+            failure = e.toString();
+        }
+    }
+
+    public PartStatus status() {
+        Instant last = lastSuccess;
+        boolean up = last != null && last.plus(AWAY_AFTER).isAfter(Instant.now());
+        return new PartStatus(name, up ? PartStatus.State.UP : PartStatus.State.DOWN, last, failure);
+    }
+
+    @Override
+    public void close() {
+        executor.shutdownNow();
+        closing.run();
+    }
+}

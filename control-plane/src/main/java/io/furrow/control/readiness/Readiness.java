@@ -1,0 +1,97 @@
+package io.furrow.control.readiness;
+
+import java.time.Clock;
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.function.Supplier;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * The parts of this control plane, and what they need. It is <b>alive</b> unless a part has ended that only a restart of the process
+ * brings back; it is <b>ready</b> when all of its parts work. What it only speaks with, a context broker for instance, is shown, and
+ * makes it neither: another instance would not reach it either.
+ */
+public final class Readiness {
+    private final Clock clock;
+    private final List<Part> parts = new CopyOnWriteArrayList<>();
+
+    private final List<Supplier<List<String>>> warnings = new CopyOnWriteArrayList<>();
+
+    private record Part(Supplier<List<PartStatus>> statuses, boolean required) {}
+
+    public Readiness(Clock clock) {
+        this.clock = clock;
+    }
+
+    /** A part without which it is not ready. */
+    public void require(Supplier<PartStatus> status) {
+        requireAll(() -> List.of(status.get()));
+    }
+
+    /** The same of several. */
+    public void requireAll(Supplier<List<PartStatus>> statuses) {
+        parts.add(new Part(statuses, true));
+    }
+
+    /** Something that it speaks with. */
+    public void show(Supplier<PartStatus> status) {
+        parts.add(new Part(() -> List.of(status.get()), false));
+    }
+
+    /** Sentences about what needs somebody though all works; everybody may read them, so they tell nothing of the farm. */
+    public void warn(Supplier<List<String>> sentences) {
+        warnings.add(sentences);
+    }
+
+    public boolean isAlive() {
+        return all(false).noneMatch(part -> part.state() == PartStatus.State.DEAD);
+    }
+
+    public boolean isReady() {
+        return all(true).allMatch(part -> part.state() == PartStatus.State.UP);
+    }
+
+    private Stream<PartStatus> all(boolean requiredOnly) {
+        return parts.stream()
+                .filter(part -> part.required() || !requiredOnly)
+                .flatMap(part -> part.statuses().get().stream());
+    }
+
+    /** {@code status}: up or dead. */
+    public ObjectNode health() {
+        return page(isAlive() ? "up" : "dead");
+    }
+
+    /** {@code status}: ready, degraded where something away is not needed by all requests, or not-ready. */
+    public ObjectNode readiness() {
+        boolean allUp = all(false).allMatch(part -> part.state() == PartStatus.State.UP);
+        return page(allUp ? "ready" : isReady() ? "degraded" : "not-ready");
+    }
+
+    private ObjectNode page(String status) {
+        ObjectNode page = JsonNodeFactory.instance.objectNode().put("status", status);
+        ObjectNode described = page.putObject("parts");
+        all(false).forEach(part -> described.set(part.name(), described(part)));
+        List<String> sentences =
+                warnings.stream().flatMap(each -> each.get().stream()).toList();
+        if (!sentences.isEmpty()) {
+            sentences.forEach(page.putArray("warnings")::add);
+        }
+        return page;
+    }
+
+    private ObjectNode described(PartStatus part) {
+        ObjectNode json =
+                JsonNodeFactory.instance.objectNode().put("state", part.state().word());
+        if (part.lastSuccess() != null) {
+            json.put("lastSuccess", part.lastSuccess().toString());
+            Duration age = Duration.between(part.lastSuccess(), clock.instant());
+            json.put("ageSeconds", Math.max(0, age.toMillis()) / 1000.0);
+        }
+        return part.detail().isEmpty() ? json : json.put("detail", part.detail());
+    }
+}

@@ -1,0 +1,219 @@
+package io.furrow.control;
+
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.sun.net.httpserver.HttpServer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.TestReporter;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.alarm.StopRobots;
+import io.furrow.control.alarm.Webhook;
+import io.furrow.control.device.DeviceCommands;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Many alarms at once, and a webhook that fails, against a real Kafka and HTTP servers. */
+class AlarmStormIT {
+    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final int DEVICES = 10_000;
+    private static final String ROBOT = "urn:ngsi-ld:Robot:m-1";
+
+    @TempDir
+    Path directory;
+
+    private final List<JsonNode> posted = Collections.synchronizedList(new ArrayList<>());
+    private final List<Long> stopped = Collections.synchronizedList(new ArrayList<>());
+    private final CountDownLatch hanging = new CountDownLatch(1);
+    private final ExecutorService threads = Executors.newCachedThreadPool();
+    private EmbeddedKafka kafka;
+    private KafkaProducer<String, byte[]> producer;
+    private HttpServer hook;
+    private HttpServer broker;
+    private volatile boolean hangs;
+    private volatile String failing = "";
+
+    @BeforeEach
+    void start() throws Exception {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        hook = server();
+        hook.createContext("/", exchange -> {
+            JsonNode alarm = NgsiJson.mapper().readTree(exchange.getRequestBody());
+            if (hangs) {
+                awaitEnd();
+            }
+            boolean fails = alarm.path("kind").asText().equals(failing);
+            if (!fails) {
+                posted.add(alarm);
+            }
+            exchange.sendResponseHeaders(fails ? 500 : 204, -1);
+            exchange.close();
+        });
+        broker = server();
+        broker.createContext("/", exchange -> {
+            stopped.add(System.nanoTime());
+            exchange.sendResponseHeaders(204, -1);
+            exchange.close();
+        });
+    }
+
+    @AfterEach
+    void stop() {
+        hanging.countDown();
+        producer.close();
+        hook.stop(0);
+        broker.stop(0);
+        threads.shutdownNow();
+        kafka.close();
+    }
+
+    @Test
+    void deliversAnAlarmThoughAnotherIsNotTaken() throws Exception {
+        failing = "predicted-encounter";
+        try (FarmWatch watch = watch()) {
+            await().atMost(PATIENCE).until(watch::isHealthy);
+            encounter("a", "b", "predicted");
+            encounter("c", "d", "started");
+            await().atMost(PATIENCE).until(() -> !posted.isEmpty());
+            assertThat(posted.get(0).path("kind").asText()).isEqualTo("collision");
+            failing = "";
+            await().atMost(PATIENCE)
+                    .until(() -> posted.stream()
+                            .anyMatch(each -> each.path("kind").asText().equals("predicted-encounter")));
+        }
+    }
+
+    /** Whatever the alarms are at, a Stop is not behind them. */
+    @Test
+    void stopsARobotWhileTenThousandDevicesFallSilentAndTheWebhookHangs(TestReporter reporter) throws Exception {
+        hangs = true;
+        try (FarmWatch watch = watch()) {
+            want(ROBOT, "Robot", Duration.ofHours(1));
+            for (int i = 0; i < DEVICES; i++) {
+                want("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer", Duration.ofSeconds(1));
+            }
+            await().atMost(PATIENCE).until(watch::isHealthy);
+            await().atMost(PATIENCE).until(() -> {
+                for (int i = 0; i < DEVICES; i++) {
+                    report("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer");
+                }
+                producer.flush();
+                return new TopicContent(client(), Topics.DEVICES_HEALTH)
+                                .newest()
+                                .size()
+                        > DEVICES;
+            });
+            long reported = System.nanoTime();
+            await().atMost(PATIENCE).until(() -> silent() == DEVICES);
+            long silent = System.nanoTime();
+
+            long told = System.nanoTime();
+            encounter(ROBOT, "somebody", "predicted");
+            await().atMost(PATIENCE).pollInterval(Duration.ofMillis(1)).until(() -> !stopped.isEmpty());
+
+            reporter.publishEntry(Map.of(
+                    "from the last report to 10,000 silent devices, 3 s of them silence",
+                    TimeUnit.NANOSECONDS.toMillis(silent - reported) + " ms",
+                    "from the record on data.collision to the PATCH",
+                    TimeUnit.NANOSECONDS.toMillis(stopped.get(0) - told) + " ms"));
+            assertThat(posted).isEmpty();
+        }
+    }
+
+    private long silent() {
+        return new TopicContent(client(), Topics.DEVICES_HEALTH)
+                .newest().values().stream()
+                        .filter(health -> new String(health, StandardCharsets.UTF_8).contains("\"silent\":true"))
+                        .count();
+    }
+
+    private FarmWatch watch() throws Exception {
+        WatchOptions options = WatchOptions.DEFAULT
+                .with(Webhook.Settings.of(uri(hook)))
+                .with(StopRobots.Settings.of(new DeviceCommands(uri(broker), FiwareScope.DEFAULT)));
+        return FarmWatch.start(
+                ControlPlaneProcess.settings(
+                        kafka.bootstrapServers(), directory.resolve("state").toString()),
+                options);
+    }
+
+    private HttpServer server() throws Exception {
+        HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        server.setExecutor(threads);
+        server.start();
+        return server;
+    }
+
+    private static URI uri(HttpServer server) {
+        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+    }
+
+    private void awaitEnd() {
+        try {
+            hanging.await();
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    private void want(String id, String type, Duration period) {
+        DeviceVersion version = new DeviceVersion(id, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
+        WantedDevice device = new WantedDevice(
+                version, type, id, true, period, NgsiJson.mapper().createObjectNode());
+        producer.send(new ProducerRecord<>(Topics.DEVICES, version.key(), device.toBytes()));
+    }
+
+    private void report(String id, String type) {
+        producer.send(
+                new ProducerRecord<>(Topics.RAW, id, Entity.builder(id, type).toBytes()));
+    }
+
+    private void encounter(String first, String second, String phase) {
+        EntityBuilder entity = Entity.builder("Analytics:Collision:1:" + phase, "Analytics:Collision")
+                .text("encounter", first + "-" + phase)
+                .text("phase", phase)
+                .text("Device1_ID", first)
+                .text("Device1_Mission", "m")
+                .text("Device2_ID", second)
+                .number("distance", 12)
+                .number("dcpa", 0.5);
+        producer.send(new ProducerRecord<>(Topics.COLLISION, first + "-" + second, entity.toBytes()));
+    }
+
+    private Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+}

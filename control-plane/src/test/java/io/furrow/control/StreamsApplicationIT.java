@@ -1,0 +1,74 @@
+package io.furrow.control;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.Properties;
+import java.util.concurrent.atomic.AtomicInteger;
+
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.Serdes;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.Topology;
+import org.apache.kafka.streams.kstream.Consumed;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.readiness.PartStatus;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class StreamsApplicationIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(90);
+
+    @TempDir
+    Path directory;
+
+    private final AtomicInteger failures = new AtomicInteger();
+    private final AtomicInteger handled = new AtomicInteger();
+
+    /** What no handler of exceptions is asked about: an error of the JVM. */
+    @Test
+    void startsAgainAfterAClientHasEnded() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(directory.resolve("kafka"))) {
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            client.setProperty("state.dir", directory.resolve("state").toString());
+            ControlSettings settings = ControlSettings.of(client);
+            ServiceTopics.prepare(settings);
+            try (StreamsApplication application =
+                            StreamsApplication.start("application", this::topology, settings.streams());
+                    KafkaProducer<String, byte[]> producer =
+                            new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+                await().atMost(TIMEOUT).until(application::isHealthy);
+                producer.send(new ProducerRecord<>(Topics.DOMAINS, "north", new byte[1]));
+
+                await().atMost(TIMEOUT)
+                        .untilAtomic(handled, count -> assertThat(count).isPositive());
+                await().atMost(TIMEOUT).until(application::isHealthy);
+                assertThat(failures).hasPositiveValue();
+                PartStatus status = application.status();
+                assertThat(status.state()).isEqualTo(PartStatus.State.UP);
+                assertThat(status.lastSuccess()).isNotNull();
+            }
+        }
+    }
+
+    private Topology topology() {
+        StreamsBuilder builder = new StreamsBuilder();
+        builder.stream(Topics.DOMAINS, Consumed.with(Serdes.String(), Serdes.ByteArray()))
+                .foreach((key, value) -> {
+                    if (failures.get() == 0) {
+                        failures.incrementAndGet();
+                        throw new AssertionError("as if there was no memory left");
+                    }
+                    handled.incrementAndGet();
+                });
+        return builder.build();
+    }
+}

@@ -1,0 +1,223 @@
+package io.furrow.control.health;
+
+import java.time.Duration;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.function.Function;
+import java.util.stream.Collectors;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.TestInfo;
+import org.junit.jupiter.api.TestReporter;
+
+import io.furrow.control.alarm.Alarm;
+import io.furrow.control.alarm.AlarmDesk;
+import io.furrow.control.alarm.AlarmDesks;
+import io.furrow.control.alarm.AlarmState;
+import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.StateJson;
+import io.furrow.model.control.AlarmCommand;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** Random silences, returns, closings, mutes, stops and restarts; whenever all has settled the alarms are those of the causes. */
+class SilencePropertyTest {
+    private static final int FARMS = 20;
+    private static final int STEPS = 50;
+    private static final Duration PERIOD = Duration.ofSeconds(10);
+
+    @Test
+    void alarmsAreThoseOfTheDevicesThatAreSilent(TestInfo test, TestReporter reporter) {
+        long seed = System.nanoTime();
+        reporter.publishEntry(test.getDisplayName(), "seed " + seed);
+        Map<AlarmKind, Integer> raised = new TreeMap<>();
+        int refused = 0;
+        for (int i = 0; i < FARMS; i++) {
+            Walk walk = new Walk(new Random(seed + i), "seed " + (seed + i) + " ");
+            walk.run();
+            refused += walk.refused;
+            walk.raised.forEach((kind, number) -> raised.merge(kind, number, Integer::sum));
+        }
+        assertThat(raised).containsOnlyKeys(AlarmKind.SILENT_DEVICE, AlarmKind.SILENT_MISSION, AlarmKind.SILENT_FARM);
+        assertThat(refused).as("an alarm that lasts is not closed by hand").isPositive();
+    }
+
+    private static final class Walk {
+        private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+        private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
+        private final KeptOutbox outbox = new KeptOutbox();
+        private final AlarmDesk alarms = AlarmDesks.writingTo(outbox);
+        private final Set<String> talking = new HashSet<>();
+        private final Map<AlarmKind, Integer> raised = new TreeMap<>();
+        private final Random random;
+        private final String said;
+        private HealthDesk desk = desk();
+        private long now = 1_700_000_000_000L;
+        private int refused;
+
+        Walk(Random random, String said) {
+            this.random = random;
+            this.said = said;
+        }
+
+        void run() {
+            for (int i = 0; i < 30; i++) {
+                want(i, "m" + i % 3);
+                talking.add(key(i));
+            }
+            for (int i = 0; i < STEPS; i++) {
+                step();
+                settle();
+                check();
+            }
+        }
+
+        private void step() {
+            switch (random.nextInt(9)) {
+                case 0, 1 -> talking.remove(key(random.nextInt(30)));
+                case 2 -> talking.add(key(random.nextInt(30)));
+                case 3 -> talking.removeIf(key -> random.nextInt(4) > 0);
+                case 4 -> wanted.all().forEach(each -> talking.add(version(each).key()));
+                case 5 -> talking.clear();
+                case 6 -> ask();
+                case 7 -> {
+                    int device = random.nextInt(30);
+                    if (random.nextBoolean()) {
+                        wanted.put(key(device), null);
+                    } else {
+                        want(device, "m" + random.nextInt(3));
+                    }
+                }
+                default -> desk = desk();
+            }
+        }
+
+        private void ask() {
+            List<Alarm> open = open();
+            try {
+                if (open.isEmpty() || random.nextBoolean()) {
+                    String device = "urn:" + random.nextInt(30);
+                    AlarmCommand.Target target = new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, device);
+                    alarms.answer(
+                            random.nextBoolean()
+                                    ? new AlarmCommand.Mute(target, Duration.ofMinutes(1 + random.nextInt(20)))
+                                    : new AlarmCommand.Unmute(target),
+                            now);
+                    return;
+                }
+                Alarm one = open.get(random.nextInt(open.size()));
+                alarms.answer(new AlarmCommand.Close(one.alarm(), "ann"), now);
+            } catch (RefusedException e) {
+                refused++;
+            }
+        }
+
+        /** Five minutes: longer than any silence takes to be seen, and than the farm's takes to end. */
+        private void settle() {
+            for (int second = 0; second < 300; second += 5) {
+                now += 5000;
+                if (second % 10 == 0) {
+                    talking.forEach(key -> desk.take(key, new Sign(id(key), "T", false, now, now, null, false), now));
+                    if (!talking.isEmpty()) {
+                        desk.take(Sign.PULSE_KEY, Sign.pulse(now), now);
+                    }
+                }
+                desk.passTime(now);
+                alarms.passTime(now);
+            }
+        }
+
+        private void check() {
+            List<Alarm> open = open();
+            open.forEach(alarm -> raised.merge(alarm.kind(), 1, Integer::sum));
+            assertThat(open)
+                    .as(said)
+                    .extracting(alarm -> alarm.kind() + alarm.subject())
+                    .doesNotHaveDuplicates();
+            Map<String, Long> silent = health.all().stream()
+                    .filter(device -> device.silent() && !alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now))
+                    .collect(Collectors.groupingBy(
+                            device -> "urn:ngsi-ld:Mission:" + device.mission(), Collectors.counting()));
+            Map<String, Long> counted = open.stream()
+                    .filter(alarm -> alarm.kind() == AlarmKind.SILENT_DEVICE)
+                    .collect(Collectors.toMap(Alarm::subject, alarm -> (long) alarm.affected()));
+            assertThat(counted)
+                    .as(said + "every cause has an alarm, none is without")
+                    .isEqualTo(silent);
+            Set<String> ids = open.stream().map(Alarm::alarm).collect(Collectors.toSet());
+            for (Alarm alarm : open) {
+                if (alarm.inhibitedBy() != null) {
+                    assertThat(ids).as(said).contains(alarm.inhibitedBy());
+                }
+                if (alarm.kind() != AlarmKind.SILENT_DEVICE) {
+                    assertThat(alarm.affected() * 4).as(said + alarm).isGreaterThanOrEqualTo(alarm.total());
+                }
+            }
+            boolean nothing = talking.isEmpty()
+                    && silent.values().stream().mapToLong(each -> each).sum() >= 3
+                    && 2 * silent.values().stream().mapToLong(each -> each).sum()
+                            >= health.all().size();
+            if (nothing) {
+                assertThat(open)
+                        .as(said)
+                        .filteredOn(alarm -> alarm.inhibitedBy() == null)
+                        .extracting(Alarm::kind)
+                        .containsExactly(AlarmKind.SILENT_FARM);
+            } else if (!talking.isEmpty()) {
+                assertThat(open).as(said).extracting(Alarm::kind).doesNotContain(AlarmKind.SILENT_FARM);
+            }
+        }
+
+        private List<Alarm> open() {
+            return outbox.compacted(Topics.ALARMS).values().stream()
+                    .map(json -> StateJson.read(json, Alarm.class))
+                    .filter(alarm -> alarm.state() != AlarmState.CLOSED)
+                    .toList();
+        }
+
+        private HealthDesk desk() {
+            return new HealthDesk(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
+        }
+
+        private static String key(int number) {
+            return "|/|urn:" + number;
+        }
+
+        private static String id(String key) {
+            return key.substring(3);
+        }
+
+        private static DeviceVersion version(byte[] value) {
+            try {
+                return DeviceVersion.read(value);
+            } catch (io.furrow.model.ngsi.UnreadableException e) {
+                throw new IllegalStateException(e);
+            }
+        }
+
+        private void want(int number, String mission) {
+            DeviceVersion version = new DeviceVersion("urn:" + number, "", "/", "d", mission, now, null, 1, null);
+            wanted.put(
+                    key(number),
+                    new WantedDevice(
+                                    version,
+                                    "T",
+                                    "t",
+                                    true,
+                                    PERIOD,
+                                    NgsiJson.mapper().createObjectNode())
+                            .toBytes());
+        }
+    }
+}

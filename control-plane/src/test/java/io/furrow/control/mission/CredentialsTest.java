@@ -1,0 +1,124 @@
+package io.furrow.control.mission;
+
+import java.nio.charset.StandardCharsets;
+
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.manager.StateJson;
+import io.furrow.model.control.DeviceGroup;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.device.DeviceStatus.State;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class CredentialsTest {
+    private static final String DEVICE = "urn:ngsi-ld:Thermometer:m-1";
+
+    private final Farm farm = new Farm();
+
+    @BeforeEach
+    void startAMission() throws Exception {
+        farm.domain("north");
+        start();
+        farm.hostAll();
+    }
+
+    @Test
+    void asksForTheDeviceWithItsNextGenerationAndLeavesTheOthers() throws Exception {
+        WantedDevice before = farm.device(DEVICE);
+        WantedDevice other = farm.device("urn:ngsi-ld:Thermometer:m-2");
+
+        assertThat(rotate(DEVICE))
+                .isEqualTo("{\"type\":\"response\",\"status\":\"rotated\",\"device\":\"%s\",\"generation\":1}"
+                        .formatted(DEVICE));
+
+        WantedDevice asked =
+                WantedDevice.read(farm.outbox.compacted(Topics.DEVICES).get("farm|/|" + DEVICE));
+        assertThat(asked.generation()).isEqualTo(1);
+        assertThat(asked.version().sequence()).isGreaterThan(before.version().sequence());
+        assertThat(asked.version().from()).isEqualTo(before.version().from());
+        assertThat(asked.settings()).isEqualTo(before.settings());
+        assertThat(farm.device("urn:ngsi-ld:Thermometer:m-2")).isEqualTo(other);
+        assertThat(rotate(DEVICE)).contains("\"generation\":2");
+    }
+
+    @Test
+    void countsTheDeviceOnceThoughItComesUpAgain() throws Exception {
+        rotate(DEVICE);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
+        assertThat(farm.status("m").confirmed()).isEqualTo(2);
+
+        farm.report(farm.device(DEVICE), State.FAILED);
+        assertThat(farm.status("m").confirmed()).isEqualTo(1);
+        farm.report(farm.device(DEVICE), State.RUNNING);
+        farm.report(farm.device(DEVICE), State.RUNNING);
+
+        assertThat(farm.status("m").confirmed()).isEqualTo(2);
+    }
+
+    @Test
+    void letsAnOldPasswordInNeverAgainAlsoWhenTheMissionIsStartedOrMadeAnew() throws Exception {
+        rotate(DEVICE);
+        stop();
+        start();
+        assertThat(farm.device(DEVICE).generation()).isEqualTo(1);
+
+        stop();
+        farm.ask(new MissionCommand.Delete("m"));
+        assertThat(farm.outbox.compacted(Topics.DEVICES)).isEmpty();
+        refused(DEVICE, ErrorCode.UNKNOWN_DEVICE);
+
+        start();
+        assertThat(farm.device(DEVICE).generation()).isEqualTo(1);
+        assertThat(farm.device("urn:ngsi-ld:Thermometer:m-2").generation()).isZero();
+    }
+
+    @Test
+    void readsTheStateOfAVersionThatRotatedNothing() {
+        DeviceState state = StateJson.read(
+                "{\"wanted\":{\"mission\":\"m\"},\"confirmed\":true}".getBytes(StandardCharsets.UTF_8),
+                DeviceState.class);
+
+        assertThat(state.forgotten()).isFalse();
+        assertThat(state.generation()).isZero();
+        assertThat(StateJson.read(StateJson.write(state.asForgotten()), DeviceState.class))
+                .isEqualTo(state.asForgotten());
+    }
+
+    @Test
+    void refusesADeviceThatIsNotThereOrReportsByItself() throws Exception {
+        farm.start("other", "north", DeviceGroup.entity("urn:robot"));
+
+        refused("urn:nosuch", ErrorCode.UNKNOWN_DEVICE);
+        refused("urn:robot", ErrorCode.NO_CREDENTIALS);
+    }
+
+    private void start() throws RefusedException {
+        farm.start("m", "north", Farm.group("Thermometer", 2));
+    }
+
+    private void stop() throws RefusedException {
+        farm.ask(new MissionCommand.Stop("m"));
+        farm.hostAll();
+    }
+
+    private String rotate(String device) throws RefusedException {
+        return farm.ask(new MissionCommand.RotateCredentials(device)).json().toString();
+    }
+
+    private void refused(String device, ErrorCode code) {
+        String before = farm.content();
+        assertThatThrownBy(() -> rotate(device))
+                .isInstanceOfSatisfying(
+                        RefusedException.class,
+                        refusal -> assertThat(refusal.code()).isEqualTo(code))
+                .hasMessageContaining("'" + device + "'");
+        assertThat(farm.content()).isEqualTo(before);
+    }
+}

@@ -1,0 +1,81 @@
+package io.furrow.embedded;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.security.GeneralSecurityException;
+import java.security.KeyStore;
+import java.util.Base64;
+
+/**
+ * A key and its certificate for 127.0.0.1 and localhost that nobody has signed but itself, for tests of TLS, made by the JDK's
+ * keytool.
+ *
+ * @param certificate in PEM
+ * @param key in PEM, PKCS #8
+ * @param keystore both, PKCS #12
+ * @param password file with that of the keystore
+ */
+public record SelfSignedCertificate(Path certificate, Path key, Path keystore, Path password) {
+    private static final String PASSWORD = "changeit";
+    private static final String ALIAS = "server";
+
+    /** @throws IOException if keytool fails; with its words */
+    public static SelfSignedCertificate make(Path directory, String name) throws IOException {
+        Path keystore = directory.resolve(name + ".p12");
+        keytool(
+                "-genkeypair",
+                "-keystore",
+                keystore.toString(),
+                "-storetype",
+                "PKCS12",
+                "-storepass",
+                PASSWORD,
+                "-alias",
+                ALIAS,
+                "-keyalg",
+                "EC",
+                "-dname",
+                "CN=" + name,
+                "-ext",
+                "san=ip:127.0.0.1,dns:localhost");
+        try {
+            KeyStore keys = KeyStore.getInstance(keystore.toFile(), PASSWORD.toCharArray());
+            return new SelfSignedCertificate(
+                    pem(
+                            directory.resolve(name + ".pem"),
+                            "CERTIFICATE",
+                            keys.getCertificate(ALIAS).getEncoded()),
+                    pem(
+                            directory.resolve(name + ".key"),
+                            "PRIVATE KEY",
+                            keys.getKey(ALIAS, PASSWORD.toCharArray()).getEncoded()),
+                    keystore,
+                    Files.writeString(directory.resolve(name + ".password"), PASSWORD + "\n"));
+        } catch (GeneralSecurityException e) {
+            throw new IOException(keystore + " cannot be read", e);
+        }
+    }
+
+    private static Path pem(Path file, String what, byte[] der) throws IOException {
+        String text = Base64.getMimeEncoder(64, new byte[] {'\n'}).encodeToString(der);
+        return Files.writeString(file, "-----BEGIN %s-----\n%s\n-----END %s-----\n".formatted(what, text, what));
+    }
+
+    private static void keytool(String... words) throws IOException {
+        String[] command = new String[words.length + 1];
+        command[0] = Path.of(System.getProperty("java.home"), "bin", "keytool").toString();
+        System.arraycopy(words, 0, command, 1, words.length);
+        Process process = new ProcessBuilder(command).redirectErrorStream(true).start();
+        String said = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+        try {
+            if (process.waitFor() != 0) {
+                throw new IOException("keytool failed: " + said);
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new IOException("interrupted while keytool ran", e);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+package io.furrow.http;
+
+import java.util.List;
+import java.util.function.Consumer;
+
+/**
+ * Hosts and origins that an operator lets in beside a server's own.
+ *
+ * @param hosts names or addresses without scheme and port, for instance {@code farm.example.org}
+ * @param origins {@code scheme://host} or {@code scheme://host:port}, for instance {@code https://map.example.org}
+ */
+public record AllowedNames(List<String> hosts, List<String> origins) {
+    public static final AllowedNames NONE = new AllowedNames(List.of(), List.of());
+
+    /** @throws IllegalArgumentException saying what is wrong with an entry */
+    public AllowedNames {
+        hosts = List.copyOf(hosts);
+        origins = List.copyOf(origins);
+        hosts.forEach(AllowedNames::requireHost);
+        origins.forEach(AllowedNames::requireOrigin);
+    }
+
+    /** @throws IllegalArgumentException saying what is wrong with an entry of which option */
+    public static AllowedNames of(OptionNames options, List<String> hosts, List<String> origins) {
+        requireEach(options.hosts(), hosts, AllowedNames::requireHost);
+        requireEach(options.origins(), origins, AllowedNames::requireOrigin);
+        return new AllowedNames(hosts, origins);
+    }
+
+    private static void requireEach(String option, List<String> values, Consumer<String> check) {
+        try {
+            values.forEach(check);
+        } catch (IllegalArgumentException e) {
+            throw new IllegalArgumentException(option + ": " + e.getMessage(), e);
+        }
+    }
+
+    /** @throws IllegalArgumentException if it is no host, or one with a port */
+    public static void requireHost(String host) {
+        if (Authority.parse(bracketed(host))
+                .filter(authority -> authority.port() == Authority.NO_PORT && !host.endsWith(":"))
+                .isEmpty()) {
+            throw new IllegalArgumentException(
+                    "'%s' is no host: expected a name or an address without scheme and port, such as farm.example.org"
+                            .formatted(host));
+        }
+    }
+
+    /** @throws IllegalArgumentException if it is no origin */
+    public static void requireOrigin(String origin) {
+        if (Origin.parse(origin).isEmpty()) {
+            throw new IllegalArgumentException(
+                    "'%s' is no origin: expected scheme://host or scheme://host:port without a path, such as https://map.example.org"
+                            .formatted(origin));
+        }
+    }
+
+    /** IPv6 addresses come without brackets as well. */
+    static String bracketed(String host) {
+        return host.indexOf(':') < 0 || host.startsWith("[") ? host : "[" + host + "]";
+    }
+}

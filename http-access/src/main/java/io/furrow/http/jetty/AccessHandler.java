@@ -1,0 +1,76 @@
+package io.furrow.http.jetty;
+
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.nio.ByteBuffer;
+import java.util.function.Function;
+
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.http.HttpStatus;
+import org.eclipse.jetty.io.Content;
+import org.eclipse.jetty.server.Handler;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.util.Callback;
+
+import io.furrow.http.AccessRule;
+import io.furrow.http.Decision;
+import io.furrow.http.HttpCall;
+
+/** Applies an {@link AccessRule} to all that a Jetty server takes, before the handler that it wraps sees any of it. */
+public final class AccessHandler extends Handler.Wrapper {
+    /** A body up to here is read first: a client that is still sending might lose the answer with its connection. */
+    private static final int MAX_DRAINED = 64 * 1024;
+
+    private final AccessRule rule;
+    private final Function<Decision.Refused, byte[]> body;
+
+    /** @param body the JSON with which this server says why it refuses */
+    public AccessHandler(AccessRule rule, Function<Decision.Refused, byte[]> body, Handler handler) {
+        super(handler);
+        this.rule = rule;
+        this.body = body;
+    }
+
+    @Override
+    public boolean handle(Request request, Response response, Callback callback) throws Exception {
+        Decision decision = rule.decide(call(request));
+        if (decision instanceof Decision.Granted granted) {
+            granted.headers().forEach(response.getHeaders()::put);
+            return super.handle(request, response, callback);
+        }
+        if (decision instanceof Decision.Preflight preflight) {
+            preflight.headers().forEach(response.getHeaders()::put);
+            response.setStatus(HttpStatus.NO_CONTENT_204);
+            response.write(true, null, callback);
+        } else if (decision instanceof Decision.Refused refused) {
+            refuse(request, response, refused, callback);
+        }
+        return true;
+    }
+
+    private void refuse(Request request, Response response, Decision.Refused refused, Callback callback) {
+        response.setStatus(Decision.REFUSED_STATUS);
+        response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
+        response.getHeaders().put(HttpHeader.CONNECTION, "close");
+        ByteBuffer json = ByteBuffer.wrap(body.apply(refused));
+        if (request.getLength() > 0 && request.getLength() <= MAX_DRAINED) {
+            Content.Source.consumeAll(
+                    request, Callback.from(() -> response.write(true, json, callback), callback::failed));
+        } else {
+            response.write(true, json, callback);
+        }
+    }
+
+    private static HttpCall call(Request request) {
+        InetAddress local = request.getConnectionMetaData().getLocalSocketAddress() instanceof InetSocketAddress address
+                ? address.getAddress()
+                : null;
+        return new HttpCall(
+                request.getMethod(),
+                request.getHttpURI().asString(),
+                request.isSecure(),
+                local,
+                request.getHeaders()::getValuesList);
+    }
+}

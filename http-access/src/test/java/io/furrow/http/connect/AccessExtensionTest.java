@@ -1,0 +1,25 @@
+package io.furrow.http.connect;
+
+import java.util.Map;
+
+import org.apache.kafka.common.config.ConfigException;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class AccessExtensionTest {
+    @ParameterizedTest
+    @CsvSource({
+        "furrow.http.allowed.hosts, 'connect.farm,http://farm', '''http://farm'' is no host'",
+        "furrow.http.allowed.origins, *, '''*'' is no origin'"
+    })
+    void namesTheOptionThatIsWrong(String option, String value, String why) {
+        try (AccessExtension extension = new AccessExtension()) {
+            assertThatThrownBy(() -> extension.configure(Map.of(option, value)))
+                    .isInstanceOf(ConfigException.class)
+                    .hasMessageStartingWith(option + ": ")
+                    .hasMessageContaining(why);
+        }
+    }
+}

@@ -1,0 +1,27 @@
+package io.furrow.http.flink;
+
+import java.util.Map;
+
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.util.ConfigurationException;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class AccessHandlerFactoryTest {
+    @ParameterizedTest
+    @CsvSource({
+        "furrow.http.allowed-hosts, flink.farm;http://farm, '''http://farm'' is no host'",
+        "furrow.http.allowed-origins, *, '''*'' is no origin'"
+    })
+    void namesTheOptionThatIsWrong(String option, String value, String why) {
+        Configuration configuration = new Configuration();
+        configuration.setString(option, value);
+
+        assertThatThrownBy(() -> new AccessHandlerFactory().createHandler(configuration, Map.of()))
+                .isInstanceOf(ConfigurationException.class)
+                .hasMessageStartingWith(option + ": ")
+                .hasMessageContaining(why);
+    }
+}

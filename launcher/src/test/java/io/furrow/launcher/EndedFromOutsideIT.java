@@ -1,0 +1,55 @@
+package io.furrow.launcher;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** A command that is told to end leaves nothing in the temporary directory, whichever engines write there by then. */
+class EndedFromOutsideIT {
+    @TempDir
+    Path directory;
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+                    bench load --warmup 0 --devices 20      | NGSI source and sink | TERM
+                    bench notifications                     | Kafka Connect        | HUP
+                    bench control                           | managers             | TERM
+                    bench analytics --parts KAFKA           | Flink                | INT
+                    bench fleet --devices 10                |                      | TERM
+                    """)
+    void leavesNoFolder(String words, String ready, String signal) throws Exception {
+        Path temporary = Files.createDirectory(directory.resolve("tmp"));
+        try (FurrowProcess furrow = FurrowProcess.start(temporary, words.split(" "))) {
+            await().atMost(FurrowProcess.TIMEOUT).until(() -> {
+                assertThat(furrow.isAlive()).as(furrow.printed()).isTrue();
+                return ready == null
+                        ? !kafkaFiles(temporary).isEmpty()
+                        : furrow.printed().matches("(?s).*" + ready + " +ready after.*");
+            });
+            assertThat(kafkaFiles(temporary)).isNotEmpty();
+
+            furrow.end(signal);
+        }
+
+        try (Stream<Path> left = Files.list(temporary)) {
+            assertThat(left.filter(file -> file.getFileName().toString().startsWith("furrow-")))
+                    .isEmpty();
+        }
+    }
+
+    private static List<Path> kafkaFiles(Path temporary) throws Exception {
+        try (Stream<Path> files = Files.walk(temporary)) {
+            return files.filter(file -> file.endsWith("meta.properties")).toList();
+        } catch (java.io.UncheckedIOException e) { // one of them has gone meanwhile
+            return List.of();
+        }
+    }
+}

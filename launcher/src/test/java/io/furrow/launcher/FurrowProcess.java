@@ -1,0 +1,73 @@
+package io.furrow.launcher;
+
+import java.io.IOException;
+import java.lang.management.ManagementFactory;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** A command of Furrow in a process of its own, with a temporary directory of its own. */
+final class FurrowProcess implements AutoCloseable {
+    static final Duration TIMEOUT = Duration.ofMinutes(3);
+
+    private final Process process;
+    private final Path output;
+
+    private FurrowProcess(Process process, Path output) {
+        this.process = process;
+        this.output = output;
+    }
+
+    /** @param temporary where the process makes its temporary files; what it prints is beside it */
+    static FurrowProcess start(Path temporary, String... words) throws IOException {
+        List<String> command = new ArrayList<>();
+        command.add(Path.of(System.getProperty("java.home"), "bin", "java").toString());
+        // What Flink opens to reflection, as this JVM has it.
+        ManagementFactory.getRuntimeMXBean().getInputArguments().stream()
+                .filter(argument -> argument.startsWith("--add-"))
+                .forEach(command::add);
+        command.addAll(List.of(
+                "-Xmx1g",
+                "-XX:MaxDirectMemorySize=384m",
+                "-Djava.io.tmpdir=" + temporary,
+                "-Dfurrow.plugins=" + System.getProperty("furrow.plugins"),
+                "-cp",
+                System.getProperty("java.class.path"),
+                Furrow.class.getName()));
+        command.addAll(List.of(words));
+        Path output = temporary.resolveSibling(temporary.getFileName() + ".out");
+        Process process = new ProcessBuilder(command)
+                .redirectErrorStream(true)
+                .redirectOutput(output.toFile())
+                .start();
+        return new FurrowProcess(process, output);
+    }
+
+    String printed() throws IOException {
+        return Files.readString(output);
+    }
+
+    boolean isAlive() {
+        return process.isAlive();
+    }
+
+    /** Sends a signal, for instance {@code TERM}, and waits for the end. */
+    void end(String signal) throws IOException, InterruptedException {
+        new ProcessBuilder("kill", "-" + signal, Long.toString(process.pid()))
+                .start()
+                .waitFor();
+        assertThat(process.waitFor(TIMEOUT.toSeconds(), TimeUnit.SECONDS))
+                .as("the process ends; it printed %s", printed())
+                .isTrue();
+    }
+
+    @Override
+    public void close() {
+        process.destroyForcibly();
+    }
+}

@@ -1,0 +1,59 @@
+package io.furrow.launcher;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.FreePort;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Who finds a warning in a log looks for its cause, so a run in which all is well must not write any. */
+class HealthyLogIT {
+    private static final Pattern TROUBLE = Pattern.compile("\\S+ +(WARN|ERROR|FATAL) .*");
+    private static final Pattern AVERAGE = Pattern.compile("average +field-1 ");
+    /** Windows of ten seconds, as many as it takes for several checkpoints of each job. */
+    private static final long WINDOWS = 4;
+
+    private static final List<String> PORTS =
+            List.of("kafka", "connect", "flink", "notify", "mqtt", "orion", "iot-agent", "mongo", "control", "health");
+
+    @TempDir
+    Path directory;
+
+    @Test
+    void holdsNoWarningOfARunThatIsWellNorOfItsStopNorOfTheNextRun() throws Exception {
+        Path data = directory.resolve("data");
+        // The same in both runs, as they are for a user.
+        String ports = PORTS.stream()
+                .map(name -> " --" + name + "-port " + FreePort.orFree(0))
+                .collect(Collectors.joining());
+        run("demo --data " + data + ports, "first");
+        run("demo --data " + data + ports, "second");
+
+        List<String> log = Files.readAllLines(data.resolve("furrow.log"));
+        assertThat(log)
+                .as("both runs and their ends")
+                .filteredOn(line -> line.contains("Session Stopping"))
+                .hasSize(2);
+        assertThat(log).noneMatch(line -> TROUBLE.matcher(line).matches());
+    }
+
+    private void run(String words, String name) throws Exception {
+        Path temporary = Files.createDirectory(directory.resolve(name));
+        try (FurrowProcess furrow = FurrowProcess.start(temporary, words.split(" "))) {
+            await().atMost(FurrowProcess.TIMEOUT).until(() -> {
+                assertThat(furrow.isAlive()).as(furrow.printed()).isTrue();
+                return AVERAGE.matcher(furrow.printed()).results().count() >= WINDOWS;
+            });
+
+            furrow.end("TERM");
+        }
+    }
+}

@@ -1,0 +1,53 @@
+package io.furrow.model.control;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.charset.StandardCharsets;
+import java.security.MessageDigest;
+import java.security.NoSuchAlgorithmException;
+import java.util.HexFormat;
+
+import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.cfg.JsonNodeFeature;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Tells whether two requests of one id ask for the same: 32 hexadecimal digits of the SHA-256 of all members but {@code requestId},
+ * whatever their order. The user is one of them, so that the same id from somebody else is another request.
+ */
+public final class RequestFingerprint {
+    /** Header of a response: the fingerprint of the request that it answers. */
+    public static final String HEADER = "request-fingerprint";
+
+    private static final int BYTES = 16;
+    private static final ObjectMapper SORTED =
+            NgsiJson.mapper().copy().configure(JsonNodeFeature.WRITE_PROPERTIES_SORTED, true);
+
+    private RequestFingerprint() {}
+
+    /** Of the value of a record; empty where that is no JSON object. */
+    public static String of(byte[] request) {
+        try {
+            return NgsiJson.read(request) instanceof ObjectNode object ? of(object) : "";
+        } catch (UnreadableException e) {
+            return ""; // such a request has no id that could come again
+        }
+    }
+
+    public static String of(ObjectNode request) {
+        try {
+            String members = SORTED.writeValueAsString(request.deepCopy().without("requestId"));
+            // UTF-16, because a text may hold half of a surrogate pair: such a request is refused, but has an id all
+            // the same.
+            byte[] digest = MessageDigest.getInstance("SHA-256").digest(members.getBytes(StandardCharsets.UTF_16BE));
+            return HexFormat.of().formatHex(digest, 0, BYTES);
+        } catch (NoSuchAlgorithmException e) {
+            throw new IllegalStateException("every JDK has SHA-256", e);
+        } catch (IOException e) {
+            throw new UncheckedIOException("a request could not be written as JSON", e);
+        }
+    }
+}

@@ -1,0 +1,30 @@
+package io.furrow.model.device;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * Where the settings of a device are: those of a group in a part of its mission's device list, see {@link MissionDeviceList}.
+ *
+ * @param part number of the part, from 0
+ * @param index of the group in that part, from 0
+ * @param sequence of the part; another one has other settings
+ */
+public record GroupRef(int part, int index, long sequence) {
+    /** Null where the node is no such object. */
+    static GroupRef read(JsonNode json) {
+        boolean complete = json.path("part").canConvertToInt()
+                && json.path("index").canConvertToInt()
+                && json.path("sequence").canConvertToLong();
+        return complete && json.isObject()
+                ? new GroupRef(
+                        json.path("part").intValue(),
+                        json.path("index").intValue(),
+                        json.path("sequence").longValue())
+                : null;
+    }
+
+    void describe(ObjectNode json) {
+        json.put("part", part).put("index", index).put("sequence", sequence);
+    }
+}

@@ -1,0 +1,68 @@
+package io.furrow.model.device;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.control.DeviceGroup;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * A part of a mission's device list: a record of {@code service.missions.devices} under {@link #key()}. What one request listed is
+ * one part, so that no record grows with the mission.
+ *
+ * @param part from 0 on
+ * @param sequence grows with every change of anything that is wanted
+ * @param devices groups and entity ids as requests have them; owned by the list, not to be changed by readers
+ */
+public record MissionDeviceList(String mission, int part, long sequence, ArrayNode devices) {
+    /** {@code <mission>.<part>}. */
+    public String key() {
+        return key(mission, part);
+    }
+
+    public static String key(String mission, int part) {
+        return mission + "." + part;
+    }
+
+    /**
+     * Reads the value of a record.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
+     */
+    public static MissionDeviceList read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        if (!json.path("mission").isTextual()
+                || !json.path("part").canConvertToInt()
+                || !json.path("sequence").canConvertToLong()
+                || !(json.path("devices") instanceof ArrayNode devices)) {
+            throw new UnreadableException(
+                    Reason.NOT_AN_EVENT, "it is no object with 'mission', 'part', 'sequence' and 'devices'");
+        }
+        return new MissionDeviceList(
+                json.path("mission").textValue(),
+                json.path("part").intValue(),
+                json.path("sequence").longValue(),
+                devices);
+    }
+
+    /** The settings of a group; none where there is no group of that index. */
+    ObjectNode settings(int index) {
+        return devices.get(index) instanceof ObjectNode group
+                ? DeviceGroup.settings(group)
+                : JsonNodeFactory.instance.objectNode();
+    }
+
+    public byte[] toBytes() {
+        ObjectNode json = JsonNodeFactory.instance
+                .objectNode()
+                .put("mission", mission)
+                .put("part", part)
+                .put("sequence", sequence);
+        json.set("devices", devices);
+        return NgsiJson.write(json);
+    }
+}

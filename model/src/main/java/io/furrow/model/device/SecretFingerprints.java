@@ -1,0 +1,95 @@
+package io.furrow.model.device;
+
+import java.util.Map;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * The record of {@code service.secrets}, under {@link #KEY}: which secret a farm has, without anything of the secret.
+ *
+ * @param newest number of the key that makes passwords
+ * @param apiKeys number of the key that makes API keys
+ * @param byNumber fingerprint of each key
+ */
+public record SecretFingerprints(int newest, int apiKeys, Map<Integer, String> byNumber) {
+    /** Key of the one record of the topic. */
+    public static final String KEY = "farm";
+
+    /** How the secret of a process stands to that of the farm. */
+    public enum Relation {
+        /** The same keys. */
+        SAME,
+        /** The farm's after one more rotation. */
+        NEWER,
+        /** The farm's before its last rotation. */
+        OLDER,
+        /** Another secret. */
+        ANOTHER
+    }
+
+    public SecretFingerprints {
+        byNumber = Map.copyOf(byNumber);
+    }
+
+    public static SecretFingerprints of(FarmSecret secret) {
+        Map<Integer, String> byNumber = new TreeMap<>();
+        secret.keys().forEach(key -> byNumber.put(key.number(), key.fingerprint()));
+        return new SecretFingerprints(secret.newestKey(), secret.apiKeys().number(), byNumber);
+    }
+
+    /** How these, of a process, stand to those of the farm. */
+    public Relation to(SecretFingerprints farm) {
+        boolean shares = byNumber.keySet().stream().anyMatch(farm.byNumber::containsKey);
+        boolean agrees = byNumber.entrySet().stream()
+                .allMatch(each -> each.getValue().equals(farm.byNumber.getOrDefault(each.getKey(), each.getValue())));
+        if (!shares || !agrees || newest == farm.newest && apiKeys != farm.apiKeys) {
+            return Relation.ANOTHER;
+        }
+        if (newest == farm.newest) {
+            return Relation.SAME;
+        }
+        return newest > farm.newest ? Relation.NEWER : Relation.OLDER;
+    }
+
+    /** Fingerprint of the newest key. */
+    public String fingerprint() {
+        return byNumber.get(newest);
+    }
+
+    /** @throws UnreadableException where it is no such object */
+    public static SecretFingerprints read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        Map<Integer, String> byNumber = new TreeMap<>();
+        for (Map.Entry<String, JsonNode> each : json.path("fingerprints").properties()) {
+            if (each.getKey().matches("[1-9]\\d{0,8}") && each.getValue().isTextual()) {
+                byNumber.put(Integer.valueOf(each.getKey()), each.getValue().textValue());
+            }
+        }
+        int newest = json.path("newest").asInt();
+        if (!byNumber.containsKey(newest)) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it names no fingerprint of its newest key");
+        }
+        return new SecretFingerprints(newest, json.path("apiKeys").asInt(), byNumber);
+    }
+
+    /** UTF-8 JSON. */
+    public byte[] toBytes() {
+        ObjectNode json = NgsiJson.mapper().createObjectNode();
+        json.put("newest", newest).put("apiKeys", apiKeys);
+        ObjectNode fingerprints = json.putObject("fingerprints");
+        new TreeMap<>(byNumber).forEach((number, fingerprint) -> fingerprints.put(number.toString(), fingerprint));
+        return NgsiJson.write(json);
+    }
+
+    /** Fingerprint and number of the newest key, as in {@link FarmSecret#toString()}. */
+    @Override
+    public String toString() {
+        return fingerprint() + " (key " + newest + ")";
+    }
+}

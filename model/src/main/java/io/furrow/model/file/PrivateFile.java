@@ -1,0 +1,72 @@
+package io.furrow.model.file;
+
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.channels.FileChannel;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.nio.file.StandardOpenOption;
+import java.nio.file.attribute.FileAttribute;
+import java.nio.file.attribute.PosixFileAttributeView;
+import java.nio.file.attribute.PosixFilePermission;
+import java.nio.file.attribute.PosixFilePermissions;
+import java.util.Optional;
+import java.util.Set;
+import java.util.UUID;
+
+/** Writes files that only their owner may read, and tells of those that others may. */
+public final class PrivateFile {
+    private static final FileAttribute<Set<PosixFilePermission>> OWNER_ONLY =
+            PosixFilePermissions.asFileAttribute(PosixFilePermissions.fromString("rw-------"));
+
+    private PrivateFile() {}
+
+    /**
+     * Creates a file with mode 600 and writes a text to it, in UTF-8 and through to the disk.
+     *
+     * @throws java.nio.file.FileAlreadyExistsException if there is such a file, which stays as it is
+     */
+    public static void create(Path file, String text) throws IOException {
+        boolean posix = file.getFileSystem().supportedFileAttributeViews().contains("posix");
+        FileAttribute<?>[] attributes = posix ? new FileAttribute<?>[] {OWNER_ONLY} : new FileAttribute<?>[0];
+        Set<StandardOpenOption> options = Set.of(StandardOpenOption.CREATE_NEW, StandardOpenOption.WRITE);
+        try (FileChannel channel = FileChannel.open(file, options, attributes)) {
+            ByteBuffer bytes = ByteBuffer.wrap(text.getBytes(StandardCharsets.UTF_8));
+            while (bytes.hasRemaining()) {
+                channel.write(bytes);
+            }
+            channel.force(true);
+        }
+    }
+
+    /** Replaces a file in one step, so that a reader sees all of the old text or all of the new; its permissions stay. */
+    public static void replace(Path file, String text) throws IOException {
+        Path real = file.toRealPath();
+        Path fresh = real.resolveSibling(real.getFileName() + "." + UUID.randomUUID() + ".new");
+        try {
+            create(fresh, text);
+            PosixFileAttributeView view = Files.getFileAttributeView(fresh, PosixFileAttributeView.class);
+            if (view != null) {
+                view.setPermissions(Files.getPosixFilePermissions(real));
+            }
+            Files.move(fresh, real, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+        } finally {
+            Files.deleteIfExists(fresh);
+        }
+    }
+
+    /** A sentence for the log where every user of the machine may read the file; empty where not, or where nobody can tell. */
+    public static Optional<String> exposure(Path file) throws IOException {
+        PosixFileAttributeView view = Files.getFileAttributeView(file, PosixFileAttributeView.class);
+        if (view == null) {
+            return Optional.empty();
+        }
+        Set<PosixFilePermission> permissions = view.readAttributes().permissions();
+        return permissions.contains(PosixFilePermission.OTHERS_READ)
+                ? Optional.of("%s can be read by every user of this machine (%s); change that with: chmod o= %s"
+                        .formatted(file, PosixFilePermissions.toString(permissions), file))
+                : Optional.empty();
+    }
+}

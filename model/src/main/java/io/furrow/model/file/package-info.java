@@ -1,0 +1,2 @@
+/** Small files that people edit while a process runs: secrets, tokens, certificates. */
+package io.furrow.model.file;

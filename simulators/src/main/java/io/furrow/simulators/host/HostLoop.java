@@ -1,0 +1,157 @@
+package io.furrow.simulators.host;
+
+import java.time.Clock;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.Collection;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Queue;
+import java.util.concurrent.ConcurrentLinkedQueue;
+import java.util.function.BooleanSupplier;
+
+import org.apache.kafka.common.KafkaException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.fleet.FarmFleet;
+import io.furrow.simulators.fleet.FleetAccess;
+import io.furrow.simulators.fleet.FleetEvents;
+
+/** One attempt at hosting devices, from reading all that is wanted to the end, or to an exception after which another begins anew. */
+final class HostLoop implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(HostLoop.class);
+    private static final Duration RETRY_BACKOFF = Duration.ofSeconds(1);
+
+    private final Clock clock = Clock.systemUTC();
+    private final WantedRecords records;
+    private final StatusRecords statuses;
+    private final FarmFleet fleet;
+    private final StatusBoard board;
+    private final Hosting hosting;
+    private final FarmSecretCheck secret;
+    private final KnownFields fields = new KnownFields();
+    private final Queue<Runnable> told = new ConcurrentLinkedQueue<>();
+    private volatile boolean caughtUp;
+    private volatile Instant lastPoll;
+
+    HostLoop(HostSettings settings) {
+        Properties kafka = settings.kafka();
+        FleetSettings fiware = new FleetSettings(settings.contextBroker(), null, null, null, null, "", "/");
+        this.secret = new FarmSecretCheck(settings.secret());
+        FleetAccess access = new FleetAccess(fiware, settings.mqtt(), FleetAccess.Logins.of(secret));
+        this.records = new WantedRecords(
+                kafka,
+                List.of(Topics.DEVICES, Topics.MISSION_DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS));
+        this.statuses = new StatusRecords(kafka);
+        this.board = new StatusBoard(statuses::say);
+        this.fleet = FarmFleet.open(access, mission -> secret.get().apiKey(mission), new Told());
+        this.hosting = new Hosting(new Running(), board, settings.seed());
+    }
+
+    boolean isCaughtUp() {
+        return caughtUp;
+    }
+
+    /** When the topics were last read; null if never. */
+    Instant lastPoll() {
+        return lastPoll;
+    }
+
+    FarmFleet fleet() {
+        return fleet;
+    }
+
+    /** Hosts until it is closing; a Kafka that is away is waited for. */
+    void run(BooleanSupplier closing) throws InterruptedException, FarmSecretCheck.AnotherSecretException {
+        while (!closing.getAsBoolean()) {
+            try {
+                step();
+                lastPoll = clock.instant();
+            } catch (KafkaException e) {
+                LOG.warn("Kafka does not answer the host of devices, which goes on trying: {}", e.toString());
+                Thread.sleep(RETRY_BACKOFF.toMillis());
+            }
+        }
+    }
+
+    /** Stops all devices within seconds. Their statuses stay as they are: another host may go on. */
+    @Override
+    public void close() {
+        fleet.close();
+        records.close();
+        statuses.close();
+    }
+
+    private void step() throws FarmSecretCheck.AnotherSecretException {
+        Map<String, Map<String, byte[]>> fresh = records.next();
+        secret.take(fresh.getOrDefault(Topics.SECRETS, Map.of()));
+        if (secret.isChanged()) {
+            fleet.renew();
+        }
+        if (!caughtUp) {
+            statuses.remember(fresh.getOrDefault(Topics.DEVICES_STATUS, Map.of()));
+        }
+        if (fresh.containsKey(Topics.FIELDS)) {
+            fields.take(fresh.get(Topics.FIELDS));
+            hosting.know(fields.at(System.currentTimeMillis()));
+        }
+        if (fresh.containsKey(Topics.MISSION_DEVICES)) {
+            hosting.takeLists(fresh.get(Topics.MISSION_DEVICES));
+        }
+        if (fresh.containsKey(Topics.DEVICES)) {
+            hosting.take(read(fresh.get(Topics.DEVICES)));
+        }
+        if (!caughtUp && records.isCaughtUp()) {
+            hosting.forgetAllBut(statuses.keys());
+            caughtUp = true;
+        }
+        for (Runnable next = told.poll(); next != null; next = told.poll()) {
+            next.run();
+        }
+        statuses.repeatLost();
+    }
+
+    private static Map<String, WantedDevice> read(Map<String, byte[]> records) {
+        Map<String, WantedDevice> devices = new LinkedHashMap<>();
+        records.forEach((key, value) -> {
+            try {
+                devices.put(key, value == null ? null : WantedDevice.read(value));
+            } catch (UnreadableException e) {
+                LOG.warn("what is wanted of {} cannot be read and is passed over: {}", key, e.getMessage());
+            }
+        });
+        return devices;
+    }
+
+    /** What the fleet tells, taken on the thread of the host. */
+    private final class Told implements FleetEvents {
+        @Override
+        public void up(String device) {
+            told.add(() -> board.up(device));
+        }
+
+        @Override
+        public void failed(String device, int attempts, String reason) {
+            told.add(() -> board.failed(device, attempts, reason));
+        }
+    }
+
+    private final class Running implements Hosting.Fleet {
+        @Override
+        public void add(Collection<FarmFleet.Member> members) {
+            fleet.add(members);
+        }
+
+        @Override
+        public void remove(String device) {
+            fleet.remove(device);
+        }
+    }
+}

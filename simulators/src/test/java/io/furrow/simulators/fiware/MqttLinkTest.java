@@ -1,0 +1,60 @@
+package io.furrow.simulators.fiware;
+
+import java.nio.charset.StandardCharsets;
+import java.util.Map;
+
+import org.eclipse.paho.client.mqttv3.MqttClient;
+import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
+import org.eclipse.paho.client.mqttv3.MqttException;
+import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMqtt;
+
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+class MqttLinkTest {
+    private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
+
+    @Test
+    void refusesToStartWithAWrongPassword() {
+        try (EmbeddedMqtt broker = EmbeddedMqtt.start(PASSWORDS)) {
+            assertThatThrownBy(() -> FiwareStandIn.start(new FiwareSettings(0, 0, broker.uri(), "agent", "wrong")))
+                    .isInstanceOf(IllegalStateException.class)
+                    .hasMessageContaining(broker.uri().toString())
+                    .hasMessageContaining("password");
+        }
+    }
+
+    @Test
+    void comesBackWhenTheBrokerWasAway() throws MqttException {
+        EmbeddedMqtt first = EmbeddedMqtt.start(PASSWORDS);
+        int port = first.uri().getPort();
+        try (FiwareStandIn other = FiwareStandIn.start(new FiwareSettings(0, 0, first.uri(), "agent", "secret"))) {
+            Client.of(other.iotAgent())
+                    .post("/iot/services", "{\"services\": [{\"apikey\": \"k2\", \"resource\": \"/iot/json\"}]}");
+            first.close();
+            EmbeddedMqtt second = EmbeddedMqtt.start(port, PASSWORDS);
+            MqttClient thing = device(second);
+
+            await().until(() -> {
+                thing.publish("/k2/x/attrs", "{\"a\": 1}".getBytes(StandardCharsets.UTF_8), 1, false);
+                return other.counters().measures() > 0;
+            });
+
+            thing.disconnect();
+            thing.close();
+            second.close();
+        }
+    }
+
+    private static MqttClient device(EmbeddedMqtt at) throws MqttException {
+        MqttConnectOptions options = new MqttConnectOptions();
+        options.setUserName("device");
+        options.setPassword("hidden".toCharArray());
+        MqttClient client = new MqttClient(at.uri().toString(), "device", new MemoryPersistence());
+        client.connect(options);
+        return client;
+    }
+}

@@ -1,0 +1,142 @@
+package io.furrow.soak.control;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Random;
+import java.util.stream.Collectors;
+
+/** What fails during a run, how often and for how long. */
+final class ChaosFaults {
+    private final ChaosFarm farm;
+    private final List<Supervisor> supervisors;
+    private final List<Fault> faults = new ArrayList<>();
+
+    /** @param brief once each and short, rather than again and again */
+    ChaosFaults(ChaosFarm farm, List<Supervisor> supervisors, boolean brief, Random random) {
+        this.farm = farm;
+        this.supervisors = supervisors;
+        int times = brief ? 1 : 0;
+        for (int i = 0; i < supervisors.size(); i++) {
+            String name = farm.controls().get(i).name();
+            add(name, pace(brief, i == 0 ? 6 : 20, 3, 90, 15, times), control(supervisors.get(i)), random);
+        }
+        add("kafka", pace(brief, 13, 3, 300, 25, times), kafka(), random);
+        add("iot-agent", pace(brief, 5, 8, 120, 40, times), proxy(farm.iotAgent()), random);
+        add("context-broker", pace(brief, 5, 8, 120, 40, times), proxy(farm.contextBroker()), random);
+        add("mosquitto", pace(brief, 9, 4, 150, 20, times), mosquitto(), random);
+        add("webhook", pace(brief, 8, 6, 90, 30, times), proxy(farm.webhook()), random);
+        add("webhook-refuses", pace(brief, 18, 4, 120, 20, times), refusals(), random);
+    }
+
+    /** @param seconds mean pauses and outages, of the brief form and of the other */
+    private static Fault.Pace pace(boolean brief, int pause, int outage, int longPause, int longOutage, int times) {
+        return new Fault.Pace(
+                Duration.ofSeconds(brief ? pause : longPause), Duration.ofSeconds(brief ? outage : longOutage), times);
+    }
+
+    private void add(String name, Fault.Pace pace, Fault.Action action, Random random) {
+        faults.add(new Fault(name, pace, action, new Random(random.nextLong())));
+    }
+
+    void start() {
+        faults.forEach(Fault::start);
+    }
+
+    /** Returns when everything works again. */
+    void stop() throws InterruptedException {
+        for (Fault fault : faults) {
+            fault.stop();
+        }
+    }
+
+    /** What is away now. */
+    String away() {
+        String away = faults.stream().filter(Fault::isActive).map(Fault::name).collect(Collectors.joining(", "));
+        return away.isEmpty() ? "nothing" : away;
+    }
+
+    /** Whether Kafka or a control plane is away, without which not all serve. */
+    boolean stopsServing() {
+        return faults.stream()
+                .filter(fault -> fault.name().equals("kafka") || fault.name().startsWith("control-"))
+                .anyMatch(Fault::isActive);
+    }
+
+    /** How often each failed. */
+    String counts() {
+        return faults.stream().map(fault -> fault.name() + " " + fault.count()).collect(Collectors.joining(", "));
+    }
+
+    private static Fault.Action control(Supervisor supervisor) {
+        return new Fault.Action() {
+            @Override
+            public void begin(Random random) throws Exception {
+                supervisor.kill();
+            }
+
+            @Override
+            public void end() throws Exception {
+                supervisor.start();
+            }
+        };
+    }
+
+    private Fault.Action kafka() {
+        return new Fault.Action() {
+            @Override
+            public void begin(Random random) throws Exception {
+                supervisors.forEach(Supervisor::kafkaIsAway);
+                farm.kafka().kill();
+            }
+
+            @Override
+            public void end() throws Exception {
+                farm.kafka().start();
+                supervisors.forEach(Supervisor::kafkaIsAway);
+            }
+        };
+    }
+
+    private Fault.Action mosquitto() {
+        return new Fault.Action() {
+            @Override
+            public void begin(Random random) throws Exception {
+                farm.mosquitto().kill();
+            }
+
+            @Override
+            public void end() throws Exception {
+                farm.mosquitto().start();
+            }
+        };
+    }
+
+    private Fault.Action refusals() {
+        return new Fault.Action() {
+            @Override
+            public void begin(Random random) {
+                farm.receiver().refuse(true);
+            }
+
+            @Override
+            public void end() {
+                farm.receiver().refuse(false);
+            }
+        };
+    }
+
+    private static Fault.Action proxy(FaultProxy proxy) {
+        return new Fault.Action() {
+            @Override
+            public void begin(Random random) throws Exception {
+                proxy.become(random.nextBoolean() ? FaultProxy.Mode.HANG : FaultProxy.Mode.REFUSE);
+            }
+
+            @Override
+            public void end() throws Exception {
+                proxy.become(FaultProxy.Mode.PASS);
+            }
+        };
+    }
+}

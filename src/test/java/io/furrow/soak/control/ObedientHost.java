@@ -1,0 +1,57 @@
+package io.furrow.soak.control;
+
+import java.time.Duration;
+import java.util.List;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Reports each device at once as it is wanted, and runs none. */
+final class ObedientHost implements AutoCloseable {
+    private static final Duration POLL = Duration.ofMillis(50);
+
+    private final String bootstrapServers;
+    private final RequestSender sender;
+    private volatile boolean closed;
+
+    /** The topics must be there. */
+    ObedientHost(String bootstrapServers, RequestSender sender) {
+        this.bootstrapServers = bootstrapServers;
+        this.sender = sender;
+        Thread thread = new Thread(this::follow, "obedient-host");
+        thread.setDaemon(true);
+        thread.start();
+    }
+
+    private void follow() {
+        try (KafkaConsumer<String, byte[]> consumer = Committed.consumer(bootstrapServers)) {
+            Committed.assign(consumer, List.of(Topics.DEVICES));
+            while (!closed) {
+                consumer.poll(POLL).forEach(this::report);
+            }
+        }
+    }
+
+    private void report(ConsumerRecord<String, byte[]> record) {
+        try {
+            WantedDevice device = record.value() == null ? null : WantedDevice.read(record.value());
+            if (device != null && device.isHosted()) {
+                DeviceStatus.State state = device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
+                DeviceStatus status = new DeviceStatus(device.version().sequence(), state, null);
+                sender.write(Topics.DEVICES_STATUS, record.key(), status.toBytes());
+            }
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("the control plane wrote what cannot be read under " + record.key(), e);
+        }
+    }
+
+    @Override
+    public void close() {
+        closed = true;
+    }
+}

@@ -1,0 +1,44 @@
+package io.furrow.soak.control;
+
+import java.util.List;
+import java.util.Set;
+import java.util.function.BooleanSupplier;
+
+/** Measures how long after Kafka and both control planes were started both serve again. */
+final class RecoveryTime {
+    private static final Set<String> SERVING = Set.of("ready", "degraded");
+
+    private final BooleanSupplier outage;
+    private final List<ControlProcess> controls;
+    private long back;
+    private boolean recovering;
+    private volatile long longest;
+
+    /** @param outage whether Kafka or a control plane is away */
+    RecoveryTime(BooleanSupplier outage, List<ControlProcess> controls) {
+        this.outage = outage;
+        this.controls = controls;
+    }
+
+    /** Called at short intervals. */
+    void step() {
+        if (outage.getAsBoolean()) {
+            recovering = true;
+            back = 0;
+            return;
+        }
+        back = back == 0 ? System.nanoTime() : back;
+        if (recovering && controls.stream().allMatch(RecoveryTime::serves)) {
+            recovering = false;
+            longest = Math.max(longest, System.nanoTime() - back);
+        }
+    }
+
+    private static boolean serves(ControlProcess control) {
+        return SERVING.contains(control.readiness().path("status").asText());
+    }
+
+    double longestSeconds() {
+        return longest / 1e9;
+    }
+}

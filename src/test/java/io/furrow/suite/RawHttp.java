@@ -1,0 +1,72 @@
+package io.furrow.suite;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.Socket;
+import java.net.SocketException;
+import java.net.SocketTimeoutException;
+import java.nio.charset.StandardCharsets;
+import java.util.Optional;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+/** Requests written byte by byte, because HTTP clients let nobody choose {@code Host} and {@code Origin}. */
+final class RawHttp {
+    private static final Pattern STATUS = Pattern.compile("(?s)HTTP/1\\.[01] (\\d{3}).*");
+    private static final int TIMEOUT_MS = 60_000;
+    /** Beyond it a server speaks another protocol, and waits for more. */
+    private static final int RECOGNIZED_WITHIN_MS = 20_000;
+
+    private RawHttp() {}
+
+    /** An answer as it came. */
+    record Answer(int status, String text) {}
+
+    /** Empty where the port answers with something else than HTTP, or not at all. */
+    static Optional<Answer> send(int port, String request) throws IOException {
+        return send(port, request, TIMEOUT_MS);
+    }
+
+    /** Whether a request is answered as HTTP does. */
+    static boolean isSpokenAt(int port) {
+        try {
+            return send(port, get("/", "Host: 127.0.0.1:" + port), RECOGNIZED_WITHIN_MS)
+                    .isPresent();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
+    private static Optional<Answer> send(int port, String request, int timeoutMs) throws IOException {
+        try (Socket socket = new Socket()) {
+            socket.connect(new InetSocketAddress(InetAddress.getLoopbackAddress(), port), timeoutMs);
+            socket.setSoTimeout(timeoutMs);
+            socket.getOutputStream().write(request.getBytes(StandardCharsets.ISO_8859_1));
+            socket.getOutputStream().flush();
+            String text = new String(socket.getInputStream().readAllBytes(), StandardCharsets.ISO_8859_1);
+            Matcher status = STATUS.matcher(text);
+            return status.matches()
+                    ? Optional.of(new Answer(Integer.parseInt(status.group(1)), text))
+                    : Optional.empty();
+        } catch (SocketTimeoutException | SocketException e) {
+            return Optional.empty();
+        }
+    }
+
+    /** Without a body. */
+    static String get(String path, String... headers) {
+        return head("GET", path, headers) + "\r\n";
+    }
+
+    /** A POST that a page may send anywhere without asking first: its content type is one of three. */
+    static String simplePost(String path, String body, String... headers) {
+        return head("POST", path, headers) + "Content-Type: text/plain\r\nContent-Length: " + body.length() + "\r\n\r\n"
+                + body;
+    }
+
+    static String head(String method, String path, String... headers) {
+        return method + " " + path + " HTTP/1.1\r\nConnection: close\r\n" + String.join("\r\n", headers) + "\r\n";
+    }
+}
