@@ -29,6 +29,12 @@ public record ControlSettings(
 
     private static final Duration TAKEN_OVER_AFTER = Duration.ofSeconds(10);
 
+    /**
+     * The first batch of a transaction may be refused for as long as the broker still writes the markers of the one before; a second
+     * in flight behind it would then come out of order, which broker and client log as an error before they try again.
+     */
+    private static final int IN_FLIGHT = 1;
+
     /** One instance; requests are remembered for an hour, devices have a minute to come up. */
     public static ControlSettings of(Properties client) {
         return new ControlSettings(
@@ -63,6 +69,7 @@ public record ControlSettings(
         streams.put(StreamsConfig.PROCESSING_EXCEPTION_HANDLER_CLASS_CONFIG, FailureHandler.class);
         streams.put(StreamsConfig.PRODUCTION_EXCEPTION_HANDLER_CLASS_CONFIG, FailureHandler.class);
         streams.put(StreamsConfig.producerPrefix("max.request.size"), Limits.DEAD_LETTER_BYTES);
+        streams.put(StreamsConfig.producerPrefix("max.in.flight.requests.per.connection"), IN_FLIGHT);
         streams.put(StreamsConfig.topicPrefix("max.message.bytes"), Limits.MESSAGE_BYTES);
         streams.put(StreamsConfig.consumerPrefix("auto.offset.reset"), "earliest");
         streams.put(StreamsConfig.mainConsumerPrefix("session.timeout.ms"), (int) TAKEN_OVER_AFTER.toMillis());

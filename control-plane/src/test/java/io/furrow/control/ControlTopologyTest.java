@@ -262,10 +262,12 @@ class ControlTopologyTest {
                         "template-versions",
                         "mission-answers",
                         "mission-positions",
+                        "device-statuses-positions",
                         "replays",
                         "replay-sequence",
                         "replay-answers",
-                        "replay-positions"));
+                        "replay-positions",
+                        "replay-statuses-positions"));
     }
 
     private void ask(String topic, String key, String json) {

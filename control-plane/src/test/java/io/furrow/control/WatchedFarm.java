@@ -79,8 +79,12 @@ final class WatchedFarm implements AutoCloseable {
         RecordHeaders headers = new RecordHeaders();
         Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/")
                 .forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
+        pipe(topic, new TestRecord<>(key, value, headers, now));
+    }
+
+    void pipe(String topic, TestRecord<String, byte[]> record) {
         driver.createInputTopic(topic, new StringSerializer(), new ByteArraySerializer())
-                .pipeInput(new TestRecord<>(key, value, headers, now));
+                .pipeInput(record);
     }
 
     void pass(Duration time) {

@@ -27,16 +27,14 @@ public final class Inlet {
 
     /** The requests to a manager; a missing key is empty. */
     public static KStream<String, byte[]> requests(StreamsBuilder builder, ManagerTopic<?> manager) {
-        builder.addStateStore(StoreRecords.builder(manager.positions()));
         KStream<String, byte[]> accepted = builder.stream(manager.topic(), from(manager.name() + "-requests-in"))
                 .process(() -> new AcceptRequests(manager), Named.as(manager.name() + "-accept"));
-        return inLine(accepted, manager.name() + "-requests")
-                .process(() -> new TakeOnce(manager), Named.as(manager.name() + "-take-once"), manager.positions());
+        return once(builder, inLine(accepted, manager.name() + "-requests"), manager.name());
     }
 
     /** A topic on which executors say what is. */
     public static KStream<String, byte[]> statuses(StreamsBuilder builder, String topic, String name) {
-        return noted(builder.stream(topic, from(name + "-in")), name);
+        return noted(builder, builder.stream(topic, from(name + "-in")), name);
     }
 
     /**
@@ -46,11 +44,18 @@ public final class Inlet {
      */
     public static KStream<String, byte[]> observed(
             StreamsBuilder builder, String topic, String name, AutoOffsetReset start) {
-        return noted(builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
+        return noted(builder, builder.stream(topic, from(name + "-in").withOffsetResetPolicy(start)), name);
     }
 
-    private static KStream<String, byte[]> noted(KStream<String, byte[]> stream, String name) {
-        return inLine(stream.process(NoteOrigin::new, Named.as(name + "-note-origin")), name);
+    private static KStream<String, byte[]> noted(StreamsBuilder builder, KStream<String, byte[]> stream, String name) {
+        return once(builder, inLine(stream.process(NoteOrigin::new, Named.as(name + "-note-origin")), name), name);
+    }
+
+    /** Positions are written to the changelog once per commit, not once per record. */
+    private static KStream<String, byte[]> once(StreamsBuilder builder, KStream<String, byte[]> line, String name) {
+        String positions = name + "-positions";
+        builder.addStateStore(StoreRecords.builder(positions).withCachingEnabled());
+        return line.process(() -> new TakeOnce(positions), Named.as(name + "-take-once"), positions);
     }
 
     /** In the order in which they come, all on one instance at a time. */

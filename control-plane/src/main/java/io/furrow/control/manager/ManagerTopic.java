@@ -41,9 +41,4 @@ public record ManagerTopic<C>(String name, String topic, Function<byte[], Receiv
     public String answers() {
         return name + "-answers";
     }
-
-    /** The store of how far the topic was read. */
-    String positions() {
-        return name + "-positions";
-    }
 }

@@ -1,5 +1,8 @@
 package io.furrow.control.manager;
 
+import java.util.HashSet;
+import java.util.Set;
+
 import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
@@ -7,8 +10,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Lets each request pass once, also where Kafka has forgotten how far its topic, or the line behind it, was read, as it does with
- * the offsets of a group that was away for {@code offsets.retention.minutes}: no request of last week is run again.
+ * Lets each record of a topic pass once, also where the topic, or the line behind it, is read again from an older offset: a group
+ * that was away for {@code offsets.retention.minutes} has none, and a broker that was killed may hand out offsets of some minutes
+ * ago. No request of last week is run again, and no encounter that has ended raises a second alarm.
  *
  * <p><b>State</b>: offset and newest timestamp by partition of the topic, in a named store. <b>Cleared</b>: never, it is as large as there are
  * partitions. <b>Twice</b>: dropped where neither the offset nor the timestamp is new; a topic that was deleted and made anew
@@ -17,7 +21,10 @@ import org.slf4j.LoggerFactory;
 final class TakeOnce extends ContextualProcessor<String, byte[], String, byte[]> {
     private static final Logger LOG = LoggerFactory.getLogger(TakeOnce.class);
 
-    private final ManagerTopic<?> manager;
+    private final String store;
+    /** Partitions of which the last record was passed over, so that the log tells of it once. */
+    private final Set<String> readAgain = new HashSet<>();
+
     private Records<Position> positions;
 
     /**
@@ -35,27 +42,33 @@ final class TakeOnce extends ContextualProcessor<String, byte[], String, byte[]>
         }
     }
 
-    TakeOnce(ManagerTopic<?> manager) {
-        this.manager = manager;
+    /** @param store of the positions */
+    TakeOnce(String store) {
+        this.store = store;
     }
 
     @Override
     public void init(ProcessorContext<String, byte[]> context) {
         super.init(context);
-        positions = StoreRecords.of(context, manager.positions(), Position.class);
+        positions = StoreRecords.of(context, store, Position.class);
     }
 
     @Override
     public void process(Record<String, byte[]> record) {
         RecordOrigin origin = RecordOrigin.of(record)
-                .orElseThrow(() -> new IllegalStateException("a request has no origin; AcceptRequests notes it"));
-        Position known = positions.get(origin.topicPartition());
+                .orElseThrow(() ->
+                        new IllegalStateException("a record has no origin; AcceptRequests or NoteOrigin notes it"));
+        String partition = origin.topicPartition();
+        Position known = positions.get(partition);
         if (known != null && known.covers(origin.offset(), record.timestamp())) {
-            LOG.warn("{} was read before and is passed over", origin);
+            if (readAgain.add(partition)) {
+                LOG.warn("{} is read again; records up to {}@{} are passed over", origin, partition, known.offset());
+            }
             return;
         }
+        readAgain.remove(partition);
         Position now = new Position(origin.offset(), record.timestamp());
-        positions.put(origin.topicPartition(), known == null ? now : known.with(origin.offset(), record.timestamp()));
+        positions.put(partition, known == null ? now : known.with(origin.offset(), record.timestamp()));
         context().forward(record);
     }
 }

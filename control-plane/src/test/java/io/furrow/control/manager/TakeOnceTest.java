@@ -14,14 +14,15 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class TakeOnceTest {
+    private static final String STORE = "positions";
+
     private final MockProcessorContext<String, byte[]> context = new MockProcessorContext<>(new Properties());
-    private final TakeOnce takeOnce = new TakeOnce(ManagerTopic.DOMAIN);
+    private final TakeOnce takeOnce = new TakeOnce(STORE);
 
     @BeforeEach
     void open() {
-        KeyValueStore<String, byte[]> store = StoreRecords.builder(ManagerTopic.DOMAIN.positions())
-                .withLoggingDisabled()
-                .build();
+        KeyValueStore<String, byte[]> store =
+                StoreRecords.builder(STORE).withLoggingDisabled().build();
         store.init(context.getStateStoreContext(), store);
         context.addStateStore(store);
         takeOnce.init(context);
