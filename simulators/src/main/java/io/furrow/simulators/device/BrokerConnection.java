@@ -1,6 +1,7 @@
 package io.furrow.simulators.device;
 
 import java.io.IOException;
+import java.time.Duration;
 import java.util.UUID;
 import java.util.concurrent.TimeUnit;
 
@@ -21,6 +22,9 @@ public final class BrokerConnection implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(BrokerConnection.class);
     private static final int QOS = 1;
     private static final int CONNECT_SECONDS = 10;
+    /** Within which a broker accepts or refuses; Paho itself may wait for ever. */
+    private static final Duration ANSWERED_WITHIN = Duration.ofSeconds(15);
+
     private static final long CLOSE_MS = 100;
     private static final long RETRY_NANOS = TimeUnit.SECONDS.toNanos(1);
 
@@ -68,7 +72,7 @@ public final class BrokerConnection implements AutoCloseable {
         }
         client.setCallback(callback);
         try {
-            client.connect(options).waitForCompletion();
+            client.connect(options).waitForCompletion(ANSWERED_WITHIN.toMillis());
         } catch (MqttException e) {
             throw new IOException(refusal(e.getReasonCode()), e);
         }

@@ -56,7 +56,7 @@ final class LineOpener implements AutoCloseable {
         try {
             way.open();
             outcome.opened(way);
-        } catch (IOException e) {
+        } catch (IOException | RuntimeException e) { // whatever it is, the device is wanted
             outcome.failed(way, number, e.getMessage());
             Duration longer = pause.multipliedBy(3).dividedBy(2);
             Duration next = longer.compareTo(LONGEST_PAUSE) < 0 ? longer : LONGEST_PAUSE;

@@ -1,6 +1,7 @@
 package io.furrow.simulators.mqtt;
 
 import java.io.IOException;
+import java.time.Duration;
 import java.util.Arrays;
 import java.util.Collection;
 import java.util.Map;
@@ -32,6 +33,12 @@ import io.furrow.simulators.device.NoDelaySockets;
 public final class Line implements MqttCallbackExtended, AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Line.class);
     private static final int CONNECT_SECONDS = 10;
+    /**
+     * Within which a broker accepts or refuses. Paho itself waits for ever: for a broker that says nothing, and where a connection is
+     * cut while Paho starts its threads.
+     */
+    static final Duration ANSWERED_WITHIN = Duration.ofSeconds(15);
+
     /** Enough for 10,000 in a second; brokers drop what they are given faster than they can take it. */
     private static final int INFLIGHT = 100;
 
@@ -79,9 +86,14 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
      * Connects.
      *
      * @param heard is given topic and payload of what comes, on a thread of the client
-     * @throws IOException naming broker and user, if the broker is away or refuses
+     * @throws IOException naming broker and user, if the broker is away, refuses, or does not answer
      */
     public static Line open(MqttAccess access, Plan plan, BiConsumer<String, byte[]> heard) throws IOException {
+        return open(access, plan, heard, ANSWERED_WITHIN);
+    }
+
+    static Line open(MqttAccess access, Plan plan, BiConsumer<String, byte[]> heard, Duration answeredWithin)
+            throws IOException {
         String id = plan.name() + "-" + UUID.randomUUID().toString().substring(0, 8);
         boolean open = false;
         Line line = null;
@@ -89,7 +101,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
             MqttAsyncClient client = new MqttAsyncClient(access.broker().toString(), id, new MemoryPersistence());
             line = new Line(access, plan, client, heard);
             client.setCallback(line);
-            client.connect(line.options()).waitForCompletion();
+            client.connect(line.options()).waitForCompletion(answeredWithin.toMillis());
             open = true;
             return line;
         } catch (MqttException e) {
@@ -270,6 +282,8 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
             case MqttException.REASON_CODE_FAILED_AUTHENTICATION, MqttException.REASON_CODE_NOT_AUTHORIZED ->
                 "the MQTT broker %s refuses user '%s': check user name and password"
                         .formatted(access.broker(), login.user());
+            case MqttException.REASON_CODE_CLIENT_TIMEOUT ->
+                "the MQTT broker %s does not answer user '%s'".formatted(access.broker(), login.user());
             default ->
                 "no connection to the MQTT broker %s as user '%s': is it running%s?"
                         .formatted(

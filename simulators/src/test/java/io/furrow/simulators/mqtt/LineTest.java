@@ -1,12 +1,20 @@
 package io.furrow.simulators.mqtt;
 
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.InetAddress;
+import java.net.ServerSocket;
+import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.List;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 class LineTest {
@@ -27,6 +35,25 @@ class LineTest {
                 assertThat(broker.taken()).startsWith("2").endsWith("1");
                 assertThat(line.acknowledged()).isEqualTo(2);
             }
+        }
+    }
+
+    /** As one does that hangs; without a limit each attempt would take a thread for ever. */
+    @Test
+    void givesUpABrokerThatAcceptsAndSaysNothing() throws Exception {
+        try (ServerSocket silent = new ServerSocket(0, 10, InetAddress.getLoopbackAddress())) {
+            URI uri = URI.create("tcp://127.0.0.1:" + silent.getLocalPort());
+            Line.Plan plan = new Line.Plan(new MqttAccess.Login("farmer", "plough"), "line", List.of(), 10, 1000);
+            CompletableFuture<Line> opening = CompletableFuture.supplyAsync(() -> {
+                try {
+                    return Line.open(new MqttAccess(uri, null, 1), plan, (topic, payload) -> {}, Duration.ofSeconds(1));
+                } catch (IOException e) {
+                    throw new UncheckedIOException(e);
+                }
+            });
+            assertThatThrownBy(() -> opening.get(1, TimeUnit.MINUTES))
+                    .hasMessageContaining("does not answer user 'farmer'")
+                    .hasMessageContaining(uri.toString());
         }
     }
 
