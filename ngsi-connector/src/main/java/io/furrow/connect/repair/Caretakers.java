@@ -32,6 +32,7 @@ public final class Caretakers implements AutoCloseable {
     private static final Duration FIRST_PAUSE = Duration.ofSeconds(1);
     private static final Duration LONGEST_PAUSE = Duration.ofSeconds(30);
     private static final Duration STOP_PATIENCE = Duration.ofSeconds(1);
+    private static final long REST_MILLIS = 200;
 
     private static final class Charge {
         private final Caretaker caretaker;
@@ -50,6 +51,7 @@ public final class Caretakers implements AutoCloseable {
     private final Duration interval;
     private final Thread thread;
     private volatile boolean closed;
+    private volatile boolean resting;
 
     /**
      * @param broker takes a request and waits for what becomes of it
@@ -149,7 +151,7 @@ public final class Caretakers implements AutoCloseable {
             while (!closed) {
                 long now = System.nanoTime();
                 for (Charge charge : charges) {
-                    if (charge.due - now <= 0 && !closed) {
+                    if (charge.due - now <= 0 && !closed && !resting) {
                         look(charge);
                     }
                 }
@@ -157,7 +159,8 @@ public final class Caretakers implements AutoCloseable {
                         .mapToLong(each -> each.due - System.nanoTime())
                         .min()
                         .orElse(0);
-                Thread.sleep(Math.max(1, Duration.ofNanos(next).toMillis()));
+                Thread.sleep(Math.max(
+                        resting ? REST_MILLIS : 1, Duration.ofNanos(next).toMillis()));
             }
         } catch (InterruptedException e) {
             LOG.debug("stopped while it looked after subscriptions", e);
@@ -207,6 +210,11 @@ public final class Caretakers implements AutoCloseable {
         charge.failing = true;
         Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
         charge.pause = twice.compareTo(LONGEST_PAUSE) > 0 ? LONGEST_PAUSE : twice;
+    }
+
+    /** Whether nothing new is asked of the context broker for now; what changes is noted all the same. */
+    public void rest(boolean now) {
+        resting = now;
     }
 
     /** Ends what is under way, within a second. */

@@ -81,6 +81,24 @@ class CaretakersTest {
     }
 
     @Test
+    void leavesTheSubscriptionToOthersWhileItRests() {
+        start(Mode.CHANGES);
+        caretakers.rest(true);
+        await().until(() -> {
+            broker.subscriptions()
+                    .forEach(each -> broker.send(
+                            "DELETE", "/v2/subscriptions/" + each.path("id").asText(), "/#", ""));
+            return broker.subscriptions().isEmpty();
+        });
+        // A look that was under way may have made it once more; the next would again.
+        await().during(Duration.ofSeconds(1)).until(() -> broker.subscriptions().isEmpty());
+
+        caretakers.rest(false);
+
+        await().until(() -> broker.subscriptions().size() == 1);
+    }
+
+    @Test
     void startsItAgainWhenItWasStoppedAndReadsWhatItMissed() {
         start(Mode.CHANGES);
         String path = "/v2/subscriptions/" + subscription().path("id").asText();
