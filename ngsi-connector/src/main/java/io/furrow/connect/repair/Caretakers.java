@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
@@ -140,8 +141,9 @@ public final class Caretakers implements AutoCloseable {
         for (Charge charge : charges) {
             try {
                 charge.caretaker.note(scope, identity, gone);
-            } catch (IOException e) {
-                LOG.debug("cannot note {}", identity, e); // the next look fails for the same reason, and says so
+            } catch (IOException | RuntimeException e) {
+                // The next look fails for the same reason, and says so.
+                LOG.debug("cannot note {}", LogText.oneLine(identity), e);
             }
         }
     }
@@ -167,6 +169,7 @@ public final class Caretakers implements AutoCloseable {
         }
     }
 
+    /** Whatever goes wrong, the next look is made: nothing else would notice that this thread has ended. */
     private void look(Charge charge) throws InterruptedException {
         Duration asked = Duration.ZERO;
         try {
@@ -175,7 +178,7 @@ public final class Caretakers implements AutoCloseable {
         } catch (BrokerException e) {
             asked = e.retryAfter().orElse(Duration.ZERO);
             failed(charge, e);
-        } catch (IOException e) {
+        } catch (IOException | RuntimeException | Error e) {
             failed(charge, e);
         }
         if (Thread.interrupted()) {
@@ -194,22 +197,23 @@ public final class Caretakers implements AutoCloseable {
         charge.pause = Duration.ZERO;
     }
 
-    private void failed(Charge charge, Exception why) {
+    private void failed(Charge charge, Throwable why) {
         if (closed) {
             return;
         }
-        if (!charge.failing) {
+        boolean known = charge.failing;
+        charge.failing = true;
+        charge.problem = why instanceof BrokerException ? why.getMessage() : why.toString();
+        Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
+        charge.pause = twice.compareTo(LONGEST_PAUSE) > 0 ? LONGEST_PAUSE : twice;
+        if (!known) {
             LOG.warn(
                     "subscription of {} cannot be kept: {}; the source goes on taking notifications and tries again;"
                             + " see that context.broker.url and the subscription.* options fit the context broker",
                     charge.caretaker.scope(),
-                    why.getMessage(),
+                    charge.problem,
                     why);
         }
-        charge.problem = String.valueOf(why.getMessage());
-        charge.failing = true;
-        Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
-        charge.pause = twice.compareTo(LONGEST_PAUSE) > 0 ? LONGEST_PAUSE : twice;
     }
 
     /** Whether nothing new is asked of the context broker for now; what changes is noted all the same. */

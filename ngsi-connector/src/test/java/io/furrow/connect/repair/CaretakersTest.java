@@ -9,14 +9,19 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.regex.Pattern;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.broker.BrokerClient;
+import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.BrokerSettings;
+import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Caretakers.Commission;
 import io.furrow.connect.repair.RepairSettings.Mode;
@@ -46,6 +51,7 @@ class CaretakersTest {
     private final Ledger ledger = new Ledger();
     private final LiveEvents live = new LiveEvents();
     private volatile boolean room = true;
+    private volatile Optional<Throwable> failing = Optional.empty();
     private Caretakers caretakers;
 
     @AfterEach
@@ -96,6 +102,23 @@ class CaretakersTest {
         caretakers.rest(false);
 
         await().until(() -> broker.subscriptions().size() == 1);
+    }
+
+    @ParameterizedTest
+    @MethodSource("errors")
+    void goesOnAfterAnyError(Throwable error) {
+        start(Mode.OFF);
+
+        failing = Optional.of(error);
+        await().until(() -> gauge("subscriptionsUnkept") == 1);
+        assertThat(ledger.details().get("subscriptions").get().toString()).contains("none of its business");
+        failing = Optional.empty();
+
+        await().until(() -> gauge("subscriptionsUnkept") == 0);
+    }
+
+    static Stream<Throwable> errors() {
+        return Stream.of(new IllegalStateException("none of its business"), new LinkageError("none of its business"));
     }
 
     @Test
@@ -208,6 +231,16 @@ class CaretakersTest {
         assertThat(live.isSeen("never")).isTrue();
     }
 
+    private Outcome sent(BrokerClient client, BrokerRequest request) {
+        failing.ifPresent(error -> {
+            if (error instanceof Error serious) {
+                throw serious;
+            }
+            throw (RuntimeException) error;
+        });
+        return client.send(request);
+    }
+
     private void start(Mode mode) {
         WantedSubscription wanted = new WantedSubscription(
                 new Name("furrow farm", IdShare.ALL, "/#"),
@@ -221,9 +254,10 @@ class CaretakersTest {
                 mode,
                 new RepairSettings.Reading(4, Duration.ofMinutes(5), List.of(Pattern.compile("Analytics:.*"))),
                 1000);
+        BrokerClient client = new BrokerClient(BrokerSettings.of(broker.uri(), Duration.ofSeconds(5)));
         try {
             caretakers = Caretakers.start(
-                    new BrokerClient(BrokerSettings.of(broker.uri(), Duration.ofSeconds(5)))::send,
+                    request -> sent(client, request),
                     List.of(new Commission(new FiwareScope("agri", "/#"), wanted)),
                     settings,
                     new Caretaker.Means(live, this::emit, ledger),
