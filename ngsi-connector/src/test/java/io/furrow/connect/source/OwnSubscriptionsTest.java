@@ -57,7 +57,7 @@ class OwnSubscriptionsTest {
     @Test
     void areLeftToOthersWhileTheSourceHasNoTask() {
         NgsiSourceConfig config = config(Map.of(
-                "listen.port", Integer.toString(ConnectRig.freePort()), "subscription.check.interval.ms", "1000"));
+                "listen.port", Integer.toString(ConnectRig.freePort()), "subscription.check.interval.ms", "200"));
         RunningSource source = RunningSource.open(config, journal -> OptionalLong.empty());
         await().until(() -> broker.subscriptions().size() == 1);
 
@@ -67,7 +67,7 @@ class OwnSubscriptionsTest {
             return broker.subscriptions().isEmpty();
         });
         // Longer than the interval; a look that was under way may have made it once more.
-        await().atMost(Duration.ofMinutes(1)).during(Duration.ofSeconds(3)).until(() -> {
+        await().atMost(Duration.ofMinutes(1)).during(Duration.ofSeconds(1)).until(() -> {
             boolean none = broker.subscriptions().isEmpty();
             removeAll();
             return none;
