@@ -21,6 +21,8 @@ import java.util.concurrent.ExecutionException;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
+import io.furrow.connect.LogText;
+
 /**
  * Asks a context broker over kept connections; never throws for what the network or the broker does. Any number of threads
  * may share one.
@@ -112,7 +114,7 @@ public final class BrokerClient {
 
     private static String text(byte[] body) {
         String text = new String(body, 0, Math.min(body.length, 4 * LONGEST_WORDS), StandardCharsets.UTF_8);
-        return text.length() > LONGEST_WORDS ? text.substring(0, LONGEST_WORDS) + "…" : text;
+        return LogText.oneLine(text.length() > LONGEST_WORDS ? text.substring(0, LONGEST_WORDS) + "…" : text);
     }
 
     private static Outcome away(String reason, Throwable cause) {

@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
@@ -13,8 +14,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Collects appends while the disk is busy and writes them with one sync. An error fails the appends of its group and no other;
- * the next group begins a new file. After {@value #FAILURES_AT_MOST} groups in a row have failed it gives up for good.
+ * Collects appends while the disk is busy and writes them with one sync. An error fails those appends of its group that are not
+ * durable, and no other; the next group begins a new file. After {@value #FAILURES_AT_MOST} groups in a row have failed it
+ * gives up for good.
  */
 final class GroupCommit {
     private static final Logger LOG = LoggerFactory.getLogger(GroupCommit.class);
@@ -77,12 +79,18 @@ final class GroupCommit {
     }
 
     private void run() {
-        List<Append> group = nextGroup();
-        while (!group.isEmpty()) {
-            write(group);
-            group = nextGroup();
+        try {
+            List<Append> group = nextGroup();
+            while (!group.isEmpty()) {
+                write(group);
+                prepareNext();
+                group = nextGroup();
+            }
+        } catch (RuntimeException | Error e) {
+            giveUp(e);
+        } finally {
+            writer.close();
         }
-        writer.close();
     }
 
     /** Waits for appends; empty when it was closed and all are written. */
@@ -105,29 +113,52 @@ final class GroupCommit {
     }
 
     private void write(List<Append> group) {
+        long[] ends = new long[group.size()];
+        Arrays.fill(ends, Long.MAX_VALUE);
         Throwable failed = null;
         try {
-            for (Append append : group) {
-                for (byte[] payload : append.payloads()) {
-                    writer.write(payload);
-                }
+            for (int i = 0; i < ends.length; i++) {
+                writer.write(group.get(i).payloads(), group.get(i).bytes());
+                ends[i] = writer.sequence();
             }
             writer.sync();
         } catch (IOException | RuntimeException | Error e) {
             failed = e;
         }
+        long durable = writer.durable();
         JournalException outcome = failed == null ? null : abandon(failed, group);
         done(group, failed, outcome);
-        for (Append append : group) {
-            if (outcome == null) {
-                append.durable().complete(null);
+        for (int i = 0; i < ends.length; i++) {
+            if (ends[i] <= durable) {
+                group.get(i).durable().complete(null);
             } else {
-                append.durable().completeExceptionally(outcome);
+                group.get(i).durable().completeExceptionally(outcome);
             }
         }
-        if (writer.isNextUnprepared()) {
-            writer.prepareNext(room.isForSegment());
+    }
+
+    /** Without the file made ahead, the next one is made when it is needed. */
+    private void prepareNext() {
+        try {
+            if (writer.isNextUnprepared()) {
+                writer.prepareNext(room.isForSegment());
+            }
+        } catch (RuntimeException | Error e) {
+            LOG.warn("journal {}: the next file cannot be made ahead", journal, e);
         }
+    }
+
+    /** Nothing is written any more: who waits is told, and the task fails at its next poll. */
+    private void giveUp(Throwable why) {
+        List<Append> unwritten;
+        synchronized (this) {
+            failure = why;
+            unwritten = List.copyOf(queue);
+            queue.clear();
+            waitingBytes = 0;
+            notifyAll();
+        }
+        unwritten.forEach(append -> append.durable().completeExceptionally(new JournalException.DiskFailed(why)));
     }
 
     private JournalException abandon(Throwable failed, List<Append> group) {
@@ -138,7 +169,7 @@ final class GroupCommit {
             return new JournalException.NoRoom(failed);
         }
         LOG.error(
-                "journal {}: the disk failed; {} appends were not confirmed, the next go into a new file",
+                "journal {}: the disk failed; of {} appends some were not confirmed, the next go into a new file",
                 journal,
                 group.size(),
                 failed);

@@ -57,7 +57,7 @@ public final class Journal implements AutoCloseable {
             }
             try {
                 return Optional.of(new Journal(folder, lock.get(), settings, disk));
-            } catch (IOException | RuntimeException e) {
+            } catch (IOException | RuntimeException | Error e) {
                 lock.get().close();
                 throw e;
             }
@@ -77,7 +77,7 @@ public final class Journal implements AutoCloseable {
     }
 
     /**
-     * Appends all records, next to each other, or none.
+     * Appends all records, next to each other in one file, or none.
      *
      * @param payloads none of them empty
      * @return completed when all are durable, failed with a {@link JournalException}; empty if there is no room now

@@ -12,6 +12,7 @@ import java.util.Comparator;
 import java.util.HexFormat;
 import java.util.List;
 import java.util.Optional;
+import java.util.function.Consumer;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
@@ -36,14 +37,21 @@ public final class JournalFolders {
     public record Orphan(String owner, Path folder, long bytes) {}
 
     private final Path root;
+    private final String owner;
     private final Path own;
     private final JournalSettings settings;
 
     /** @param root is made if it does not exist */
     public JournalFolders(Path root, String owner, JournalSettings settings) {
         this.root = root;
+        this.owner = owner;
         this.own = root.resolve(folderName(owner));
         this.settings = settings;
+    }
+
+    /** Whose journals they are. */
+    public String owner() {
+        return owner;
     }
 
     /**
@@ -53,7 +61,8 @@ public final class JournalFolders {
      */
     public Journal take(int slot) {
         try {
-            Files.createDirectories(own);
+            DurableFolders.create(own, Disk::syncFolder);
+            Disk.syncFolder(own);
             for (Path folder : foldersOf(own)) {
                 if (folder.getFileName().toString().startsWith(slot + "-")) {
                     Optional<Journal> journal = Journal.open(folder, settings);
@@ -62,29 +71,47 @@ public final class JournalFolders {
                     }
                 }
             }
-            Path made = Files.createDirectory(
-                    own.resolve(slot + "-" + HexFormat.of().toHexDigits(RANDOM.nextLong())));
-            Disk.syncFolder(own);
-            return Journal.open(made, settings).orElseThrow();
+            return made(slot);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot use the folder " + own, e);
         }
     }
 
-    /** Opens every journal of this owner that nobody has open; one that cannot be opened is logged and left. */
-    public List<Journal> adopt() {
-        List<Journal> adopted = new ArrayList<>();
+    private Journal made(int slot) throws IOException {
+        Optional<Journal> journal = Optional.empty();
+        while (journal.isEmpty()) {
+            Path made = own.resolve(slot + "-" + HexFormat.of().toHexDigits(RANDOM.nextLong()));
+            DurableFolders.create(made, Disk::syncFolder);
+            journal = Journal.open(made, settings); // empty if another task adopted it just now
+        }
+        return journal.get();
+    }
+
+    /**
+     * Opens the journals of this owner that nobody has open, one after another. One that cannot be opened is logged and left.
+     *
+     * @param taker has each from then on; one at which it throws is closed, and no further one is opened
+     */
+    public void adopt(Consumer<Journal> taker) {
         for (Path folder : foldersOf(own)) {
             if (!NAME.matcher(folder.getFileName().toString()).matches()) {
                 continue;
             }
             try {
-                Journal.open(folder, settings).ifPresent(adopted::add);
+                Journal.open(folder, settings).ifPresent(journal -> give(journal, taker));
             } catch (UncheckedIOException e) {
                 LOG.warn("a journal that nobody uses cannot be taken over", e);
             }
         }
-        return adopted;
+    }
+
+    private static void give(Journal journal, Consumer<Journal> taker) {
+        try {
+            taker.accept(journal);
+        } catch (RuntimeException | Error e) {
+            journal.close();
+            throw e;
+        }
     }
 
     /** The journals of any owner that nobody has open and that hold a segment. */
@@ -94,7 +121,7 @@ public final class JournalFolders {
             for (Path folder : foldersOf(owner)) {
                 try {
                     long bytes = segmentBytes(folder);
-                    if (bytes > 0 && !isOpen(folder)) {
+                    if (bytes > 0 && !JournalLock.isHeld(folder)) {
                         orphans.add(new Orphan(owner.getFileName().toString(), folder, bytes));
                     }
                 } catch (IOException e) {
@@ -103,12 +130,6 @@ public final class JournalFolders {
             }
         }
         return orphans;
-    }
-
-    private static boolean isOpen(Path folder) throws IOException {
-        Optional<JournalLock> lock = JournalLock.tryLock(folder);
-        lock.ifPresent(JournalLock::close);
-        return lock.isEmpty();
     }
 
     private static long segmentBytes(Path folder) throws IOException {

@@ -2,8 +2,8 @@ package io.furrow.connect.journal;
 
 import java.io.IOException;
 import java.nio.channels.FileChannel;
-import java.nio.channels.FileLock;
 import java.nio.channels.OverlappingFileLockException;
+import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
 import java.util.Optional;
@@ -13,13 +13,18 @@ import org.slf4j.LoggerFactory;
 
 /**
  * Keeps a folder for one owner, also among several in one process and among copies of this class in several class loaders.
- * The operating system ends it with the process.
+ * The operating system ends it with the process. Of the lock file the owner has two bytes: who gets the first is the owner; who
+ * only asks touches the second, and so is never in the way of one that takes the first.
  */
 final class JournalLock implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(JournalLock.class);
 
     private static final String FILE = "lock";
+    private static final long OWNER = 0;
+    private static final long PRESENCE = 1;
     private static final String PROPERTY = "io.furrow.journal.lock.";
+    private static final String HELD = "held";
+    private static final String ASKED = "asked";
 
     private final String property;
     private final FileChannel channel;
@@ -31,28 +36,58 @@ final class JournalLock implements AutoCloseable {
 
     /** The lock, or empty if somebody has it. */
     static Optional<JournalLock> tryLock(Path folder) throws IOException {
-        // The system properties are the one map that all class loaders share. The file must not even be opened while
-        // another
-        // part of this process has it locked: to close any channel of a file drops the process's lock on it.
         String property = PROPERTY + folder.toRealPath();
-        if (System.getProperties().putIfAbsent(property, "held") != null) {
+        if (!reserve(property, HELD)) {
             return Optional.empty();
         }
         FileChannel channel = null;
+        JournalLock lock = null;
         try {
             channel = FileChannel.open(folder.resolve(FILE), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
-            FileLock lock = channel.tryLock();
-            if (lock != null) {
-                return Optional.of(new JournalLock(property, channel));
+            if (channel.tryLock(OWNER, 1, false) != null) {
+                while (channel.tryLock(PRESENCE, 1, false) == null) {
+                    Thread.yield(); // another process asks just now
+                }
+                lock = new JournalLock(property, channel);
             }
         } catch (OverlappingFileLockException e) {
             LOG.debug("{} is locked in this process", folder, e);
-        } catch (IOException | RuntimeException e) {
-            give(property, channel);
-            throw e;
+        } finally {
+            if (lock == null) {
+                give(property, channel);
+            }
         }
-        give(property, channel);
-        return Optional.empty();
+        return Optional.ofNullable(lock);
+    }
+
+    /** Whether somebody has the lock. */
+    static boolean isHeld(Path folder) throws IOException {
+        String property = PROPERTY + folder.toRealPath();
+        if (!reserve(property, ASKED)) {
+            return true;
+        }
+        try (FileChannel channel = FileChannel.open(folder.resolve(FILE), StandardOpenOption.READ)) {
+            return channel.tryLock(PRESENCE, 1, true) == null;
+        } catch (NoSuchFileException e) {
+            return false;
+        } catch (OverlappingFileLockException e) {
+            return true;
+        } finally {
+            System.getProperties().remove(property);
+        }
+    }
+
+    /**
+     * Whether this part of the process may open the lock file, as nobody else in it may then: to close any channel of a file
+     * drops the process's locks on it. The system properties are the one map that all class loaders share.
+     */
+    private static boolean reserve(String property, String use) {
+        Object other = System.getProperties().putIfAbsent(property, use);
+        while (ASKED.equals(other)) {
+            Thread.yield();
+            other = System.getProperties().putIfAbsent(property, use);
+        }
+        return other == null;
     }
 
     private static void give(String property, FileChannel channel) {

@@ -3,6 +3,7 @@ package io.furrow.connect.journal;
 import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.nio.file.Path;
+import java.util.List;
 
 import io.furrow.connect.journal.SegmentFormat.End;
 import io.furrow.connect.journal.SegmentFormat.Header;
@@ -27,6 +28,7 @@ final class SegmentWriter {
     private Segment segment;
     private long written;
     private long sequence;
+    private long durable;
     private boolean first = true;
     private boolean nextPrepared = true;
 
@@ -37,6 +39,7 @@ final class SegmentWriter {
         this.disk = disk;
         this.segments = segments;
         this.sequence = segments.last() == null ? 0 : segments.last().end().sequence();
+        this.durable = sequence;
     }
 
     /** The number of the next record. */
@@ -52,20 +55,27 @@ final class SegmentWriter {
         sequence = number;
     }
 
-    /** Whether the next record of a size needs another file. */
-    boolean mustRollFor(byte[] payload) {
-        return segment == null || written + buffer.position() + SegmentFormat.sizeOf(payload) > segment.capacity();
+    /** The number behind the last record that a {@link #sync} made durable, or that was found. */
+    long durable() {
+        return durable;
     }
 
-    /** Writes a record, not necessarily to the disk before {@link #sync}. */
-    void write(byte[] payload) throws IOException {
-        if (mustRollFor(payload)) {
-            roll(payload);
+    /**
+     * Writes the records of one append, not necessarily to the disk before {@link #sync}. One file holds them all, and what was
+     * written before a new file is made is durable then: an error leaves no append that is durable in part.
+     *
+     * @param bytes that the records take in a file
+     */
+    void write(List<byte[]> payloads, long bytes) throws IOException {
+        if (segment == null || written + buffer.position() + bytes > segment.capacity()) {
+            roll(bytes);
         }
-        SegmentFormat.writeRecordHeader(recordHeader, salt, sequence, payload);
-        put(recordHeader);
-        put(ByteBuffer.wrap(payload));
-        sequence++;
+        for (byte[] payload : payloads) {
+            SegmentFormat.writeRecordHeader(recordHeader, salt, sequence, payload);
+            put(recordHeader);
+            put(ByteBuffer.wrap(payload));
+            sequence++;
+        }
     }
 
     private void put(ByteBuffer bytes) throws IOException {
@@ -95,13 +105,14 @@ final class SegmentWriter {
         drain();
         file.sync();
         segment.durableTo(new End(written, sequence));
+        durable = sequence;
     }
 
-    private void roll(byte[] payload) throws IOException {
+    private void roll(long bytes) throws IOException {
         sync();
         leaveSegment();
         int usual = first ? Math.min(segmentBytes, FIRST_SEGMENT) : segmentBytes;
-        long capacity = Math.max(usual, SegmentFormat.HEADER + (long) SegmentFormat.sizeOf(payload));
+        long capacity = Math.max(usual, SegmentFormat.HEADER + bytes);
         // A file without records is replaced by the new one, which then has the same number.
         Segment before = segments.lastBefore(sequence);
         Header header = before == null

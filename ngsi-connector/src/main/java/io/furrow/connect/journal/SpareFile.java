@@ -39,7 +39,11 @@ final class SpareFile {
         capacity = bytes;
         hurry = false;
         unwanted = false;
-        made = CompletableFuture.supplyAsync(() -> write(path, bytes), SpareFile::onThread);
+        made = CompletableFuture.supplyAsync(() -> write(path, bytes), SpareFile::onThread)
+                .exceptionally(failure -> {
+                    LOG.debug("{} could not be made ahead", path, failure);
+                    return false;
+                });
     }
 
     private static void onThread(Runnable task) {

@@ -2,6 +2,7 @@ package io.furrow.connect.ledger;
 
 import java.lang.management.ManagementFactory;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
@@ -27,6 +28,8 @@ import javax.management.ObjectName;
 public final class LedgerBean implements AutoCloseable {
     private static final Pattern NEEDS_NO_QUOTES = Pattern.compile("[\\w-%. ]+");
 
+    private static final Map<ObjectName, LedgerBean> SHOWN = new HashMap<>();
+
     private final MBeanServer server = ManagementFactory.getPlatformMBeanServer();
     private final ObjectName name;
 
@@ -41,23 +44,45 @@ public final class LedgerBean implements AutoCloseable {
 
     /** Shows the numbers of a task of this type, in the place of those that were left under the same name. */
     public static LedgerBean show(Numbers numbers, String type, String connector, int task) {
-        String plain = NEEDS_NO_QUOTES.matcher(connector).matches() ? connector : ObjectName.quote(connector);
+        return show(numbers, "type=" + type + ",connector=" + quoted(connector) + ",task=" + task);
+    }
+
+    /** Shows the numbers that the tasks of a connector share, in the place of those that were left under the same name. */
+    public static LedgerBean show(Numbers numbers, String type, String connector) {
+        return show(numbers, "type=" + type + ",connector=" + quoted(connector));
+    }
+
+    private static String quoted(String connector) {
+        return NEEDS_NO_QUOTES.matcher(connector).matches() ? connector : ObjectName.quote(connector);
+    }
+
+    private static LedgerBean show(Numbers numbers, String properties) {
         try {
-            LedgerBean bean = new LedgerBean(
-                    new ObjectName("furrow.connect:type=" + type + ",connector=" + plain + ",task=" + task));
-            bean.close();
-            bean.server.registerMBean(new Shown(numbers), bean.name);
+            LedgerBean bean = new LedgerBean(new ObjectName("furrow.connect:" + properties));
+            synchronized (SHOWN) {
+                bean.unregister();
+                bean.server.registerMBean(new Shown(numbers), bean.name);
+                SHOWN.put(bean.name, bean);
+            }
             return bean;
         } catch (InstanceAlreadyExistsException e) {
             throw new IllegalStateException("two tasks show themselves under one name at the same moment", e);
         } catch (JMException e) {
-            throw new IllegalStateException("cannot show the ledger of " + connector + " over JMX", e);
+            throw new IllegalStateException("cannot show " + properties + " over JMX", e);
         }
     }
 
-    /** Shows it no more; does nothing if it is not shown. */
+    /** Shows it no more; does nothing if it is not shown, or another one in its place. */
     @Override
     public void close() {
+        synchronized (SHOWN) {
+            if (SHOWN.remove(name, this)) {
+                unregister();
+            }
+        }
+    }
+
+    private void unregister() {
         try {
             server.unregisterMBean(name);
         } catch (InstanceNotFoundException e) {

@@ -16,6 +16,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
@@ -116,7 +117,10 @@ final class BrokerEntities {
                     .truncatedTo(ChronoUnit.MILLIS);
             states.add(new EntityState(entity, scopeOf(json), time));
         } catch (UnreadableException | DateTimeException e) {
-            LOG.warn("an entity of tenant '{}' cannot be read and is left out: {}", scope.service(), e.getMessage());
+            LOG.warn(
+                    "an entity of tenant '{}' cannot be read and is left out: {}",
+                    scope.service(),
+                    LogText.oneLine(e.getMessage()));
         }
     }
 

@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
@@ -32,6 +33,7 @@ public final class Caretakers implements AutoCloseable {
     private static final Duration FIRST_PAUSE = Duration.ofSeconds(1);
     private static final Duration LONGEST_PAUSE = Duration.ofSeconds(30);
     private static final Duration STOP_PATIENCE = Duration.ofSeconds(1);
+    private static final long REST_MILLIS = 200;
 
     private static final class Charge {
         private final Caretaker caretaker;
@@ -50,6 +52,7 @@ public final class Caretakers implements AutoCloseable {
     private final Duration interval;
     private final Thread thread;
     private volatile boolean closed;
+    private volatile boolean resting;
 
     /**
      * @param broker takes a request and waits for what becomes of it
@@ -138,8 +141,9 @@ public final class Caretakers implements AutoCloseable {
         for (Charge charge : charges) {
             try {
                 charge.caretaker.note(scope, identity, gone);
-            } catch (IOException e) {
-                LOG.debug("cannot note {}", identity, e); // the next look fails for the same reason, and says so
+            } catch (IOException | RuntimeException e) {
+                // The next look fails for the same reason, and says so.
+                LOG.debug("cannot note {}", LogText.oneLine(identity), e);
             }
         }
     }
@@ -149,7 +153,7 @@ public final class Caretakers implements AutoCloseable {
             while (!closed) {
                 long now = System.nanoTime();
                 for (Charge charge : charges) {
-                    if (charge.due - now <= 0 && !closed) {
+                    if (charge.due - now <= 0 && !closed && !resting) {
                         look(charge);
                     }
                 }
@@ -157,13 +161,15 @@ public final class Caretakers implements AutoCloseable {
                         .mapToLong(each -> each.due - System.nanoTime())
                         .min()
                         .orElse(0);
-                Thread.sleep(Math.max(1, Duration.ofNanos(next).toMillis()));
+                Thread.sleep(Math.max(
+                        resting ? REST_MILLIS : 1, Duration.ofNanos(next).toMillis()));
             }
         } catch (InterruptedException e) {
             LOG.debug("stopped while it looked after subscriptions", e);
         }
     }
 
+    /** Whatever goes wrong, the next look is made: nothing else would notice that this thread has ended. */
     private void look(Charge charge) throws InterruptedException {
         Duration asked = Duration.ZERO;
         try {
@@ -172,7 +178,7 @@ public final class Caretakers implements AutoCloseable {
         } catch (BrokerException e) {
             asked = e.retryAfter().orElse(Duration.ZERO);
             failed(charge, e);
-        } catch (IOException e) {
+        } catch (IOException | RuntimeException | Error e) {
             failed(charge, e);
         }
         if (Thread.interrupted()) {
@@ -191,22 +197,28 @@ public final class Caretakers implements AutoCloseable {
         charge.pause = Duration.ZERO;
     }
 
-    private void failed(Charge charge, Exception why) {
+    private void failed(Charge charge, Throwable why) {
         if (closed) {
             return;
         }
-        if (!charge.failing) {
+        boolean known = charge.failing;
+        charge.failing = true;
+        charge.problem = why instanceof BrokerException ? why.getMessage() : why.toString();
+        Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
+        charge.pause = twice.compareTo(LONGEST_PAUSE) > 0 ? LONGEST_PAUSE : twice;
+        if (!known) {
             LOG.warn(
                     "subscription of {} cannot be kept: {}; the source goes on taking notifications and tries again;"
                             + " see that context.broker.url and the subscription.* options fit the context broker",
                     charge.caretaker.scope(),
-                    why.getMessage(),
+                    charge.problem,
                     why);
         }
-        charge.problem = String.valueOf(why.getMessage());
-        charge.failing = true;
-        Duration twice = charge.pause.isZero() ? FIRST_PAUSE : charge.pause.multipliedBy(2);
-        charge.pause = twice.compareTo(LONGEST_PAUSE) > 0 ? LONGEST_PAUSE : twice;
+    }
+
+    /** Whether nothing new is asked of the context broker for now; what changes is noted all the same. */
+    public void rest(boolean now) {
+        resting = now;
     }
 
     /** Ends what is under way, within a second. */

@@ -9,13 +9,14 @@ import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.nio.file.StandardOpenOption;
 import java.util.HashSet;
+import java.util.Optional;
 import java.util.Set;
 
 /**
  * The entities of one tenant that are on the topic and were not deleted since, so that one that is gone from the context broker
  * can be told. Outlives a restart in a file of lines, {@code +identity} and {@code -identity}, which is written anew at each
- * start; a line that was not finished is left out. Of more than {@code most} entities none is known any more, because a part
- * of them would not show which are gone.
+ * start; line breaks in an id are escaped, a line that was not finished is left out. Of more than {@code most} entities none is
+ * known any more, because a part of them would not show which are gone.
  */
 final class KnownEntities implements AutoCloseable {
     private final Path file;
@@ -49,9 +50,11 @@ final class KnownEntities implements AutoCloseable {
         String whole = text.substring(0, text.lastIndexOf('\n') + 1);
         whole.lines().forEach(line -> {
             if (line.startsWith("+")) {
-                keep(line.substring(1));
+                Optional.of(unescaped(line.substring(1)))
+                        .filter(Identities::isOne)
+                        .ifPresent(this::keep);
             } else if (line.startsWith("-")) {
-                identities.remove(line.substring(1));
+                identities.remove(unescaped(line.substring(1)));
             } else if (line.equals("!")) {
                 giveUp();
             }
@@ -62,7 +65,7 @@ final class KnownEntities implements AutoCloseable {
         Path next = file.resolveSibling(file.getFileName() + ".tmp");
         try (BufferedWriter out = Files.newBufferedWriter(next, StandardCharsets.UTF_8)) {
             for (String identity : identities) {
-                out.write("+" + identity + "\n");
+                out.write("+" + escaped(identity) + "\n");
             }
             if (tooMany) {
                 out.write("!\n");
@@ -70,6 +73,24 @@ final class KnownEntities implements AutoCloseable {
         }
         Files.move(next, file, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
         log = Files.newBufferedWriter(file, StandardCharsets.UTF_8, StandardOpenOption.APPEND);
+    }
+
+    /** Line breaks and backslashes as {@code \n}, {@code \r} and {@code \\}. */
+    private static String escaped(String identity) {
+        return identity.replace("\\", "\\\\").replace("\n", "\\n").replace("\r", "\\r");
+    }
+
+    private static String unescaped(String line) {
+        StringBuilder identity = new StringBuilder(line.length());
+        for (int i = 0; i < line.length(); i++) {
+            char sign = line.charAt(i);
+            if (sign == '\\' && i + 1 < line.length()) {
+                char next = line.charAt(++i);
+                sign = next == 'n' ? '\n' : next == 'r' ? '\r' : next;
+            }
+            identity.append(sign);
+        }
+        return identity.toString();
     }
 
     private boolean keep(String identity) {
@@ -89,13 +110,13 @@ final class KnownEntities implements AutoCloseable {
 
     synchronized void add(String identity) throws IOException {
         if (keep(identity)) {
-            log.write(tooMany ? "!\n" : "+" + identity + "\n");
+            log.write(tooMany ? "!\n" : "+" + escaped(identity) + "\n");
         }
     }
 
     synchronized void remove(String identity) throws IOException {
         if (identities.remove(identity)) {
-            log.write("-" + identity + "\n");
+            log.write("-" + escaped(identity) + "\n");
         }
     }
 

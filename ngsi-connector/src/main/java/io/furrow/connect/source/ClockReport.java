@@ -6,6 +6,7 @@ import java.util.Map;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTime;
 
@@ -41,7 +42,7 @@ final class ClockReport {
         }
         LOG.warn(
                 "The clock of {} is too far ahead; its events get the time of receipt. Check the device, or raise {}",
-                device,
+                LogText.oneLine(device),
                 "max.clock.skew.ms");
         return true;
     }

@@ -45,7 +45,7 @@ final class Deliveries implements AutoCloseable {
 
     /**
      * Completed when the records are durable; failed with {@link OverloadException} if they are not by the deadline, which is
-     * one of {@link System#nanoTime}, or with {@link Intake.ClosedException}.
+     * one of {@link System#nanoTime}, with {@link Intake.ClosedException}, or with what the intake threw.
      */
     CompletableFuture<Void> deliver(List<OutgoingRecord> records, long deadline) {
         Delivery delivery = new Delivery(records, deadline, new CompletableFuture<>());
@@ -68,11 +68,16 @@ final class Deliveries implements AutoCloseable {
                 });
     }
 
-    /** Whether the intake had room. */
+    /** Whether the delivery need not wait: the intake had room, or failed. */
     private boolean hand(Delivery delivery) {
-        Optional<CompletableFuture<Void>> taken = intake.take(delivery.records);
-        taken.ifPresent(durable -> durable.whenComplete((nothing, failure) -> settle(delivery, failure)));
-        return taken.isPresent();
+        try {
+            Optional<CompletableFuture<Void>> taken = intake.take(delivery.records);
+            taken.ifPresent(durable -> durable.whenComplete((nothing, failure) -> settle(delivery, failure)));
+            return taken.isPresent();
+        } catch (RuntimeException | Error e) {
+            turnAway(delivery, e);
+            return true;
+        }
     }
 
     /** What was not durable is counted when the intake says so, which may be later than the answer. */
@@ -109,22 +114,21 @@ final class Deliveries implements AutoCloseable {
     }
 
     private synchronized void retry() {
-        while (!waiting.isEmpty()) {
-            Delivery first = waiting.peek();
-            if (first.isTooLate()) {
-                waiting.remove();
-                turnAway(first, OverloadException.noRoom());
-            } else {
-                waiting.remove();
-                if (!hand(first)) {
+        try {
+            while (!waiting.isEmpty()) {
+                Delivery first = waiting.remove();
+                if (first.isTooLate()) {
+                    turnAway(first, OverloadException.noRoom());
+                } else if (!hand(first)) {
                     waiting.addFirst(first);
                     break;
                 }
             }
-        }
-        someWait = !waiting.isEmpty();
-        if (someWait) {
-            retries.schedule(this::retry, RETRY_MS, TimeUnit.MILLISECONDS);
+        } finally {
+            someWait = !waiting.isEmpty();
+            if (someWait) {
+                retries.schedule(this::retry, RETRY_MS, TimeUnit.MILLISECONDS);
+            }
         }
     }
 

@@ -7,6 +7,7 @@ import java.util.function.Function;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.http.Decision;
 
@@ -30,7 +31,7 @@ final class ForeignRequests implements Function<Decision.Refused, byte[]> {
     public byte[] apply(Decision.Refused refused) {
         ledger.foreign.increment();
         if (logged.size() < MAX_LOGGED && logged.add(refused.reason())) {
-            LOG.warn("refused a request, and will refuse others like it: {}", refused.reason());
+            LOG.warn("refused a request, and will refuse others like it: {}", LogText.oneLine(refused.reason()));
         }
         return Answer.error(refused.error(), refused.reason());
     }

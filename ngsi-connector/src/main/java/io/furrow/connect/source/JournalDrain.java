@@ -17,6 +17,7 @@ final class JournalDrain implements AutoCloseable {
     private final Journal journal;
     private final JournalReader reader;
     private final long start;
+    private volatile long released;
     private boolean closed;
     /** From and to (exclusive) of records that will never be in Kafka, because the worker was told to leave them out. */
     private final TreeMap<Long, Long> skipped = new TreeMap<>();
@@ -25,6 +26,7 @@ final class JournalDrain implements AutoCloseable {
     JournalDrain(Journal journal, OptionalLong committed) {
         this.journal = journal;
         this.start = Math.max(committed.orElse(0), journal.begin());
+        this.released = start;
         this.reader = journal.reader(start);
     }
 
@@ -65,9 +67,15 @@ final class JournalDrain implements AutoCloseable {
         skipped.put(from, behind == null ? sequence + 1 : behind);
     }
 
+    /** Records that the offset store was not known to have when it was asked last, skipped ones left out. */
+    long notReleased() {
+        return journal.reader(released).left();
+    }
+
     /** Releases what the offset store says is in Kafka, and what was skipped right behind it; whether nothing is left. */
     boolean release(OptionalLong committed) {
         long done = behindSkipped(Math.max(committed.orElse(0), 0));
+        released = Math.max(released, done);
         journal.release(done);
         return done >= journal.end();
     }

@@ -43,7 +43,7 @@ public class NgsiSourceTask extends SourceTask {
                     .map(running -> resumed(running, this::committed))
                     .orElseGet(() -> RunningSource.open(config, this::committed)));
             keeper.set(JournalKeeper.start(source.get().journals(), config.taskCount() > 1));
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) {
             // The worker does not stop a task that did not start.
             stop();
             throw e;
@@ -60,7 +60,7 @@ public class NgsiSourceTask extends SourceTask {
         try {
             running.journals().resume(committed);
             return running;
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) {
             running.close();
             throw e;
         }
@@ -111,20 +111,26 @@ public class NgsiSourceTask extends SourceTask {
     }
 
     /**
-     * Once the worker calls this it commits nothing more, so the journals may go to another task. While Kafka is away they and
-     * the listener stay as they are: the worker will start the task again.
+     * Once the worker calls this it polls and commits nothing more, so what is in the journals waits for another task. To leave
+     * little, nothing is answered from here on. While Kafka is away listener and journals stay as they are: the worker will
+     * start the task again.
      */
     @Override
     public void stop() {
         JournalKeeper keeping = keeper.getAndSet(null);
-        boolean away = keeping != null && keeping.close();
         RunningSource running = source.getAndSet(null);
-        if (running == null) {
-            return;
+        boolean standby = keeping != null
+                && keeping.isKafkaAway()
+                && !config.journal().standby().isZero();
+        if (running != null && !standby) {
+            running.stopListening();
         }
-        if (away && !config.journal().standby().isZero()) {
+        if (keeping != null) {
+            keeping.close();
+        }
+        if (running != null && standby) {
             Standby.enter(config, running);
-        } else {
+        } else if (running != null) {
             running.close();
         }
     }

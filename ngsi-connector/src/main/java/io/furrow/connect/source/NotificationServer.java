@@ -33,7 +33,6 @@ final class NotificationServer implements AutoCloseable {
     /** Connections that a burst may make before the acceptor comes to them; beyond it, a sender tries again after a second. */
     private static final int ACCEPT_QUEUE = 1024;
 
-    private static final int WAITING_TO_BE_ACCEPTED = 4096;
     private static final Duration STOP_WITHIN = Duration.ofMillis(800);
     private static final Duration IDLE_AFTER_STOP = Duration.ofMillis(100);
     private static final Duration BIND_PAUSE = Duration.ofMillis(100);
@@ -74,7 +73,6 @@ final class NotificationServer implements AutoCloseable {
                 .orElseGet(() -> new ServerConnector(server, 1, 1, plain));
         connector.setHost(settings.address().getHostString());
         connector.setPort(settings.address().getPort());
-        connector.setAcceptQueueSize(WAITING_TO_BE_ACCEPTED);
         connector.setAcceptQueueSize(ACCEPT_QUEUE);
         connector.setIdleTimeout(settings.idle().toMillis());
         connector.setShutdownIdleTimeout(IDLE_AFTER_STOP.toMillis());
@@ -116,9 +114,12 @@ final class NotificationServer implements AutoCloseable {
     }
 
     private void sweep() {
-        slowSenders.cut();
-        if (server.isRunning()) {
-            sweepLater();
+        try {
+            slowSenders.cut();
+        } finally {
+            if (server.isRunning()) {
+                sweepLater();
+            }
         }
     }
 

@@ -115,8 +115,12 @@ final class OwnSubscriptions implements AutoCloseable {
                 name,
                 options.subject(share.count() > 1 ? Optional.of(share.pattern()) : Optional.empty()),
                 options.content(),
-                new Target(options.url("http", config.listening().host(), port), Map.of(), options.maxFails()),
+                new Target(options.url(http(), config.listening().host(), port), secret(), options.maxFails()),
                 options.pace());
+    }
+
+    private String http() {
+        return config.tls().keys().isPresent() ? "https" : "http";
     }
 
     /** The one that counts; a previous one is only taken, not asked for. */
@@ -125,6 +129,17 @@ final class OwnSubscriptions implements AutoCloseable {
                 .findFirst()
                 .map(secret -> Map.of(config.security().secretHeader(), secret.value()))
                 .orElse(Map.of());
+    }
+
+    /**
+     * Asks nothing of the context broker while the source has no task: another worker may have it by now, and its
+     * subscriptions follow it there.
+     */
+    void rest(boolean resting) {
+        Caretakers started = caretakers;
+        if (started != null) {
+            started.rest(resting);
+        }
     }
 
     /** Nothing is asked of the context broker any more; the subscriptions stay. */

@@ -37,7 +37,7 @@ record RunningSource(
                     new RunningSource(config.originalsStrings(), journals, subscriptions, reception, bean);
             source.subscribe(intake);
             return source;
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) {
             journals.close();
             throw e;
         }
@@ -46,7 +46,7 @@ record RunningSource(
     private void subscribe(Intake intake) {
         try {
             subscriptions.start(reception.port(), intake);
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) {
             close();
             throw e;
         }
@@ -76,10 +76,15 @@ record RunningSource(
         return orphans;
     }
 
+    /** Answers nothing more, and asks nothing of the context broker; the journals stay open. */
+    void stopListening() {
+        reception.close();
+        subscriptions.close();
+    }
+
     @Override
     public void close() {
-        subscriptions.close();
-        reception.close();
+        stopListening();
         bean.close();
         journals.close();
     }

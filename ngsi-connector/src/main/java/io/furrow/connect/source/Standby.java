@@ -30,6 +30,7 @@ final class Standby {
     static void enter(NgsiSourceConfig config, RunningSource source) {
         Duration patience = config.journal().standby();
         Standby standby = new Standby(source);
+        source.subscriptions().rest(true);
         synchronized (WAITING) {
             WAITING.put(name(config), standby);
         }
@@ -58,6 +59,7 @@ final class Standby {
         }
         standby.timer.cancel();
         if (standby.source.properties().equals(config.originalsStrings())) {
+            standby.source.subscriptions().rest(false);
             return Optional.of(standby.source);
         }
         standby.source.close();

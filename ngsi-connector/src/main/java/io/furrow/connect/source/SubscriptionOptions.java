@@ -67,7 +67,7 @@ record SubscriptionOptions(AbstractConfig config) {
                 "Own address",
                 "Address of this source as the context broker reaches it; {port} stands for the port of the task. Empty for"
                         + " http://" + ListeningOptions.HOST
-                        + ":{port}/v2/notify. Where workers have addresses of their own,"
+                        + ":{port}/v2/notify, https where the listener has a key store. Where workers have addresses of their own,"
                         + " take it from each worker's environment with a config provider, for instance"
                         + " http://${env:POD_IP}:{port}/v2/notify.");
         declare.text(

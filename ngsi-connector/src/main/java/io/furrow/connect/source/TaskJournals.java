@@ -36,18 +36,21 @@ final class TaskJournals implements AutoCloseable {
 
     private final JournalFolders folders;
     private final Ledger ledger;
+    private final LeftRecords left;
     private volatile Committed committed;
     private volatile JournalDrain own;
     private final List<JournalDrain> adopted = new CopyOnWriteArrayList<>();
     private final AtomicLong inFlight = new AtomicLong();
     private volatile List<Orphan> orphans = List.of();
     private boolean ownTurn;
+    private boolean closed;
 
     /** Opens the own journal, the one of the slot. */
     TaskJournals(JournalFolders folders, int slot, Committed committed, Ledger ledger) {
         this.folders = folders;
         this.committed = committed;
         this.ledger = ledger;
+        this.left = LeftRecords.of(folders.owner());
         this.own = openOwn(slot);
         ledger.gauge("pending", "Records on disk that Kafka has not acknowledged", this::pending);
         ledger.gauge("journalBytes", "Bytes on disk of the journals", this::bytes);
@@ -58,6 +61,10 @@ final class TaskJournals implements AutoCloseable {
         ledger.gauge("adoptedJournals", "Journals of other tasks that are being drained", adopted::size);
         ledger.gauge(
                 "orphanedJournals", "Journals below the journal folder that no task has open", () -> orphans.size());
+        ledger.gauge(
+                "orphanedBytes",
+                "Bytes on disk of the orphaned journals",
+                () -> orphans.stream().mapToLong(Orphan::bytes).sum());
     }
 
     private JournalDrain openOwn(int slot) {
@@ -69,7 +76,7 @@ final class TaskJournals implements AutoCloseable {
                 journal.skipTo(known.getAsLong());
             }
             return opened(journal, known);
-        } catch (RuntimeException e) {
+        } catch (RuntimeException | Error e) {
             journal.close();
             throw e;
         }
@@ -98,6 +105,7 @@ final class TaskJournals implements AutoCloseable {
 
     private JournalDrain opened(Journal journal, OptionalLong known) {
         JournalDrain drain = new JournalDrain(journal, known);
+        left.take(journal.folder());
         ledger.recovered.add(drain.left());
         for (Damage damage : journal.damages()) {
             if (damage.kind() == Damage.Kind.MISSING) {
@@ -154,34 +162,34 @@ final class TaskJournals implements AutoCloseable {
 
     /** Frees what the offset store says is in Kafka. May wait for Kafka. */
     void release() {
-        own.release(committed.of(own.journal().id()));
-        for (JournalDrain drain : adopted) {
-            if (drain.release(committed.of(drain.journal().id()))) {
-                adopted.remove(drain);
-                LOG.info(
-                        "journal {} of another task is in Kafka to its end",
-                        drain.journal().id());
-                drain.delete();
-            }
+        all().toList()
+                .forEach(drain -> release(drain, committed.of(drain.journal().id())));
+    }
+
+    /** What was closed meanwhile may be another task's, also as its own journal. */
+    private synchronized void release(JournalDrain drain, OptionalLong known) {
+        if (!closed && drain.release(known) && adopted.remove(drain)) {
+            LOG.info(
+                    "journal {} of another task is in Kafka to its end",
+                    drain.journal().id());
+            drain.delete();
         }
     }
 
     /** Takes over journals that nobody has open, and looks for those that nobody will. May wait for Kafka. */
     void adopt() {
-        for (Journal journal : folders.adopt()) {
-            try {
-                JournalDrain drain = opened(journal, committed.of(journal.id()));
-                adopted.add(drain);
-                LOG.info(
-                        "journal {} was left by another task and is taken over: {} records",
-                        journal.id(),
-                        drain.left());
-            } catch (RuntimeException e) {
-                journal.close();
-                throw e;
-            }
-        }
+        folders.adopt(journal -> takeOver(journal, committed.of(journal.id())));
         orphans = folders.orphans();
+    }
+
+    private synchronized void takeOver(Journal journal, OptionalLong known) {
+        if (closed) {
+            journal.close();
+            return;
+        }
+        JournalDrain drain = opened(journal, known);
+        adopted.add(drain);
+        LOG.info("journal {} was left by another task and is taken over: {} records", journal.id(), drain.left());
     }
 
     List<Orphan> orphans() {
@@ -200,8 +208,13 @@ final class TaskJournals implements AutoCloseable {
         return all().mapToLong(drain -> drain.journal().bytes()).sum();
     }
 
+    /** Lets other tasks have them, and shows how much of them is not in Kafka. */
     @Override
-    public void close() {
-        all().forEach(JournalDrain::close);
+    public synchronized void close() {
+        closed = true;
+        all().forEach(drain -> {
+            drain.close();
+            left.leave(drain.journal().folder(), drain.notReleased());
+        });
     }
 }

@@ -14,6 +14,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
@@ -137,7 +138,7 @@ public final class SubscriptionKeeper {
         Outcome outcome = broker.apply(BrokerRequest.delete(scope, PATH + "/" + remove.id()));
         if (!(outcome instanceof Outcome.Absent)) {
             BrokerException.success("remove subscription " + remove.id() + " at " + place(), outcome);
-            LOG.info("removed subscription {} '{}' at {}", remove.id(), remove.description(), place());
+            LOG.info("removed subscription {} '{}' at {}", remove.id(), LogText.oneLine(remove.description()), place());
         }
         return Optional.empty();
     }

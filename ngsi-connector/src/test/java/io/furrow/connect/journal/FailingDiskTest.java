@@ -3,6 +3,7 @@ package io.furrow.connect.journal;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.ExecutionException;
 
@@ -132,13 +133,64 @@ class FailingDiskTest {
         }
     }
 
+    @Test
+    void keepsNothingOfAnAppendThatDoesNotFitWhenItsNewFileCannotBeMade() throws Exception {
+        try (Journal journal = open()) {
+            JournalTest.append(journal, "before");
+            disk.failCreation("Input/output error");
+            String large = "x".repeat(1500);
+            assertFails(journal, List.of(large, large, large), JournalException.DiskFailed.class);
+            disk.failCreation(null);
+
+            JournalTest.append(journal, "after");
+            assertThat(JournalTest.read(journal.reader(0))).hasSize(2).first().isEqualTo("0 before");
+            assertThat(journal.reader(0).left()).isEqualTo(2);
+        }
+    }
+
+    @Test
+    void confirmsWhatIsDurableOfAGroupThatFails() throws Exception {
+        try (Journal journal = open()) {
+            JournalTest.append(journal, "before");
+            disk.holdSyncs();
+            CompletableFuture<Void> held = append(journal, "held");
+            disk.awaitHeldSync();
+            CompletableFuture<Void> fits = append(journal, "fits");
+            CompletableFuture<Void> doesNotFit = append(journal, "x".repeat(4000));
+            disk.failCreation("Input/output error");
+            disk.letSyncsGo();
+
+            assertThat(held).succeedsWithin(Duration.ofMinutes(1));
+            assertThat(fits).as("it is on the disk").succeedsWithin(Duration.ofMinutes(1));
+            assertThat(doesNotFit).failsWithin(Duration.ofMinutes(1));
+            assertThat(JournalTest.read(journal.reader(0))).containsExactly("0 before", "1 held", "2 fits");
+        }
+    }
+
+    @Test
+    void goesOnWhenTheNextFileCannotBeMadeAhead() throws Exception {
+        disk.failPreparation(true);
+        try (Journal journal = open()) {
+            JournalTest.append(journal, "first");
+            assertThat(append(journal, "second")).succeedsWithin(Duration.ofMinutes(1));
+        }
+    }
+
+    private static CompletableFuture<Void> append(Journal journal, String text) {
+        return journal.append(JournalTest.payloads(text)).orElseThrow();
+    }
+
     private Journal open() {
         return Journal.open(folder, SMALL, disk).orElseThrow();
     }
 
     private static void assertFails(Journal journal, String text, Class<? extends Throwable> kind) {
-        CompletableFuture<Void> durable =
-                journal.append(JournalTest.payloads(text)).orElseThrow();
+        assertFails(journal, List.of(text), kind);
+    }
+
+    private static void assertFails(Journal journal, List<String> texts, Class<? extends Throwable> kind) {
+        CompletableFuture<Void> durable = journal.append(JournalTest.payloads(texts.toArray(String[]::new)))
+                .orElseThrow();
         assertThat(durable)
                 .failsWithin(Duration.ofMinutes(1))
                 .withThrowableOfType(ExecutionException.class)

@@ -2,7 +2,10 @@ package io.furrow.connect.journal;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.atomic.AtomicBoolean;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -48,9 +51,9 @@ class JournalFoldersTest {
         }
         folders("other").take(0).close();
         try (Journal own = folders("farm").take(0)) {
-            List<Journal> adopted = folders("farm").adopt();
+            List<Journal> adopted = adopted("farm");
             assertThat(adopted).extracting(Journal::id).containsExactly(left);
-            assertThat(folders("farm").adopt()).isEmpty();
+            assertThat(adopted("farm")).isEmpty();
             assertThat(own.id()).isNotEqualTo(left);
             adopted.get(0).delete();
             assertThat(root.resolve("farm").resolve(left)).doesNotExist();
@@ -61,7 +64,7 @@ class JournalFoldersTest {
     void leavesFoldersAloneThatAreNoJournals() throws Exception {
         Path other = Files.createDirectories(root.resolve("farm").resolve("notes"));
 
-        assertThat(folders("farm").adopt()).isEmpty();
+        assertThat(adopted("farm")).isEmpty();
         assertThat(other).isEmptyDirectory();
     }
 
@@ -83,6 +86,31 @@ class JournalFoldersTest {
     }
 
     @Test
+    void takesTheJournalOfTheSlotWhileOthersLookForOrphans() throws Exception {
+        String id;
+        try (Journal journal = folders("farm").take(0)) {
+            id = journal.id();
+            JournalTest.append(journal, "left");
+        }
+        AtomicBoolean ended = new AtomicBoolean();
+        CompletableFuture<Void> looking = CompletableFuture.runAsync(() -> {
+            while (!ended.get()) {
+                folders("another").orphans();
+            }
+        });
+        try {
+            for (int i = 0; i < 200; i++) {
+                try (Journal journal = folders("farm").take(0)) {
+                    assertThat(journal.id()).isEqualTo(id);
+                }
+            }
+        } finally {
+            ended.set(true);
+            looking.join();
+        }
+    }
+
+    @Test
     void keepsOwnersWithStrangeNamesInTheRoot() {
         for (String owner : List.of("..", ".", "a/b", "a\\b", "ä", "%2F", "a b")) {
             try (Journal journal = folders(owner).take(0)) {
@@ -91,6 +119,23 @@ class JournalFoldersTest {
             }
         }
         assertThat(JournalFolders.folderName("ngsi-source")).isEqualTo("ngsi-source");
+    }
+
+    @Test
+    void makesEachNameDurableUpToTheRootOfTheFileSystem() throws Exception {
+        List<Path> synced = new ArrayList<>();
+        Path folder = root.resolve("a").resolve("b");
+
+        DurableFolders.create(folder, synced::add);
+
+        assertThat(folder).isDirectory();
+        assertThat(synced).startsWith(root.resolve("a"), root, root.getParent());
+    }
+
+    private List<Journal> adopted(String owner) {
+        List<Journal> adopted = new ArrayList<>();
+        folders(owner).adopt(adopted::add);
+        return adopted;
     }
 
     private JournalFolders folders(String owner) {

@@ -60,6 +60,15 @@ class SpareFileTest {
     }
 
     @Test
+    void isMadeAnewAfterAnError() {
+        spare.make(file, -1);
+
+        assertThat(spare.take(-1)).isEmpty();
+        spare.make(file, BYTES);
+        assertThat(spare.take(BYTES)).contains(file);
+    }
+
+    @Test
     void isDeletedWhenNobodyWantsIt() {
         spare.make(file, BYTES);
 

@@ -20,6 +20,7 @@ final class StubbornDisk implements Disk {
     private volatile String failWrites;
     private volatile String failSyncs;
     private volatile String failCreation;
+    private volatile boolean failPreparation;
 
     void holdSyncs() {
         held = new CountDownLatch(1);
@@ -60,6 +61,18 @@ final class StubbornDisk implements Disk {
 
     void failCreation(String message) {
         failCreation = message;
+    }
+
+    /** The next file cannot be made ahead, for want of a thread. */
+    void failPreparation(boolean fails) {
+        failPreparation = fails;
+    }
+
+    @Override
+    public void prepare(Path folder, long capacity) {
+        if (failPreparation) {
+            throw new OutOfMemoryError("unable to create native thread");
+        }
     }
 
     @Override

@@ -69,10 +69,15 @@ class LedgerTest {
         ObjectName name = new ObjectName("furrow.connect:type=ngsi-source,connector=\"x,y=z\",task=0");
         ledger.received.add(9);
 
-        try (LedgerBean old = LedgerBean.show(left, "x,y=z", 0);
-                LedgerBean shown = LedgerBean.show(ledger, "x,y=z", 0)) {
-            assertThat(old).isNotSameAs(shown);
-            assertThat(beans.getAttribute(name, "received-total")).isEqualTo(9L);
-        }
+        LedgerBean old = LedgerBean.show(left, "x,y=z", 0);
+        LedgerBean shown = LedgerBean.show(ledger, "x,y=z", 0);
+
+        assertThat(beans.getAttribute(name, "received-total")).isEqualTo(9L);
+        old.close();
+        assertThat(beans.getAttribute(name, "received-total"))
+                .as("it is not the old one's any more")
+                .isEqualTo(9L);
+        shown.close();
+        assertThat(beans.isRegistered(name)).isFalse();
     }
 }

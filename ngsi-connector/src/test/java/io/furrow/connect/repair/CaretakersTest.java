@@ -9,11 +9,14 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.regex.Pattern;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerSettings;
@@ -46,6 +49,7 @@ class CaretakersTest {
     private final Ledger ledger = new Ledger();
     private final LiveEvents live = new LiveEvents();
     private volatile boolean room = true;
+    private volatile Runnable failing = () -> {};
     private Caretakers caretakers;
 
     @AfterEach
@@ -78,6 +82,47 @@ class CaretakersTest {
         await().until(() -> broker.subscriptions().size() == 1
                 && !subscription().path("id").asText().equals(id));
         await().until(() -> ledger.gaps.sum() == 1);
+    }
+
+    @Test
+    void leavesTheSubscriptionToOthersWhileItRests() {
+        start(Mode.CHANGES);
+        caretakers.rest(true);
+        await().until(() -> {
+            broker.subscriptions()
+                    .forEach(each -> broker.send(
+                            "DELETE", "/v2/subscriptions/" + each.path("id").asText(), "/#", ""));
+            return broker.subscriptions().isEmpty();
+        });
+        // A look that was under way may have made it once more; the next would again.
+        await().during(Duration.ofSeconds(1)).until(() -> broker.subscriptions().isEmpty());
+
+        caretakers.rest(false);
+
+        await().until(() -> broker.subscriptions().size() == 1);
+    }
+
+    @ParameterizedTest
+    @MethodSource("errors")
+    void goesOnAfterAnyError(Runnable error) {
+        start(Mode.OFF);
+
+        failing = error;
+        await().until(() -> gauge("subscriptionsUnkept") == 1);
+        assertThat(ledger.details().get("subscriptions").get().toString()).contains("none of its business");
+        failing = () -> {};
+
+        await().until(() -> gauge("subscriptionsUnkept") == 0);
+    }
+
+    static Stream<Runnable> errors() {
+        return Stream.of(
+                () -> {
+                    throw new IllegalStateException("none of its business");
+                },
+                () -> {
+                    throw new LinkageError("none of its business");
+                });
     }
 
     @Test
@@ -203,9 +248,13 @@ class CaretakersTest {
                 mode,
                 new RepairSettings.Reading(4, Duration.ofMinutes(5), List.of(Pattern.compile("Analytics:.*"))),
                 1000);
+        BrokerClient client = new BrokerClient(BrokerSettings.of(broker.uri(), Duration.ofSeconds(5)));
         try {
             caretakers = Caretakers.start(
-                    new BrokerClient(BrokerSettings.of(broker.uri(), Duration.ofSeconds(5)))::send,
+                    request -> {
+                        failing.run();
+                        return client.send(request);
+                    },
                     List.of(new Commission(new FiwareScope("agri", "/#"), wanted)),
                     settings,
                     new Caretaker.Means(live, this::emit, ledger),

@@ -49,6 +49,31 @@ class KnownEntitiesTest {
     }
 
     @Test
+    void keepsLineBreaksAndBackslashesOfAnId() throws IOException {
+        Set<String> strange = Set.of("|/|one\n+|/|two", "|/|a\r\nb", "|/|\\n");
+        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 10)) {
+            for (String identity : strange) {
+                known.add(identity);
+            }
+            known.add("|/|gone\n+x");
+            known.remove("|/|gone\n+x");
+        }
+
+        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 10)) {
+            assertThat(known.copy()).isEqualTo(strange);
+        }
+    }
+
+    @Test
+    void leavesOutLinesThatAreNoIdentity() throws IOException {
+        Files.writeString(folder.resolve("known"), "+x\n+|/|a\n+\n-x\n");
+
+        try (KnownEntities known = open()) {
+            assertThat(known.copy()).isEqualTo(Set.of("|/|a"));
+        }
+    }
+
+    @Test
     void beginsAnewWithAFileThatIsNotItsOwn() throws IOException {
         Files.write(folder.resolve("known"), new byte[] {(byte) 0xff, '\n', (byte) 0xfe, '\n'});
 

@@ -2,7 +2,16 @@ package io.furrow.connect.source;
 
 import java.time.Duration;
 import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
 
+import org.apache.logging.log4j.Level;
+import org.apache.logging.log4j.LogManager;
+import org.apache.logging.log4j.core.LogEvent;
+import org.apache.logging.log4j.core.Logger;
+import org.apache.logging.log4j.core.appender.AbstractAppender;
+import org.apache.logging.log4j.core.config.Configurator;
+import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.event.EntityEvent;
@@ -29,6 +38,34 @@ class ClockReportTest {
     @Test
     void saysNothingOfAClockThatIsRight() {
         assertThat(new ClockReport(2).note(event("a", 10))).isFalse();
+    }
+
+    @Test
+    void writesOneLineWhateverTheIdHolds() {
+        List<String> messages = new ArrayList<>();
+        Logger logger = (Logger) LogManager.getLogger(ClockReport.class);
+        AbstractAppender recorder = new AbstractAppender("recorder", null, null, true, Property.EMPTY_ARRAY) {
+            @Override
+            public void append(LogEvent event) {
+                messages.add(event.getMessage().getFormattedMessage());
+            }
+        };
+        recorder.start();
+        logger.addAppender(recorder);
+        Level usual = logger.getLevel();
+        Configurator.setLevel(logger, Level.WARN);
+        try {
+            new ClockReport(2).note(event("a\nERROR all is lost", 600));
+        } finally {
+            logger.removeAppender(recorder);
+            Configurator.setLevel(logger, usual);
+        }
+
+        assertThat(messages)
+                .singleElement()
+                .satisfies(message -> assertThat(message)
+                        .contains("a\\u000aERROR all is lost")
+                        .doesNotContain("\n"));
     }
 
     private static EntityEvent event(String id, long secondsAhead) {

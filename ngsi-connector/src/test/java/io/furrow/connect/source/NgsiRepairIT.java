@@ -118,7 +118,7 @@ class NgsiRepairIT {
 
         await().atMost(PATIENCE)
                 .until(() -> subscription()
-                        .at("/notification/http/url")
+                        .at("/notification/httpCustom/url")
                         .asText()
                         .equals("http://127.0.0.1:" + port + "/v2/notify"));
         assertThat(subscription().path("id").asText()).isEqualTo(id);
@@ -139,6 +139,7 @@ class NgsiRepairIT {
                         "journal.dir", directory.resolve("journal-" + topic).toString(),
                         "listen.port", Integer.toString(port),
                         "topic", topic,
+                        "secret", "known-to-both",
                         "public.url", "",
                         "context.broker.url", broker.uri().toString(),
                         "subscription.tenants", "agri",

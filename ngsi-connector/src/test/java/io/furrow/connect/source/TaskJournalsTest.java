@@ -7,6 +7,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.OptionalLong;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.atomic.AtomicInteger;
 
 import org.apache.kafka.connect.errors.ConnectException;
 import org.junit.jupiter.api.Test;
@@ -24,6 +25,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class TaskJournalsTest {
     private final Map<String, Long> offsets = new ConcurrentHashMap<>();
     private final Ledger ledger = new Ledger();
+    private final AtomicInteger failures = new AtomicInteger();
+    private Runnable whenAsked = () -> {};
 
     @TempDir
     private Path root;
@@ -71,6 +74,61 @@ class TaskJournalsTest {
             journals.release();
             assertThat(left).doesNotExist();
         }
+    }
+
+    @Test
+    void takesOverAllThatIsLeftAfterTheOffsetStoreFailedOnce() throws Exception {
+        for (int slot = 1; slot <= 2; slot++) {
+            try (TaskJournals gone = open(slot)) {
+                take(gone, 1);
+            }
+        }
+        try (TaskJournals journals = open(0)) {
+            failures.set(1);
+            assertThatThrownBy(journals::adopt).isInstanceOf(ConnectException.class);
+
+            journals.adopt();
+
+            assertThat(numbers(journals)).containsExactly(0L, 0L);
+        }
+        try (TaskJournals journals = open(0)) {
+            journals.adopt();
+            assertThat(numbers(journals)).as("nothing stayed locked").containsExactly(0L, 0L);
+        }
+    }
+
+    @Test
+    void takesOverNothingAfterItWasClosed() {
+        try (TaskJournals gone = open(1)) {
+            take(gone, 1);
+        }
+        TaskJournals journals = open(0);
+        whenAsked = journals::close;
+        journals.adopt();
+
+        whenAsked = () -> {};
+        try (TaskJournals next = open(1)) {
+            assertThat(next.own().end()).as("the journal is free").isEqualTo(1);
+        }
+    }
+
+    @Test
+    void deletesNothingAfterItWasClosed() {
+        String id;
+        try (TaskJournals gone = open(1)) {
+            take(gone, 1);
+            id = gone.own().id();
+        }
+        TaskJournals journals = open(0);
+        journals.adopt();
+        offsets.put(id, 1L);
+        whenAsked = journals::close;
+
+        journals.release();
+
+        assertThat(root.resolve("farm").resolve(id))
+                .as("it may be another task's by now")
+                .exists();
     }
 
     @Test
@@ -153,6 +211,10 @@ class TaskJournalsTest {
     }
 
     private OptionalLong committed(String journal) {
+        if (failures.getAndUpdate(left -> Math.max(0, left - 1)) > 0) {
+            throw new ConnectException("no answer");
+        }
+        whenAsked.run();
         Long offset = offsets.get(journal);
         return offset == null ? OptionalLong.empty() : OptionalLong.of(offset);
     }

@@ -1,0 +1,22 @@
+package io.furrow.connect;
+
+/** Makes texts from outside fit for a log, in which each line has one author. */
+public final class LogText {
+    private LogText() {}
+
+    /** The text with each control character, and each other line break, as {@code \} and four digits, as in JSON. */
+    public static String oneLine(String text) {
+        StringBuilder line = null;
+        for (int i = 0; i < text.length(); i++) {
+            char sign = text.charAt(i);
+            boolean breaks = Character.isISOControl(sign) || sign == 0x2028 || sign == 0x2029;
+            if (breaks && line == null) {
+                line = new StringBuilder(text.length() + 16).append(text, 0, i);
+            }
+            if (line != null) {
+                line.append(breaks ? String.format("\\u%04x", (int) sign) : sign);
+            }
+        }
+        return line == null ? text : line.toString();
+    }
+}

@@ -1,0 +1,112 @@
+package io.furrow.connect.source;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.OptionalLong;
+import java.util.concurrent.CompletableFuture;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.ConnectRig;
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.Broker;
+import io.furrow.simulators.fiware.FiwareSettings;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class OwnSubscriptionsTest {
+    @TempDir
+    private Path directory;
+
+    private final Broker broker = new Broker(FiwareSettings.httpOnly(), "");
+
+    @AfterEach
+    void stopBroker() {
+        broker.close();
+    }
+
+    @Test
+    void carryTheSecretAndTheHttpsAddressOfTheListener() {
+        JsonNode target = targetOf(Map.of(
+                "secret", "known-to-both",
+                "secret.header", "X-Farm",
+                "secret.previous", "former",
+                "tls.keystore.location", directory.resolve("keys.p12").toString()));
+
+        assertThat(target.path("url").asText()).isEqualTo("https://127.0.0.1:8091/v2/notify");
+        assertThat(target.at("/headers/X-Farm").asText()).isEqualTo("known-to-both");
+    }
+
+    @Test
+    void carryThePublicAddressWhereThereIsOne() {
+        JsonNode target = targetOf(Map.of(
+                "secret", "known-to-both",
+                "public.url", "https://farm.example/in",
+                "tls.keystore.location", directory.resolve("keys.p12").toString()));
+
+        assertThat(target.path("url").asText()).isEqualTo("https://farm.example/in");
+    }
+
+    @Test
+    void areLeftToOthersWhileTheSourceHasNoTask() {
+        NgsiSourceConfig config = config(Map.of(
+                "listen.port", Integer.toString(ConnectRig.freePort()), "subscription.check.interval.ms", "200"));
+        RunningSource source = RunningSource.open(config, journal -> OptionalLong.empty());
+        await().until(() -> broker.subscriptions().size() == 1);
+
+        Standby.enter(config, source);
+        await().until(() -> {
+            removeAll();
+            return broker.subscriptions().isEmpty();
+        });
+        // Longer than the interval; a look that was under way may have made it once more.
+        await().atMost(Duration.ofMinutes(1)).during(Duration.ofSeconds(1)).until(() -> {
+            boolean none = broker.subscriptions().isEmpty();
+            removeAll();
+            return none;
+        });
+
+        RunningSource resumed = Standby.leave(config).orElseThrow();
+        try {
+            await().until(() -> broker.subscriptions().size() == 1);
+        } finally {
+            resumed.close();
+        }
+    }
+
+    private void removeAll() {
+        broker.subscriptions()
+                .forEach(each -> broker.send(
+                        "DELETE", "/v2/subscriptions/" + each.path("id").asText(), "/#", ""));
+    }
+
+    private JsonNode targetOf(Map<String, String> options) {
+        Intake nothing = records -> Optional.of(CompletableFuture.completedFuture(null));
+        try (OwnSubscriptions own = OwnSubscriptions.of(config(options), new Ledger())) {
+            own.start(8091, nothing);
+            await().until(() -> broker.subscriptions().size() == 1);
+        }
+        return broker.subscriptions().get(0).at("/notification/httpCustom");
+    }
+
+    private NgsiSourceConfig config(Map<String, String> options) {
+        Map<String, String> all = new HashMap<>(Map.of(
+                "name",
+                "farm",
+                "journal.dir",
+                directory.toString(),
+                "topic",
+                "raw",
+                "context.broker.url",
+                broker.uri().toString()));
+        all.putAll(options);
+        return new NgsiSourceConfig(all);
+    }
+}
