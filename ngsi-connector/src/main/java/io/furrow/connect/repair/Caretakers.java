@@ -18,7 +18,6 @@ import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Caretaker.Means;
-import io.furrow.connect.subscription.SubscriptionKeeper;
 import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.FiwareScope;
 
@@ -71,6 +70,7 @@ public final class Caretakers implements AutoCloseable {
             caretakers.close();
             throw e;
         }
+        means.live().onStale(caretakers::markStale);
         caretakers.show(means.ledger());
         caretakers.thread.start();
         return caretakers;
@@ -80,9 +80,11 @@ public final class Caretakers implements AutoCloseable {
     public record Commission(FiwareScope scope, WantedSubscription wanted) {
         private Caretaker caretaker(Function<BrokerRequest, Outcome> broker, RepairSettings settings, Means means)
                 throws IOException {
-            BrokerEntities entities = new BrokerEntities(
-                    broker, scope, wanted.subject(), wanted.content().attrs());
-            return Caretaker.open(new SubscriptionKeeper(broker, scope, wanted), entities, settings, means);
+            return Caretaker.open(
+                    Caretaker.Charge.of(
+                            broker, scope, wanted, settings.reading().pageMaxBytes()),
+                    settings,
+                    means);
         }
     }
 
@@ -142,6 +144,21 @@ public final class Caretakers implements AutoCloseable {
                 LOG.debug("cannot note {}", identity, e); // the next look fails for the same reason, and says so
             }
         }
+    }
+
+    private void markStale(String identity) {
+        for (Charge charge : charges) {
+            try {
+                charge.caretaker.markStale(identity);
+            } catch (IOException e) {
+                LOG.debug("cannot note {}", identity, e); // the next look fails for the same reason, and says so
+            }
+        }
+    }
+
+    /** Whether one of the subscriptions tells of entities there. */
+    public boolean covers(FiwareScope scope) {
+        return charges.stream().anyMatch(charge -> charge.caretaker.covers(scope));
     }
 
     private void run() {
