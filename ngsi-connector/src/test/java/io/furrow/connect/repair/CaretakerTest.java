@@ -50,7 +50,9 @@ class CaretakerTest {
 
             assertThat(source.ledger().gaps.sum()).isEqualTo(4);
         }
-        assertThat(asked).filteredOn(path -> path.contains("orderBy=dateCreated")).hasSize(1);
+        assertThat(asked)
+                .filteredOn(path -> path.contains("orderBy=dateCreated"))
+                .hasSize(1);
         assertThat(topic.values()).hasSize(5);
     }
 

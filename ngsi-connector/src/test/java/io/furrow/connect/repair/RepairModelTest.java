@@ -67,7 +67,9 @@ class RepairModelTest {
         topic = new Topic();
         folder = Files.createDirectory(directory.resolve(Long.toString(seed)));
         bounds = new Bounds(
-                2 + random.nextInt(6), random.nextBoolean() ? LARGE : 1 << 20, random.nextInt(3) == 0 ? 2000 : 1 << 20,
+                2 + random.nextInt(6),
+                random.nextBoolean() ? LARGE : 1 << 20,
+                random.nextInt(3) == 0 ? 2000 : 1 << 20,
                 Duration.ZERO);
         delivered.clear();
         isQuiet = false;
