@@ -14,7 +14,7 @@ usage() {
     cat <<USAGE
 Usage: ./furrow soak repair-model [OPTION VALUE]…
 Runs the test that every build runs 300 times, in one process without a network. It passes where after each run the newest state of
-each entity on the topic is that of the context broker. 10,000 runs take some two minutes on two cores.
+each entity on the topic is that of the context broker. 10,000 runs take some four minutes on two busy cores.
 
   --runs N  Default: $runs.
   --seed N  Of the first run, the next one has the next seed; a failure prints its own, to see it again with --runs 1. Default: random.
