@@ -8,7 +8,6 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpRequest.BodyPublisher;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
-import java.net.http.HttpResponse.BodyHandlers;
 import java.nio.charset.StandardCharsets;
 import java.time.DateTimeException;
 import java.time.Duration;
@@ -51,12 +50,16 @@ public final class BrokerClient {
         try {
             try {
                 return outcome(uri, answer(request, deadline));
+            } catch (LimitedBody.TooLargeException e) {
+                return tooLarge(uri, e);
             } catch (IOException e) {
                 if (!asked.repeatable() || e instanceof ConnectException) {
                     throw e;
                 }
                 return outcome(uri, answer(request, deadline));
             }
+        } catch (LimitedBody.TooLargeException e) {
+            return tooLarge(uri, e);
         } catch (IOException e) {
             return away(uri + " does not answer: " + e, e);
         } catch (TimeoutException e) {
@@ -83,7 +86,8 @@ public final class BrokerClient {
     /** HttpClient's own timeout ends with the headers of the answer; this one ends with its body. */
     private HttpResponse<byte[]> answer(HttpRequest request, long deadline)
             throws IOException, InterruptedException, TimeoutException {
-        CompletableFuture<HttpResponse<byte[]>> answer = client.sendAsync(request, BodyHandlers.ofByteArray());
+        CompletableFuture<HttpResponse<byte[]>> answer =
+                client.sendAsync(request, LimitedBody.of(settings.maxAnswerBytes()));
         try {
             return answer.get(Math.max(0, deadline - System.nanoTime()), TimeUnit.NANOSECONDS);
         } catch (ExecutionException e) {
@@ -110,6 +114,12 @@ public final class BrokerClient {
                     default -> new Outcome.WrongSetting(uri + " answered " + words);
                 };
         };
+    }
+
+    private static Outcome tooLarge(URI uri, LimitedBody.TooLargeException e) {
+        return e.status() / 100 == 2
+                ? new Outcome.Refused(e.status(), e.status() + ", but " + e.getMessage())
+                : away(uri + " answered " + e.status() + ", and " + e.getMessage(), e);
     }
 
     private static String text(byte[] body) {

@@ -15,10 +15,22 @@ import org.apache.kafka.common.config.types.Password;
  * @param timeout of one request, from its start to the end of its answer
  * @param headers sent with every request, for instance a token; their values appear nowhere else
  * @param tls what https trusts; empty for what the JVM trusts
+ * @param maxAnswerBytes bytes of an answer's body; of a larger one nothing is taken
  */
-public record BrokerSettings(URI base, Duration timeout, Map<String, Password> headers, Optional<SSLContext> tls) {
+public record BrokerSettings(
+        URI base, Duration timeout, Map<String, Password> headers, Optional<SSLContext> tls, long maxAnswerBytes) {
+    private static final long MAX_ANSWER_BYTES = 64L * 1024 * 1024;
+
+    public BrokerSettings(URI base, Duration timeout, Map<String, Password> headers, Optional<SSLContext> tls) {
+        this(base, timeout, headers, tls, MAX_ANSWER_BYTES);
+    }
+
     public static BrokerSettings of(URI base, Duration timeout) {
         return new BrokerSettings(base, timeout, Map.of(), Optional.empty());
+    }
+
+    public BrokerSettings withMaxAnswerBytes(long bytes) {
+        return new BrokerSettings(base, timeout, headers, tls, bytes);
     }
 
     /** The base without a slash at its end. */

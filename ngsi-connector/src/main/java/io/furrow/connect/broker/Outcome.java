@@ -31,8 +31,16 @@ public sealed interface Outcome {
     /** 404: what was asked for is not there. {@code words} are the status and the broker's reason. */
     record Absent(String words) implements Outcome {}
 
-    /** The context broker does not take what it was sent (any other 4xx). {@code words} are the status and its reason. */
-    record Refused(int status, String words) implements Outcome {}
+    /**
+     * The context broker does not take what it was sent (any other 4xx), or answers it with more bytes than are taken (2xx).
+     * {@code words} are the status and the reason.
+     */
+    record Refused(int status, String words) implements Outcome {
+        /** Whether it might be answered if less was asked for. */
+        public boolean isTooLarge() {
+            return status / 100 == 2;
+        }
+    }
 
     /**
      * There was no answer, or one that says to come again (408, 425, 429, 5xx): the same request may succeed later.

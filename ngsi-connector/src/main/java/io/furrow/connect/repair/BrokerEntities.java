@@ -1,18 +1,19 @@
 package io.furrow.connect.repair;
 
-import java.net.URLEncoder;
-import java.nio.charset.StandardCharsets;
 import java.time.DateTimeException;
 import java.time.Instant;
 import java.time.OffsetDateTime;
 import java.time.temporal.ChronoUnit;
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.LinkedHashSet;
 import java.util.List;
+import java.util.Optional;
 import java.util.Set;
 import java.util.function.Function;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
@@ -20,118 +21,206 @@ import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
+import io.furrow.connect.repair.EntityRequests.Range;
 import io.furrow.connect.repair.KeysetReader.Page;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Asks a context broker for the entities of one subscription, with {@code GET /v2/entities}. */
+/**
+ * Asks a context broker for the entities of one subscription. A page that takes more heap than allowed, or that cannot be read,
+ * is asked for in smaller parts, down to the one entity that is the cause; of that one only id, type and time are read. A page
+ * has two entities at least: the next one begins with the last of it, which shows whether the order has changed. Used by one
+ * thread.
+ */
 final class BrokerEntities {
     private static final Logger LOG = LoggerFactory.getLogger(BrokerEntities.class);
 
     private static final String SERVICE_PATH = "servicePath";
     private static final String MODIFIED = "dateModified";
     private static final String CREATED = "dateCreated";
-    /** 409: more than one entity has this id. */
-    private static final int SEVERAL = 409;
+    /** What is read takes at most so many times the bytes that an answer may have. */
+    private static final int TREE_TO_BODY = 4;
+
+    private static final int PAIR = 2;
 
     private final Function<BrokerRequest, Outcome> broker;
     private final FiwareScope scope;
     private final Subject subject;
-    private final List<String> attrs;
+    private final Set<String> attrs;
+    private final boolean isPathTold;
+    private final long maxBytes;
+    private int fitting = Integer.MAX_VALUE;
 
     /**
      * @param scope the tenant, and the service path of the subscription, {@code /#} for all
      * @param attrs of the subscription: what is read must make the same event as its notification
+     * @param maxBytes of a page's body
      */
-    BrokerEntities(Function<BrokerRequest, Outcome> broker, FiwareScope scope, Subject subject, List<String> attrs) {
+    BrokerEntities(
+            Function<BrokerRequest, Outcome> broker,
+            FiwareScope scope,
+            Subject subject,
+            List<String> attrs,
+            long maxBytes) {
         this.broker = broker;
         this.scope = scope;
         this.subject = subject;
-        this.attrs = List.copyOf(attrs);
+        this.maxBytes = maxBytes;
+        isPathTold = attrs.contains(SERVICE_PATH);
+        this.attrs = new LinkedHashSet<>(attrs.isEmpty() ? List.of("*") : attrs);
+        this.attrs.remove("alterationType");
+        this.attrs.addAll(List.of(MODIFIED, SERVICE_PATH));
     }
 
     /** What was modified at or after a time, oldest first. */
     Page modifiedFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
-        Set<String> wanted = new LinkedHashSet<>(attrs.isEmpty() ? List.of("*") : attrs);
-        wanted.remove("alterationType");
-        wanted.addAll(List.of(MODIFIED, SERVICE_PATH));
-        Page page = page(MODIFIED, wanted, new Range(from, offset, limit));
-        if (!attrs.contains(SERVICE_PATH)) {
-            page.states().forEach(state -> state.entity().json().remove(SERVICE_PATH));
-        }
-        return page;
+        return page(new Range(MODIFIED, from, offset, limit), attrs);
     }
 
     /** What was created at or after a time, oldest first; of the attributes only the built-in ones. */
     Page createdFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
-        return page(CREATED, Set.of(CREATED, SERVICE_PATH), new Range(from, offset, limit));
+        return page(new Range(CREATED, from, offset, limit), Set.of(CREATED, SERVICE_PATH));
     }
 
-    /** Whether the context broker has an entity of this id, of any type. */
-    boolean isPresent(FiwareScope place, String id) throws BrokerException, InterruptedException {
-        Outcome outcome = answer(BrokerRequest.get(place, "/v2/entities/" + encoded(id) + "?attrs=" + SERVICE_PATH));
-        if (outcome instanceof Outcome.Refused refused && refused.status() == SEVERAL) {
-            return true;
+    /** The entities that an id has now, in the order of their times; empty where it is gone. */
+    List<EntityState> ofId(FiwareScope place, String id) throws BrokerException, InterruptedException {
+        Optional<JsonNode> answer = ask(place, EntityRequests.ofId(id, attrs), TREE_TO_BODY * maxBytes);
+        if (answer.isPresent()) {
+            List<EntityState> states = states(answer.get(), MODIFIED);
+            states.sort(Comparator.comparing(EntityState::time));
+            return states;
         }
-        if (outcome instanceof Outcome.Absent) {
-            return false;
-        }
-        BrokerException.success("look for an entity of " + tenant(), outcome);
-        return true;
-    }
-
-    private record Range(Instant from, int offset, int limit) {}
-
-    private Page page(String order, Set<String> wanted, Range range) throws BrokerException, InterruptedException {
-        StringBuilder query = new StringBuilder("/v2/entities?orderBy=")
-                .append(order)
-                .append(",id&q=")
-                .append(encoded(order + ">=" + range.from().truncatedTo(ChronoUnit.MILLIS)))
-                .append("&limit=")
-                .append(range.limit())
-                .append("&attrs=")
-                .append(encoded(String.join(",", wanted)));
-        if (range.offset() > 0) {
-            query.append("&offset=").append(range.offset());
-        }
-        if (!subject.idPattern().equals(".*")) {
-            query.append("&idPattern=").append(encoded(subject.idPattern()));
-        }
-        if (!subject.types().isEmpty()) {
-            query.append("&type=").append(encoded(String.join(",", subject.types())));
-        }
-        subject.typePattern().ifPresent(pattern -> query.append("&typePattern=").append(encoded(pattern)));
-        JsonNode answer = ask("read entities", scope, query.toString());
         List<EntityState> states = new ArrayList<>();
-        answer.forEach(json -> add(states, json, order));
-        return new Page(states, answer.size() >= range.limit());
+        for (EntityState stub : states(stubs(place, EntityRequests.ofId(id, stubAttrs(MODIFIED))), MODIFIED)) {
+            whole(stub).ifPresent(states::add);
+        }
+        return states;
     }
 
-    private void add(List<EntityState> states, JsonNode json, String order) {
+    /** The same, without their attributes. */
+    List<EntityState> stubsOfId(FiwareScope place, String id) throws BrokerException, InterruptedException {
+        return states(stubs(place, EntityRequests.ofId(id, stubAttrs(CREATED))), CREATED);
+    }
+
+    /** Whether an entity is one of the subscription's. */
+    boolean covers(EntityState state) {
+        return subject.covers(state.entity().id(), state.entity().type());
+    }
+
+    private Page page(Range range, Set<String> wanted) throws BrokerException, InterruptedException {
+        int limit = Math.min(range.limit(), fitting);
+        while (true) {
+            Optional<JsonNode> answer =
+                    ask(scope, EntityRequests.page(range.first(limit), subject, wanted), TREE_TO_BODY * maxBytes);
+            if (answer.isPresent()) {
+                return new Page(
+                        states(answer.get(), range.order()), limit, answer.get().size() >= limit);
+            }
+            if (limit == PAIR) {
+                return pair(range.first(PAIR));
+            }
+            limit = Math.max(PAIR, limit / 2);
+            fitting = limit;
+        }
+    }
+
+    /** The two entities that the context broker has next, each read by itself. */
+    private Page pair(Range range) throws BrokerException, InterruptedException {
+        JsonNode stubs = stubs(scope, EntityRequests.page(range, subject, stubAttrs(range.order())));
+        List<EntityState> states = new ArrayList<>();
+        for (EntityState stub : states(stubs, range.order())) {
+            (range.order().equals(MODIFIED) ? whole(stub) : Optional.of(stub)).ifPresent(states::add);
+        }
+        return new Page(states, PAIR, stubs.size() == PAIR);
+    }
+
+    private static Set<String> stubAttrs(String order) {
+        return new LinkedHashSet<>(List.of(order, SERVICE_PATH));
+    }
+
+    /** The entity with all attributes, as of the time of its stub, behind which others may follow; empty where it went. */
+    private Optional<EntityState> whole(EntityState stub) throws BrokerException, InterruptedException {
+        String path = EntityRequests.ofType(stub.entity().id(), stub.entity().type(), attrs);
+        Optional<JsonNode> answer = ask(stub.scope(), path, TREE_TO_BODY * maxBytes / PAIR);
+        if (answer.isEmpty()) {
+            String problem = "it is larger than " + maxBytes
+                    + " bytes, or holds a text, number or nesting beyond what is read; see repair.page.max.bytes";
+            return Optional.of(new EntityState(stub.entity(), stub.scope(), stub.time(), Optional.of(problem)));
+        }
+        return states(answer.get(), MODIFIED).stream()
+                .findFirst()
+                .map(state -> new EntityState(state.entity(), state.scope(), stub.time(), state.problem()));
+    }
+
+    private List<EntityState> states(JsonNode entities, String order) {
+        List<EntityState> states = new ArrayList<>();
+        for (JsonNode json : entities) {
+            state(json, order).ifPresent(states::add);
+        }
+        return states;
+    }
+
+    private Optional<EntityState> state(JsonNode json, String order) {
+        String path = json.path(SERVICE_PATH).path("value").asText("/");
+        FiwareScope place = new FiwareScope(scope.service(), path);
+        Instant time;
         try {
-            Entity entity = Entity.of(json);
-            Instant time = OffsetDateTime.parse(entity.text(order).orElse(""))
+            time = OffsetDateTime.parse(json.path(order).path("value").asText())
                     .toInstant()
                     .truncatedTo(ChronoUnit.MILLIS);
-            states.add(new EntityState(entity, scopeOf(json), time));
-        } catch (UnreadableException | DateTimeException e) {
+        } catch (DateTimeException e) {
             LOG.warn(
-                    "an entity of tenant '{}' cannot be read and is left out: {}",
-                    scope.service(),
-                    LogText.oneLine(e.getMessage()));
+                    "entity {} at {} has no {} and is left out",
+                    LogText.oneLine(json.path("id").asText()),
+                    place,
+                    order);
+            return Optional.empty();
+        }
+        try {
+            Entity entity = Entity.of(json);
+            if (order.equals(MODIFIED) && !isPathTold) {
+                entity.json().remove(SERVICE_PATH);
+            }
+            return Optional.of(new EntityState(entity, place, time));
+        } catch (UnreadableException e) {
+            Entity stub = new Entity(JsonNodeFactory.instance
+                    .objectNode()
+                    .put("id", json.path("id").asText())
+                    .put("type", json.path("type").asText()));
+            return Optional.of(new EntityState(stub, place, time, Optional.of(e.getMessage())));
         }
     }
 
-    private FiwareScope scopeOf(JsonNode json) {
-        String path = json.path(SERVICE_PATH).path("value").asText("/");
-        return new FiwareScope(scope.service(), path);
+    private JsonNode stubs(FiwareScope place, String path) throws BrokerException, InterruptedException {
+        String what = "read entities of tenant '" + scope.service() + "'";
+        return BrokerException.json(what, BrokerException.success(what, answer(BrokerRequest.get(place, path))));
     }
 
-    private JsonNode ask(String what, FiwareScope place, String query) throws BrokerException, InterruptedException {
-        String where = what + " of " + tenant();
-        return BrokerException.json(where, BrokerException.success(where, answer(BrokerRequest.get(place, query))));
+    /** Empty where the answer takes too much, or cannot be read. */
+    private Optional<JsonNode> ask(FiwareScope place, String path, long maxHeap)
+            throws BrokerException, InterruptedException {
+        Outcome outcome = answer(BrokerRequest.get(place, path));
+        if (outcome instanceof Outcome.Refused refused && refused.isTooLarge()) {
+            return Optional.empty();
+        }
+        byte[] body = BrokerException.success("read entities of tenant '" + scope.service() + "'", outcome)
+                .body();
+        long heap = HeapEstimate.of(body);
+        if (body.length > maxBytes || heap > maxHeap) {
+            return Optional.empty();
+        }
+        if (heap < maxBytes && fitting < Integer.MAX_VALUE / 2) {
+            fitting *= 2;
+        }
+        try {
+            return Optional.of(NgsiJson.read(body));
+        } catch (UnreadableException e) {
+            LOG.debug("an answer cannot be read and is asked for in parts", e);
+            return Optional.empty();
+        }
     }
 
     private Outcome answer(BrokerRequest request) throws InterruptedException {
@@ -140,13 +229,5 @@ final class BrokerEntities {
             throw new InterruptedException("stopped while it waited for the context broker");
         }
         return outcome;
-    }
-
-    private String tenant() {
-        return "tenant '" + scope.service() + "'";
-    }
-
-    private static String encoded(String text) {
-        return URLEncoder.encode(text, StandardCharsets.UTF_8).replace("+", "%20");
     }
 }

@@ -4,19 +4,25 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Clock;
-import java.time.DateTimeException;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.List;
 import java.util.Optional;
+import java.util.Set;
+import java.util.function.Function;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.broker.BrokerException;
+import io.furrow.connect.broker.BrokerRequest;
+import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.DeliveryBalance.Arrived;
 import io.furrow.connect.repair.DeliveryBalance.Verdict;
 import io.furrow.connect.subscription.Kept;
 import io.furrow.connect.subscription.SubscriptionKeeper;
+import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.FiwareScope;
 
 /**
@@ -33,34 +39,52 @@ public final class Caretaker implements AutoCloseable {
     private final KnownEntities known;
     private final Watermark watermark;
     private final DeliveryBalance balance;
+    private final BrokerUptime uptime;
+    private String subscription = "";
+    private Optional<Instant> lookedAt = Optional.empty();
     private Optional<String> missing = Optional.empty();
     private long turnedAway;
+    private final ListingSchedule listings;
     private volatile Duration gap = Duration.ZERO;
+
+    /** What it looks at. */
+    record Charge(SubscriptionKeeper keeper, BrokerEntities entities, BrokerUptime uptime) {
+        /** @param maxBytes of a page's body */
+        static Charge of(
+                Function<BrokerRequest, Outcome> broker, FiwareScope scope, WantedSubscription wanted, long maxBytes) {
+            return new Charge(
+                    new SubscriptionKeeper(broker, scope, wanted),
+                    new BrokerEntities(
+                            broker, scope, wanted.subject(), wanted.content().attrs(), maxBytes),
+                    new BrokerUptime(broker, scope));
+        }
+    }
 
     /** What all of a task share. */
     public record Means(LiveEvents live, RepairOutput output, Ledger ledger) {}
 
-    private Caretaker(
-            SubscriptionKeeper keeper, BrokerEntities entities, RepairSettings settings, Means means, Path folder)
-            throws IOException {
-        this.keeper = keeper;
-        this.entities = entities;
+    private Caretaker(Charge charge, RepairSettings settings, Means means, Path folder) throws IOException {
+        keeper = charge.keeper();
+        entities = charge.entities();
+        uptime = charge.uptime();
+        listings = new ListingSchedule(settings.deletions().interval());
         this.settings = settings;
         this.means = means;
         balance = new DeliveryBalance(keeper.wanted().content().namesItsSubscription());
-        known = KnownEntities.open(folder.resolve("known"), settings.mostKnown());
+        known = KnownEntities.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
         watermark = Watermark.open(folder.resolve("watermark"));
+        means.live().restoreStale(known.stale());
+        watermark.time().ifPresent(time -> means.live().forgetUntil(time.minus(settings.overlap())));
     }
 
     /**
      * @throws IOException if the folder cannot be used
      */
-    static Caretaker open(SubscriptionKeeper keeper, BrokerEntities entities, RepairSettings settings, Means means)
-            throws IOException {
-        String share = keeper.wanted().name().share().label();
-        Path folder = settings.folder().resolve(folderName(keeper.scope(), share));
+    static Caretaker open(Charge charge, RepairSettings settings, Means means) throws IOException {
+        String share = charge.keeper().wanted().name().share().label();
+        Path folder = settings.folder().resolve(folderName(charge.keeper().scope(), share));
         Files.createDirectories(folder);
-        return new Caretaker(keeper, entities, settings, means, folder);
+        return new Caretaker(charge, settings, means, folder);
     }
 
     /** Readable where it can be, and the same for no two. */
@@ -86,7 +110,15 @@ public final class Caretaker implements AutoCloseable {
         }
     }
 
-    private boolean covers(FiwareScope scope) {
+    /** One of its entities has to be read again; from any thread. */
+    void markStale(String identity) throws IOException {
+        if (covers(Identities.scope(identity))) {
+            known.markStale(identity);
+        }
+    }
+
+    /** Whether its subscription tells of entities there. */
+    boolean covers(FiwareScope scope) {
         FiwareScope ours = keeper.scope();
         if (!ours.service().equals(scope.service())) {
             return false;
@@ -106,61 +138,121 @@ public final class Caretaker implements AutoCloseable {
     void look() throws BrokerException, IOException, InterruptedException {
         Instant now = Clock.systemUTC().instant();
         long failed = means.ledger().turnedAway.sum() + means.ledger().overload.sum();
-        Kept kept = keeper.keep(now);
-        Verdict verdict = balance.look(kept, means.live().arrivedOf(kept.id()));
-        reasonIn(verdict, failed > turnedAway).ifPresent(reason -> {
-            if (!(verdict instanceof Verdict.First)) {
-                means.ledger().gaps.increment();
-            }
-            missing = Optional.of(missing.orElse(reason));
-        });
+        long arrived = means.live().arrivedOf(subscription);
+        Kept kept = keep(now);
+        Verdict verdict = balance.look(kept, new Arrived(arrived, means.live().arrivedOf(kept.id())));
+        reasonIn(verdict).ifPresent(this::miss);
+        if (wasRestarted(kept)) {
+            miss("the context broker was started again");
+        }
+        if (failed > turnedAway) {
+            miss("the source had to turn notifications away");
+        }
+        if (means.live().takeOverflow()) {
+            miss("more came late than repair.recent.max.bytes remembers");
+        }
         turnedAway = failed;
+        if (missing.isPresent()) {
+            listings.demand(verdict instanceof Verdict.First || kept.state() != Kept.State.AT_WORK);
+        }
         if (settings.mode() == RepairSettings.Mode.OFF) {
             missing = Optional.empty();
-            return;
-        }
-        if (missing.isPresent()) {
-            repair(kept, missing.get(), now);
-            missing = Optional.empty();
-            watermark.advanceTo(kept.at());
-        } else if (verdict instanceof Verdict.Balanced balanced) {
-            watermark.advanceTo(balanced.until());
+        } else {
+            repair(kept, verdict, now);
         }
         known.flush();
     }
 
-    private static Optional<String> reasonIn(Verdict verdict, boolean turnedAway) {
-        if (verdict instanceof Verdict.Missing found) {
-            return Optional.of(found.reason());
+    private Kept keep(Instant now) throws BrokerException {
+        try {
+            Kept kept = keeper.keep(now);
+            if (!kept.id().equals(subscription)) {
+                means.live().follow(subscription, kept.id());
+                subscription = kept.id();
+            }
+            return kept;
+        } catch (BrokerException e) {
+            if (lookedAt.isPresent()) {
+                miss("the context broker could not be asked");
+            }
+            throw e;
         }
-        if (verdict instanceof Verdict.First) {
-            return Optional.of("the source has started");
-        }
-        return turnedAway ? Optional.of("the source had to turn notifications away") : Optional.empty();
     }
 
-    private void repair(Kept kept, String reason, Instant now)
+    private boolean wasRestarted(Kept kept) {
+        Optional<Instant> before = lookedAt;
+        lookedAt = Optional.of(kept.at());
+        return before.filter(time -> uptime.isYoungerThan(time, kept.at())).isPresent();
+    }
+
+    private Optional<String> reasonIn(Verdict verdict) {
+        if (verdict instanceof Verdict.First && missing.isEmpty()) {
+            missing = Optional.of("the source has started");
+        }
+        return verdict instanceof Verdict.Missing found ? Optional.of(found.reason()) : Optional.empty();
+    }
+
+    /** The first reason is the one that is told. */
+    private void miss(String reason) {
+        if (missing.isEmpty()) {
+            means.ledger().gaps.increment();
+            missing = Optional.of(reason);
+        }
+    }
+
+    private void repair(Kept kept, Verdict verdict, Instant now)
             throws BrokerException, IOException, InterruptedException {
-        Optional<Instant> good = watermark.time().or(() -> lastTold(kept));
         Emission emission = new Emission(means.output(), means.live(), known, kept.id());
         Repair repair = new Repair(entities, settings.reading(), means.live(), known, emission);
-        gap = good.map(time -> Duration.between(time, now)).orElse(Duration.ZERO);
         long begin = System.nanoTime();
-        means.live().watch();
+        boolean isMissing = missing.isPresent();
         try {
-            Optional<Instant> since = good.map(time -> time.minus(settings.overlap()))
-                    .or(() -> settings.mode() == RepairSettings.Mode.INITIAL
-                            ? Optional.of(Instant.EPOCH)
-                            : Optional.empty());
-            if (since.isPresent()) {
-                repair.changesFrom(since.get());
+            if (isMissing) {
+                changes(kept, repair, now);
             }
-            repair.deletions();
+            Set<String> marked = known.stale();
+            repair.stale(this::covers);
+            if (listings.isNow()) {
+                repair.deletions();
+                listings.done();
+            }
+            settle(marked);
         } finally {
-            means.live().watchNoMore();
             means.ledger().repeated.add(repair.result().repeated());
         }
-        report(kept, reason, repair.result(), Duration.ofNanos(System.nanoTime() - begin));
+        if (isMissing) {
+            report(kept, missing.get(), repair.result(), Duration.ofNanos(System.nanoTime() - begin));
+            missing = Optional.empty();
+            // To the second: what is told of before and still comes is of entities that were read, or that are gone.
+            means.live().forgetUntil(kept.at().plusSeconds(1));
+            balance.repaired(means.live().arrivedOf(kept.id()));
+            watermark.advanceTo(kept.at());
+        } else if (verdict instanceof Verdict.Balanced balanced) {
+            watermark.advanceTo(balanced.until());
+        }
+    }
+
+    /** What was marked and read again is settled; what is stale now, because it changed meanwhile, outlives a restart. */
+    private void settle(Set<String> marked) throws IOException {
+        List<String> left = means.live().stale();
+        for (String identity : left) {
+            markStale(identity);
+        }
+        marked.removeAll(left);
+        known.settle(marked);
+    }
+
+    private void changes(Kept kept, Repair repair, Instant now)
+            throws BrokerException, IOException, InterruptedException {
+        Optional<Instant> good = watermark.time().or(() -> LastTold.of(kept));
+        gap = good.map(time -> Duration.between(time, now)).orElse(Duration.ZERO);
+        Optional<Instant> since = good.map(time -> time.minus(settings.overlap()))
+                .or(() ->
+                        settings.mode() == RepairSettings.Mode.INITIAL ? Optional.of(Instant.EPOCH) : Optional.empty());
+        if (since.isPresent()) {
+            means.live().forgetUntil(since.get());
+            repair.changesFrom(since.get());
+        }
     }
 
     private void report(Kept kept, String reason, Repair.Result result, Duration took) {
@@ -177,29 +269,10 @@ public final class Caretaker implements AutoCloseable {
                 took.toMillis());
         if (known.isOverfull()) {
             LOG.warn(
-                    "tenant '{}' has more than {} entities: deletions that were not notified are not found; raise"
-                            + " repair.known.max if there is memory",
+                    "tenant '{}' has more entities than {} bytes hold: deletions that were not notified are not found; raise"
+                            + " repair.known.max.bytes if there is memory",
                     keeper.scope().service(),
-                    settings.mostKnown());
-        }
-    }
-
-    /** Of a subscription that was there before this task: its last success, else its making, which its id tells. */
-    private static Optional<Instant> lastTold(Kept kept) {
-        if (kept.state() == Kept.State.CREATED) {
-            return kept.lastKnown();
-        }
-        return kept.report().lastSuccess().or(() -> madeAt(kept.id()));
-    }
-
-    /** The first eight of the 24 digits of a MongoDB id are seconds. */
-    private static Optional<Instant> madeAt(String id) {
-        try {
-            return id.matches("[0-9a-f]{24}")
-                    ? Optional.of(Instant.ofEpochSecond(Long.parseLong(id.substring(0, 8), 16)))
-                    : Optional.empty();
-        } catch (DateTimeException e) {
-            return Optional.empty();
+                    settings.deletions().knownMaxBytes());
         }
     }
 

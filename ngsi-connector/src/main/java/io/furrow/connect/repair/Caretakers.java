@@ -19,7 +19,6 @@ import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Caretaker.Means;
-import io.furrow.connect.subscription.SubscriptionKeeper;
 import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.FiwareScope;
 
@@ -74,6 +73,7 @@ public final class Caretakers implements AutoCloseable {
             caretakers.close();
             throw e;
         }
+        means.live().onStale(caretakers::markStale);
         caretakers.show(means.ledger());
         caretakers.thread.start();
         return caretakers;
@@ -83,9 +83,11 @@ public final class Caretakers implements AutoCloseable {
     public record Commission(FiwareScope scope, WantedSubscription wanted) {
         private Caretaker caretaker(Function<BrokerRequest, Outcome> broker, RepairSettings settings, Means means)
                 throws IOException {
-            BrokerEntities entities = new BrokerEntities(
-                    broker, scope, wanted.subject(), wanted.content().attrs());
-            return Caretaker.open(new SubscriptionKeeper(broker, scope, wanted), entities, settings, means);
+            return Caretaker.open(
+                    Caretaker.Charge.of(
+                            broker, scope, wanted, settings.reading().pageMaxBytes()),
+                    settings,
+                    means);
         }
     }
 
@@ -146,6 +148,22 @@ public final class Caretakers implements AutoCloseable {
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);
             }
         }
+    }
+
+    private void markStale(String identity) {
+        for (Charge charge : charges) {
+            try {
+                charge.caretaker.markStale(identity);
+            } catch (IOException | RuntimeException e) {
+                // The next look fails for the same reason, and says so.
+                LOG.debug("cannot note {}", LogText.oneLine(identity), e);
+            }
+        }
+    }
+
+    /** Whether one of the subscriptions tells of entities there. */
+    public boolean covers(FiwareScope scope) {
+        return charges.stream().anyMatch(charge -> charge.caretaker.covers(scope));
     }
 
     private void run() {

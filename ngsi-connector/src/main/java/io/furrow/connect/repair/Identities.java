@@ -8,10 +8,6 @@ final class Identities {
 
     private Identities() {}
 
-    static boolean isOne(String text) {
-        return text.split("\\|", PARTS).length == PARTS;
-    }
-
     static FiwareScope scope(String identity) {
         String[] parts = identity.split("\\|", PARTS);
         return new FiwareScope(plain(parts[0]), plain(parts[1]));

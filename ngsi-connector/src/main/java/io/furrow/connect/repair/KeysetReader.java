@@ -22,10 +22,11 @@ final class KeysetReader {
     }
 
     /**
-     * @param states that could be read
+     * @param states in order
+     * @param asked how many entities it is of: at least 2, at most the limit
      * @param isFull whether there may be more
      */
-    record Page(List<EntityState> states, boolean isFull) {
+    record Page(List<EntityState> states, int asked, boolean isFull) {
         boolean beginsWith(String key) {
             return !states.isEmpty() && states.get(0).key().equals(key);
         }
@@ -108,8 +109,8 @@ final class KeysetReader {
     /** The last is asked for once more, to see whether it still is where it was. */
     private void goOnWithin(Page page) {
         int count = page.states().size();
-        offset += limit - 1;
-        expected = count == limit ? page.states().get(count - 1).key() : null;
+        offset += page.asked() - 1;
+        expected = count == page.asked() ? page.states().get(count - 1).key() : null;
     }
 
     /** A context broker that orders one millisecond differently each time is not asked for ever. */

@@ -1,128 +1,139 @@
 package io.furrow.connect.repair;
 
-import java.io.BufferedWriter;
 import java.io.IOException;
-import java.nio.charset.CharacterCodingException;
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
-import java.nio.file.StandardOpenOption;
+import java.util.ArrayList;
 import java.util.HashSet;
-import java.util.Optional;
+import java.util.List;
 import java.util.Set;
+import java.util.stream.Stream;
 
 /**
- * The entities of one tenant that are on the topic and were not deleted since, so that one that is gone from the context broker
- * can be told. Outlives a restart in a file of lines, {@code +identity} and {@code -identity}, which is written anew at each
- * start; line breaks in an id are escaped, a line that was not finished is left out. Of more than {@code most} entities none is
- * known any more, because a part of them would not show which are gone.
+ * The entities of one subscription that are on the topic and were not deleted since, so that one that is gone from the context
+ * broker can be told, and those that have to be read again. Outlives a restart in a {@link KnownFile}. Takes a bounded part of the heap: of more entities none is
+ * known any more, because a part of them would not show which are gone. Any thread.
  */
 final class KnownEntities implements AutoCloseable {
-    private final Path file;
-    private final int most;
+    /** Of an entity besides its identity: the node of the set, a text. */
+    private static final int ENTRY_BYTES = 104;
+
+    private final long maxBytes;
     private final Set<String> identities = new HashSet<>();
-    private BufferedWriter log;
+    private final Set<String> stale = new HashSet<>();
+    private KnownFile file;
+    private long bytes;
     private boolean tooMany;
 
-    private KnownEntities(Path file, int most) {
-        this.file = file;
-        this.most = most;
+    private KnownEntities(long maxBytes) {
+        this.maxBytes = maxBytes;
     }
 
-    static KnownEntities open(Path file, int most) throws IOException {
-        KnownEntities known = new KnownEntities(file, most);
-        known.read();
-        known.rewrite();
+    /** @param maxBytes of heap */
+    static KnownEntities open(Path path, long maxBytes) throws IOException {
+        KnownEntities known = new KnownEntities(maxBytes);
+        KnownFile.read(path, known::apply);
+        known.file = KnownFile.write(path, known.changes());
         return known;
     }
 
-    private void read() throws IOException {
-        if (!Files.exists(file)) {
-            return;
+    private void apply(KnownFile.Change change) {
+        switch (change.kind()) {
+            case ADDED -> keep(change.identity());
+            case REMOVED -> drop(change.identity());
+            case STALE -> stale.add(change.identity());
+            case SETTLED -> stale.clear();
+            case TOO_MANY -> giveUp();
         }
-        String text;
-        try {
-            text = Files.readString(file);
-        } catch (CharacterCodingException e) { // not ours any more: as good as none
-            text = "";
-        }
-        String whole = text.substring(0, text.lastIndexOf('\n') + 1);
-        whole.lines().forEach(line -> {
-            if (line.startsWith("+")) {
-                Optional.of(unescaped(line.substring(1)))
-                        .filter(Identities::isOne)
-                        .ifPresent(this::keep);
-            } else if (line.startsWith("-")) {
-                identities.remove(unescaped(line.substring(1)));
-            } else if (line.equals("!")) {
-                giveUp();
-            }
-        });
     }
 
-    private void rewrite() throws IOException {
-        Path next = file.resolveSibling(file.getFileName() + ".tmp");
-        try (BufferedWriter out = Files.newBufferedWriter(next, StandardCharsets.UTF_8)) {
-            for (String identity : identities) {
-                out.write("+" + escaped(identity) + "\n");
-            }
-            if (tooMany) {
-                out.write("!\n");
-            }
+    /** As few lines as say the same; the identities are those of now. */
+    private Iterable<KnownFile.Change> changes() {
+        Set<String> now = new HashSet<>(identities);
+        List<KnownFile.Change> others = new ArrayList<>();
+        stale.forEach(identity -> others.add(KnownFile.Change.stale(identity)));
+        if (tooMany) {
+            others.add(KnownFile.Change.TOO_MANY);
         }
-        Files.move(next, file, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
-        log = Files.newBufferedWriter(file, StandardCharsets.UTF_8, StandardOpenOption.APPEND);
-    }
-
-    /** Line breaks and backslashes as {@code \n}, {@code \r} and {@code \\}. */
-    private static String escaped(String identity) {
-        return identity.replace("\\", "\\\\").replace("\n", "\\n").replace("\r", "\\r");
-    }
-
-    private static String unescaped(String line) {
-        StringBuilder identity = new StringBuilder(line.length());
-        for (int i = 0; i < line.length(); i++) {
-            char sign = line.charAt(i);
-            if (sign == '\\' && i + 1 < line.length()) {
-                char next = line.charAt(++i);
-                sign = next == 'n' ? '\n' : next == 'r' ? '\r' : next;
-            }
-            identity.append(sign);
-        }
-        return identity.toString();
+        return () -> Stream.concat(now.stream().map(KnownFile.Change::added), others.stream())
+                .iterator();
     }
 
     private boolean keep(String identity) {
         if (tooMany || !identities.add(identity)) {
             return false;
         }
-        if (identities.size() > most) {
+        bytes += bytesOf(identity);
+        if (bytes > maxBytes) {
             giveUp();
         }
         return true;
     }
 
+    private boolean drop(String identity) {
+        boolean was = identities.remove(identity);
+        bytes -= was ? bytesOf(identity) : 0;
+        return was;
+    }
+
     private void giveUp() {
         tooMany = true;
         identities.clear();
+        bytes = 0;
+    }
+
+    /** At two bytes per sign. */
+    private static long bytesOf(String identity) {
+        return ENTRY_BYTES + 2L * identity.length();
     }
 
     synchronized void add(String identity) throws IOException {
         if (keep(identity)) {
-            log.write(tooMany ? "!\n" : "+" + escaped(identity) + "\n");
+            file.append(tooMany ? KnownFile.Change.TOO_MANY : KnownFile.Change.added(identity));
         }
     }
 
     synchronized void remove(String identity) throws IOException {
-        if (identities.remove(identity)) {
-            log.write("-" + escaped(identity) + "\n");
+        if (drop(identity)) {
+            file.append(KnownFile.Change.removed(identity));
         }
     }
 
-    /** Hands what was noted to the operating system. */
-    synchronized void flush() throws IOException {
-        log.flush();
+    /** An entity has to be read again; this outlives the process. */
+    synchronized void markStale(String identity) throws IOException {
+        if (stale.add(identity)) {
+            file.append(KnownFile.Change.stale(identity));
+            file.flush();
+        }
+    }
+
+    /** Those that were marked and not settled. */
+    synchronized Set<String> stale() {
+        return new HashSet<>(stale);
+    }
+
+    /** All these were read again, unless others were marked meanwhile. */
+    synchronized void settle(Set<String> these) throws IOException {
+        if (!stale.isEmpty() && stale.equals(these)) {
+            stale.clear();
+            file.append(KnownFile.Change.SETTLED);
+        }
+    }
+
+    /** Hands what was noted to the operating system, and writes the file anew where most of it is of no use. */
+    void flush() throws IOException {
+        Iterable<KnownFile.Change> now;
+        synchronized (this) {
+            file.flush();
+            if (!file.isWasteful(bytes)) {
+                return;
+            }
+            now = changes();
+            file.beginRewrite();
+        }
+        file.writeAside(now);
+        synchronized (this) {
+            file.endRewrite();
+        }
     }
 
     /** Whether there are more than can be known. */
@@ -145,6 +156,6 @@ final class KnownEntities implements AutoCloseable {
 
     @Override
     public synchronized void close() throws IOException {
-        log.close();
+        file.close();
     }
 }

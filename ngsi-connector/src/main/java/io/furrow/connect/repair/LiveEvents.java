@@ -1,95 +1,165 @@
 package io.furrow.connect.repair;
 
-import java.util.Map;
-import java.util.concurrent.ConcurrentHashMap;
-import java.util.concurrent.atomic.LongAdder;
-import java.util.concurrent.locks.ReadWriteLock;
-import java.util.concurrent.locks.ReentrantReadWriteLock;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+import java.util.function.Consumer;
+import java.util.function.Function;
 import java.util.function.Supplier;
 
+import io.furrow.connect.repair.LastRecords.Judgment;
+
 /**
- * What comes by notification, as far as the repair must know it: how many of each subscription, which events became durable, and
- * which entities changed while it reads. Any thread.
+ * Brings the records of notifications and of repairs into one order, and knows of it what the repair must: how many notifications
+ * of each subscription arrived, and what the last record of each entity is. Any thread; the lock is held while serialized
+ * records are appended, never while something is serialized.
  */
 public final class LiveEvents {
-    private static final int MOST_SUBSCRIPTIONS = 10_000;
-    private static final int MOST_EVENTS = 200_000;
+    private final Arrivals arrivals = new Arrivals();
+    private final LastRecords last;
+    private volatile Consumer<String> staleListener = identity -> {};
 
-    private final Map<String, LongAdder> arrived = new ConcurrentHashMap<>();
-    private final SeenEvents seen = new SeenEvents(MOST_EVENTS);
-    private final ReadWriteLock order = new ReentrantReadWriteLock();
-    /** When an entity last came, by {@link System#nanoTime}; only kept during a repair. */
-    private final Map<String, Long> came = new ConcurrentHashMap<>();
-
-    private volatile boolean watching;
-
-    /** A notification of a subscription came, whatever became of it. */
-    public void arrived(String subscription) {
-        // Anybody can send any id: the first ten thousand are counted.
-        LongAdder count = arrived.get(subscription);
-        if (count == null && arrived.size() < MOST_SUBSCRIPTIONS) {
-            count = arrived.computeIfAbsent(subscription, id -> new LongAdder());
-        }
-        if (count != null) {
-            count.increment();
-        }
+    /** @param maxBytes heap for what is remembered of entities */
+    public LiveEvents(long maxBytes) {
+        last = new LastRecords(maxBytes);
     }
 
-    long arrivedOf(String subscription) {
-        LongAdder count = arrived.get(subscription);
-        return count == null ? 0 : count.sum();
+    /** Appends records; empty if there is no room now. */
+    public interface Appending extends Supplier<Optional<CompletableFuture<Void>>> {}
+
+    /** A notification of a subscription came, whatever became of it. */
+    public synchronized void arrived(String subscription) {
+        arrivals.add(subscription, 1);
+    }
+
+    synchronized long arrivedOf(String subscription) {
+        return arrivals.of(subscription);
+    }
+
+    synchronized void follow(String former, String subscription) {
+        arrivals.replace(former, subscription);
     }
 
     /**
-     * Hands events of notifications on; not while a repair does, so that of an entity what is newer is always the later record.
+     * Appends the records of one notification.
      *
-     * @param identities of their entities
+     * @param subscription that sent it
+     * @param records of entities; the others need no order
      */
-    public <T> T handOn(Iterable<String> identities, Supplier<T> taking) {
-        order.readLock().lock();
-        try {
-            if (watching) {
-                long now = System.nanoTime();
-                identities.forEach(identity -> came.put(identity, now));
+    public Optional<CompletableFuture<Void>> append(
+            String subscription, List<EntityRecord> records, Appending appending) {
+        Optional<CompletableFuture<Void>> durable;
+        List<EntityRecord> stale = new ArrayList<>(0);
+        synchronized (this) {
+            durable = appending.get();
+            if (durable.isEmpty()) {
+                return durable;
             }
-            return taking.get();
-        } finally {
-            order.readLock().unlock();
+            boolean isNew = records.isEmpty();
+            for (EntityRecord record : records) {
+                isNew |= last.append(record, subscription);
+                if (last.isStale(record.identity())) {
+                    stale.add(record);
+                }
+            }
+            if (!isNew) {
+                // Delivered again, or repaired already: it would stand for one that did not arrive.
+                arrivals.add(subscription, -1);
+            }
         }
+        return Optional.of(watched(durable.get(), records, stale));
     }
 
-    /** An event, by its id, is durable. */
-    public void durable(String eventId) {
-        seen.add(eventId);
+    private CompletableFuture<Void> watched(
+            CompletableFuture<Void> durable, List<EntityRecord> records, List<EntityRecord> stale) {
+        Consumer<String> listener = staleListener;
+        return durable.whenComplete((nothing, failure) -> {
+            if (failure != null) {
+                synchronized (this) {
+                    records.forEach(record -> last.fail(record.identity()));
+                }
+            }
+            (failure == null ? stale : records).forEach(record -> listener.accept(record.identity()));
+        });
     }
 
-    boolean isSeen(String eventId) {
-        return seen.contains(eventId);
+    /** Is told each entity that has to be read again; from any thread. */
+    void onStale(Consumer<String> listener) {
+        staleListener = listener;
     }
 
-    /** Hands findings of a repair on; no event of a notification is handed on meanwhile. */
-    <T> T handOnAlone(Supplier<T> taking) {
-        order.writeLock().lock();
-        try {
-            return taking.get();
-        } finally {
-            order.writeLock().unlock();
+    /** These were to be read again when the source stopped. */
+    synchronized void restoreStale(Iterable<String> identities) {
+        identities.forEach(last::restoreStale);
+    }
+
+    /** A record that was in the journal at the start left it. */
+    public synchronized void restore(EntityRecord record) {
+        last.restore(record);
+    }
+
+    /** Whether what was read is worth a record. */
+    synchronized boolean isNews(EntityRecord found, long asked) {
+        return last.judge(found, asked) == Judgment.NEWS;
+    }
+
+    /** What was appended of what a repair found; empty where there was no room. */
+    record Appended<T>(List<T> found, Optional<CompletableFuture<Void>> durable) {}
+
+    /**
+     * Appends what is news among what was read from the context broker.
+     *
+     * @param asked the {@link #now} before the context broker was asked
+     */
+    <T> Appended<T> appendNews(
+            List<T> found,
+            Function<T, EntityRecord> record,
+            long asked,
+            Function<List<T>, Optional<CompletableFuture<Void>>> appending) {
+        Appended<T> appended;
+        synchronized (this) {
+            List<T> news = new ArrayList<>();
+            for (T each : found) {
+                if (last.judge(record.apply(each), asked) == Judgment.NEWS) {
+                    news.add(each);
+                }
+            }
+            if (news.isEmpty()) {
+                return new Appended<>(news, Optional.of(CompletableFuture.completedFuture(null)));
+            }
+            appended = new Appended<>(news, appending.apply(news));
+            if (appended.durable().isEmpty()) {
+                return appended;
+            }
+            news.forEach(each -> last.appendFound(record.apply(each)));
         }
+        List<EntityRecord> records = appended.found().stream().map(record).toList();
+        return new Appended<>(
+                appended.found(), Optional.of(watched(appended.durable().get(), records, List.of())));
     }
 
-    /** Begins to keep which entities come. */
-    void watch() {
-        watching = true;
+    /** A point in the order of records. */
+    synchronized long now() {
+        return last.now();
     }
 
-    void watchNoMore() {
-        watching = false;
-        came.clear();
+    /** Entities whose last record may not be the newest. */
+    synchronized List<String> stale() {
+        return last.stale();
     }
 
-    /** Whether an entity came by notification since then. */
-    boolean cameSince(String identity, long nanoTime) {
-        Long last = came.get(identity);
-        return last != null && last - nanoTime >= 0;
+    synchronized void settle(String identity) {
+        last.settle(identity);
+    }
+
+    synchronized boolean takeOverflow() {
+        return last.takeOverflow();
+    }
+
+    /** What changed before this time may be on the topic, though nothing of it is remembered. */
+    synchronized void forgetUntil(Instant time) {
+        last.forgetUntil(time);
     }
 }

@@ -4,9 +4,10 @@ import java.io.IOException;
 import java.time.Clock;
 import java.time.Instant;
 import java.util.ArrayList;
-import java.util.HashSet;
 import java.util.List;
 import java.util.Set;
+import java.util.TreeSet;
+import java.util.function.Predicate;
 
 import io.furrow.connect.broker.BrokerException;
 import io.furrow.model.event.EntityDeletion;
@@ -14,7 +15,7 @@ import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 
-/** One reading of what may have been missed, and the emission of what was not seen. */
+/** One reading of what may have been missed, and the emission of what the topic does not tell. */
 final class Repair {
     private final BrokerEntities entities;
     private final RepairSettings.Reading reading;
@@ -47,36 +48,64 @@ final class Repair {
 
     /** Emits the state of what changed from a time on. */
     void changesFrom(Instant since) throws BrokerException, InterruptedException, IOException {
-        Asked asked = new Asked();
+        long[] asked = {live.now()};
         new KeysetReader(
                         (from, offset, limit) -> {
-                            asked.now();
+                            asked[0] = live.now();
                             return entities.modifiedFrom(from, offset, limit);
                         },
                         reading.pageSize())
-                .readFrom(since, states -> emit(states, asked));
-        known.flush();
+                .readFrom(since, states -> emit(states, asked[0]));
     }
 
-    private void emit(List<EntityState> states, Asked asked) throws InterruptedException, IOException {
+    private void emit(List<EntityState> states, long asked) throws InterruptedException, IOException {
         Instant now = Clock.systemUTC().instant();
         List<Finding> findings = new ArrayList<>();
         for (EntityState state : states) {
-            if (reading.isExcluded(state.entity().type())) {
-                continue;
-            }
-            EntityEvent event =
-                    EntityEvent.of(state.entity(), state.scope(), now, reading.maxClockSkew(), Origin.REPAIR);
-            if (live.isSeen(event.id())) {
-                repeated++;
-                known.add(state.identity());
-            } else {
-                findings.add(new Finding.Changed(event));
+            if (!reading.isExcluded(state.entity().type())) {
+                findings.add(finding(state, now));
             }
         }
-        int emitted = emission.emit(findings, asked.at);
+        int emitted = emission.emit(findings, asked);
         changed += emitted;
         repeated += findings.size() - emitted;
+    }
+
+    private Finding finding(EntityState state, Instant now) {
+        if (state.problem().isPresent()) {
+            return new Finding.Unreadable(state, now);
+        }
+        EntityEvent event = EntityEvent.of(state.entity(), state.scope(), now, reading.maxClockSkew(), Origin.REPAIR);
+        return Finding.Changed.of(event, state.time());
+    }
+
+    /** Reads entities again whose last record may not be the newest. */
+    void stale(Predicate<FiwareScope> ours) throws BrokerException, InterruptedException, IOException {
+        for (String identity : live.stale()) {
+            FiwareScope place = Identities.scope(identity);
+            if (ours.test(place)) {
+                readAgain(identity, place);
+            }
+        }
+    }
+
+    private void readAgain(String identity, FiwareScope place)
+            throws BrokerException, InterruptedException, IOException {
+        long asked = live.now();
+        List<EntityState> states = entities.ofId(place, Identities.id(identity));
+        if (states.isEmpty()) {
+            emitEnd(identity, asked);
+            return;
+        }
+        List<EntityState> own = states.stream().filter(this::isOwn).toList();
+        if (own.isEmpty()) {
+            live.settle(identity);
+        }
+        emit(own, asked);
+    }
+
+    private boolean isOwn(EntityState state) {
+        return entities.covers(state) && !reading.isExcluded(state.entity().type());
     }
 
     /** Emits the end of what is gone, and learns what there is. */
@@ -84,52 +113,44 @@ final class Repair {
         if (known.isOverfull()) {
             return;
         }
-        Set<String> candidates = known.copy();
-        Set<String> there = new HashSet<>();
+        Set<String> missing = new TreeSet<>(known.copy());
         new KeysetReader(entities::createdFrom, reading.pageSize())
-                .readFrom(Instant.EPOCH, states -> learn(states, there));
+                .readFrom(Instant.EPOCH, states -> learn(states, missing));
         if (known.isOverfull()) {
             return;
         }
-        candidates.removeAll(there);
-        for (String identity : new java.util.TreeSet<>(candidates)) {
+        for (String identity : missing) {
             checkGone(identity);
         }
-        known.flush();
     }
 
-    private void learn(List<EntityState> states, Set<String> there) throws IOException {
+    private void learn(List<EntityState> states, Set<String> missing) throws IOException {
         for (EntityState state : states) {
-            if (!known.isOverfull() && !reading.isExcluded(state.entity().type())) {
-                there.add(state.identity());
+            if (!reading.isExcluded(state.entity().type())) {
+                missing.remove(state.identity());
                 known.add(state.identity());
             }
         }
     }
 
-    /** One that is there but was not read is none of ours any more. */
+    /** One that is there but was not listed came back meanwhile, or is none of ours any more. */
     private void checkGone(String identity) throws BrokerException, InterruptedException, IOException {
-        Asked asked = new Asked();
-        FiwareScope place = Identities.scope(identity);
-        String id = Identities.id(identity);
         if (!known.contains(identity)) {
             return;
         }
-        if (entities.isPresent(place, id)) {
+        long asked = live.now();
+        List<EntityState> there = entities.stubsOfId(Identities.scope(identity), Identities.id(identity));
+        if (there.isEmpty()) {
+            emitEnd(identity, asked);
+        } else if (there.stream().noneMatch(this::isOwn)) {
             known.remove(identity);
-            return;
         }
-        Instant now = Clock.systemUTC().instant();
-        EntityDeletion deletion = new EntityDeletion(id, place, now, now, Origin.REPAIR);
-        deleted += emission.emit(List.of(new Finding.Deleted(deletion)), asked.at);
     }
 
-    /** When the context broker was last asked. */
-    private static final class Asked {
-        private long at = System.nanoTime();
-
-        private void now() {
-            at = System.nanoTime();
-        }
+    private void emitEnd(String identity, long asked) throws InterruptedException, IOException {
+        Instant now = Clock.systemUTC().instant();
+        EntityDeletion deletion =
+                new EntityDeletion(Identities.id(identity), Identities.scope(identity), now, now, Origin.REPAIR);
+        deleted += emission.emit(List.of(new Finding.Deleted(deletion)), asked);
     }
 }

@@ -7,10 +7,16 @@ import java.util.concurrent.CompletableFuture;
 /** Where findings become records. */
 public interface RepairOutput {
     /**
-     * Takes all findings or none; quick.
+     * The record of a finding, as {@link #append} takes it.
      *
-     * @param subscription id of the one that should have told of them
+     * @param subscription id of the one that should have told of it
+     */
+    byte[] serialize(String subscription, Finding finding);
+
+    /**
+     * Takes all records or none; quick.
+     *
      * @return completed when they are durable, failed if that will not be known any more; empty if there is no room now
      */
-    Optional<CompletableFuture<Void>> emit(String subscription, List<Finding> findings);
+    Optional<CompletableFuture<Void>> append(List<byte[]> records);
 }

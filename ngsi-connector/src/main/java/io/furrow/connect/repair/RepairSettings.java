@@ -12,9 +12,9 @@ import java.util.regex.Pattern;
  * @param overlap how much before the last known good time it begins
  * @param mode what is read
  * @param reading how the context broker is asked, and what is left out
- * @param mostKnown entities per tenant whose deletion can be found
+ * @param deletions how entities that are gone are found
  */
-public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading reading, int mostKnown) {
+public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading reading, Deletions deletions) {
     /** What is read from the context broker. */
     public enum Mode {
         /** Nothing: what is missed stays missed. */
@@ -27,12 +27,19 @@ public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading r
 
     /**
      * @param pageSize entities per request
+     * @param pageMaxBytes of the body of an answer
      * @param maxClockSkew how far an entity's own time may be ahead
      * @param excluded types, matched as a whole
      */
-    public record Reading(int pageSize, Duration maxClockSkew, List<Pattern> excluded) {
+    public record Reading(int pageSize, long pageMaxBytes, Duration maxClockSkew, List<Pattern> excluded) {
         boolean isExcluded(String type) {
             return excluded.stream().anyMatch(pattern -> pattern.matcher(type).matches());
         }
     }
+
+    /**
+     * @param knownMaxBytes heap per subscription for the ids of known entities
+     * @param interval at most how often all ids are listed, but for starts and subscriptions that were gone or stopped
+     */
+    public record Deletions(long knownMaxBytes, Duration interval) {}
 }

@@ -21,8 +21,12 @@ final class JournaledIntake implements Intake {
 
     @Override
     public Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
-        List<byte[]> payloads = records.stream().map(RecordForm::write).toList();
-        return journal.append(payloads)
+        return append(records.stream().map(RecordForm::write).toList());
+    }
+
+    /** Takes records that are serialized, all or none; quick. */
+    Optional<CompletableFuture<Void>> append(List<byte[]> records) {
+        return journal.append(records)
                 .map(durable -> durable.handle((nothing, failure) -> {
                     if (failure instanceof JournalException.NoRoom) {
                         throw new NoRoomException();

@@ -9,6 +9,7 @@ import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.EntityVersion;
 import io.furrow.connect.source.Translation.Refusal;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityDeletion;
@@ -111,7 +112,12 @@ final class NotificationTranslator {
         EntityEvent event =
                 EntityEvent.of(entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
         OutgoingRecord record = new OutgoingRecord(
-                settings.topic(), entity.id(), entity.toBytes(), event.time().time(), event.headers(source));
+                settings.topic(),
+                entity.id(),
+                entity.toBytes(),
+                event.time().time(),
+                event.headers(source),
+                EntityVersion.of(entity));
         if (record.bytes() > settings.maxRecordBytes()) {
             String message = "the entity makes a record of " + record.bytes() + " bytes, the limit is "
                     + settings.maxRecordBytes();
@@ -129,7 +135,13 @@ final class NotificationTranslator {
         EntityDeletion deletion = EntityDeletion.of(
                 entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
         ledger.accepted.increment();
-        return new OutgoingRecord(settings.topic(), entity.id(), null, deletion.time(), deletion.headers(source));
+        return new OutgoingRecord(
+                settings.topic(),
+                entity.id(),
+                null,
+                deletion.time(),
+                deletion.headers(source),
+                EntityVersion.of(entity));
     }
 
     /** A request of which nothing can be used is the sender's fault; one good entity makes it a good request. */

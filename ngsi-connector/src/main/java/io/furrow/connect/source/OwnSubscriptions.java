@@ -17,6 +17,7 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Caretaker;
 import io.furrow.connect.repair.Caretakers;
 import io.furrow.connect.repair.Caretakers.Commission;
+import io.furrow.connect.repair.EntityRecord;
 import io.furrow.connect.repair.LiveEvents;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Target;
@@ -32,13 +33,14 @@ import io.furrow.model.event.HeaderNames;
 final class OwnSubscriptions implements AutoCloseable {
     private final NgsiSourceConfig config;
     private final Ledger ledger;
-    private final LiveEvents live = new LiveEvents();
+    private final LiveEvents live;
     private final AtomicLong unseen;
     private volatile Caretakers caretakers;
 
     private OwnSubscriptions(NgsiSourceConfig config, Ledger ledger) {
         this.config = config;
         this.ledger = ledger;
+        this.live = new LiveEvents(config.repair().recentMaxBytes());
         this.unseen = new AtomicLong(config.subscription().enabled() ? ledger.recovered.sum() : 0);
     }
 
@@ -48,14 +50,23 @@ final class OwnSubscriptions implements AutoCloseable {
     }
 
     /** The same intake, which lets the repair know what goes in. */
-    Intake watched(Intake intake) {
-        return config.subscription().enabled() ? new WatchedIntake(intake, live, this::note) : intake;
+    Intake watched(JournaledIntake intake) {
+        return config.subscription().enabled() ? new WatchedIntake(intake, live, new Watched()) : intake;
     }
 
-    private void note(FiwareScope scope, String id, boolean gone) {
-        Caretakers started = caretakers;
-        if (started != null) {
-            started.note(scope, id, gone);
+    private final class Watched implements WatchedIntake.Entities {
+        @Override
+        public boolean covers(FiwareScope scope) {
+            Caretakers started = caretakers;
+            return started == null || started.covers(scope);
+        }
+
+        @Override
+        public void note(FiwareScope scope, String id, boolean gone) {
+            Caretakers started = caretakers;
+            if (started != null) {
+                started.note(scope, id, gone);
+            }
         }
     }
 
@@ -69,12 +80,25 @@ final class OwnSubscriptions implements AutoCloseable {
         if (unseen.get() > 0) {
             unseen.addAndGet(-records.size());
             for (SourceRecord record : records) {
-                Header id = record.headers().lastWithName(HeaderNames.CE_ID);
-                if (id != null) {
-                    live.durable(id.value().toString());
-                }
+                restore(record);
             }
         }
+    }
+
+    private void restore(SourceRecord record) {
+        Header id = record.headers().lastWithName(HeaderNames.CE_ID);
+        if (id != null && record.key() != null) {
+            FiwareScope scope =
+                    new FiwareScope(text(record, HeaderNames.SERVICE), text(record, HeaderNames.SERVICE_PATH));
+            String identity = scope.identity(record.key().toString());
+            live.restore(new EntityRecord(
+                    identity, Optional.empty(), id.value().toString(), Optional.empty(), record.value() == null));
+        }
+    }
+
+    private static String text(SourceRecord record, String header) {
+        Header found = record.headers().lastWithName(header);
+        return found == null ? "" : found.value().toString();
     }
 
     /**
@@ -83,7 +107,7 @@ final class OwnSubscriptions implements AutoCloseable {
      * @param port that the task listens on
      * @param intake the one for what is repaired, not the watched one
      */
-    void start(int port, Intake intake) {
+    void start(int port, JournaledIntake intake) {
         if (!config.subscription().enabled()) {
             return;
         }
@@ -97,7 +121,9 @@ final class OwnSubscriptions implements AutoCloseable {
                 .repairFolder(config.name(), config.broker().url().orElseThrow());
         try {
             caretakers = Caretakers.start(
-                    new BrokerClient(config.broker().settings())::send,
+                    new BrokerClient(config.broker()
+                            .settings()
+                            .withMaxAnswerBytes(config.repair().pageMaxBytes()))::send,
                     commissions,
                     config.repair().settings(folder, config.entities()),
                     new Caretaker.Means(live, new RepairedRecords(config.translation(), intake, ledger), ledger),

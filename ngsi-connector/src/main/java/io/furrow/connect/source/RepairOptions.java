@@ -10,6 +10,7 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Range;
 
 import io.furrow.connect.repair.RepairSettings;
+import io.furrow.connect.repair.RepairSettings.Deletions;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.repair.RepairSettings.Reading;
 
@@ -18,9 +19,13 @@ record RepairOptions(AbstractConfig config) {
     static final String MODE = "repair.mode";
     static final String OVERLAP = "repair.overlap.ms";
     static final String PAGE_SIZE = "repair.page.size";
-    static final String KNOWN_MAX = "repair.known.max";
+    static final String PAGE_MAX_BYTES = "repair.page.max.bytes";
+    static final String KNOWN_MAX_BYTES = "repair.known.max.bytes";
+    static final String RECENT_MAX_BYTES = "repair.recent.max.bytes";
+    static final String DELETIONS_INTERVAL = "repair.deletions.interval.ms";
 
     private static final String GROUP = "Repair";
+    private static final long MIB = 1024 * 1024;
 
     static void define(ConfigDef options) {
         OptionGroup declare = new OptionGroup(options, GROUP);
@@ -43,14 +48,42 @@ record RepairOptions(AbstractConfig config) {
                 500,
                 Range.between(2, 1000),
                 "Page",
-                "Entities asked for at a time. Smaller ones for entities that hold images.");
+                "Entities asked for at a time; fewer where they are large, see " + PAGE_MAX_BYTES + ".");
         declare.number(
-                KNOWN_MAX,
-                200_000,
-                Range.between(0, 10_000_000),
-                "Known entities",
-                "Entities per subscription whose ids are kept to find deletions that were not told, about 150 bytes of memory"
-                        + " each. With more entities than this none is found.");
+                PAGE_MAX_BYTES,
+                16 * MIB,
+                Range.between(64 * 1024, 1024 * MIB),
+                "Page (bytes)",
+                "Bytes that an answer of the context broker may have; read, it takes up to four times as much memory. A larger"
+                        + " page is asked for in parts. An entity that is larger by itself becomes a dead letter.");
+        defineMemory(declare);
+    }
+
+    private static void defineMemory(OptionGroup declare) {
+        declare.number(
+                KNOWN_MAX_BYTES,
+                64 * MIB,
+                Range.between(0, 16_384 * MIB),
+                "Known entities (bytes)",
+                "Bytes of memory per subscription for the ids of entities on the topic, which find deletions that were not"
+                        + " told: 104 and two for each sign of tenant, path and id. With more entities than fit none is"
+                        + " found.");
+        declare.number(
+                RECENT_MAX_BYTES,
+                64 * MIB,
+                Range.between(64 * 1024, 16_384 * MIB),
+                "Last records (bytes)",
+                "Bytes of memory for the last record of each entity, which finds notifications that come late: 320 and two for"
+                        + " each sign of tenant, path and id. Those that were quiet longest are forgotten; what comes late"
+                        + " of one of these is asked for again.");
+        declare.number(
+                DELETIONS_INTERVAL,
+                600_000,
+                Range.between(0, 86_400_000),
+                "Deletions (ms)",
+                "Least milliseconds between two listings of all ids, which find deletions that were not told. After a start, and"
+                        + " after a subscription was gone or stopped, they are listed at once; after any other gap when so"
+                        + " many have passed.");
     }
 
     /**
@@ -62,7 +95,19 @@ record RepairOptions(AbstractConfig config) {
                 folder,
                 Duration.ofMillis(config.getLong(OVERLAP)),
                 Mode.valueOf(config.getString(MODE).toUpperCase(Locale.ROOT)),
-                new Reading(config.getLong(PAGE_SIZE).intValue(), entities.maxClockSkew(), entities.excludedTypes()),
-                config.getLong(KNOWN_MAX).intValue());
+                new Reading(
+                        config.getLong(PAGE_SIZE).intValue(),
+                        pageMaxBytes(),
+                        entities.maxClockSkew(),
+                        entities.excludedTypes()),
+                new Deletions(config.getLong(KNOWN_MAX_BYTES), Duration.ofMillis(config.getLong(DELETIONS_INTERVAL))));
+    }
+
+    long pageMaxBytes() {
+        return config.getLong(PAGE_MAX_BYTES);
+    }
+
+    long recentMaxBytes() {
+        return config.getLong(RECENT_MAX_BYTES);
     }
 }

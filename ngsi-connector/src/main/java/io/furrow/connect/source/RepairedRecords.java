@@ -1,5 +1,7 @@
 package io.furrow.connect.source;
 
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
@@ -15,28 +17,35 @@ import io.furrow.model.ngsi.Reason;
 /** Makes records of what the repair found, and hands them to the intake. */
 final class RepairedRecords implements RepairOutput {
     private final NotificationTranslator.Settings settings;
-    private final Intake intake;
+    private final JournaledIntake intake;
     private final Ledger ledger;
 
     /** @param intake the same as that of notifications */
-    RepairedRecords(NotificationTranslator.Settings settings, Intake intake, Ledger ledger) {
+    RepairedRecords(NotificationTranslator.Settings settings, JournaledIntake intake, Ledger ledger) {
         this.settings = settings;
         this.intake = intake;
         this.ledger = ledger;
     }
 
     @Override
-    public Optional<CompletableFuture<Void>> emit(String subscription, List<Finding> findings) {
-        String source = "/ngsi/" + subscription;
-        List<OutgoingRecord> records =
-                findings.stream().map(finding -> record(source, finding)).toList();
-        return intake.take(records).map(durable -> durable.thenRun(() -> ledger.repaired.add(records.size())));
+    public byte[] serialize(String subscription, Finding finding) {
+        return RecordForm.write(record("/ngsi/" + subscription, finding));
+    }
+
+    @Override
+    public Optional<CompletableFuture<Void>> append(List<byte[]> records) {
+        return intake.append(records).map(durable -> durable.thenRun(() -> ledger.repaired.add(records.size())));
     }
 
     private OutgoingRecord record(String source, Finding finding) {
         if (finding instanceof Finding.Deleted deleted) {
             EntityDeletion gone = deleted.deletion();
             return new OutgoingRecord(settings.topic(), gone.entityId(), null, gone.time(), gone.headers(source));
+        }
+        if (finding instanceof Finding.Unreadable unreadable) {
+            String message = "the entity " + unreadable.entityId() + " cannot be read: " + unreadable.problem();
+            DeadLetter letter = new DeadLetter(Reason.TOO_LARGE, message, NotificationTranslator.STAGE, source);
+            return deadLetter(letter, unreadable.entityId(), unreadable.received());
         }
         EntityEvent event = ((Finding.Changed) finding).event();
         OutgoingRecord record = new OutgoingRecord(
@@ -53,7 +62,11 @@ final class RepairedRecords implements RepairOutput {
         String message = "the entity " + event.entity().id() + " makes a record of " + record.bytes()
                 + " bytes, the limit is " + settings.maxRecordBytes();
         DeadLetter letter = new DeadLetter(Reason.TOO_LARGE, message, NotificationTranslator.STAGE, source);
-        byte[] value = event.entity().id().getBytes(java.nio.charset.StandardCharsets.UTF_8);
-        return new OutgoingRecord(settings.deadLetterTopic(), null, value, event.received(), letter.headers());
+        return deadLetter(letter, event.entity().id(), event.received());
+    }
+
+    private OutgoingRecord deadLetter(DeadLetter letter, String id, Instant received) {
+        byte[] value = id.getBytes(StandardCharsets.UTF_8);
+        return new OutgoingRecord(settings.deadLetterTopic(), null, value, received, letter.headers());
     }
 }

@@ -30,7 +30,7 @@ record RunningSource(
             ledger.detail("journal", () -> JsonNodeFactory.instance.textNode(journal));
             ledger.detail("orphans", () -> orphans(journals));
             OwnSubscriptions subscriptions = OwnSubscriptions.of(config, ledger);
-            Intake intake = new JournaledIntake(journals.own(), ledger);
+            JournaledIntake intake = new JournaledIntake(journals.own(), ledger);
             Reception reception = Reception.open(config, subscriptions.watched(intake), ledger, subscriptions::arrived);
             LedgerBean bean = LedgerBean.show(ledger, config.name(), config.taskIndex());
             RunningSource source =
@@ -43,7 +43,7 @@ record RunningSource(
         }
     }
 
-    private void subscribe(Intake intake) {
+    private void subscribe(JournaledIntake intake) {
         try {
             subscriptions.start(reception.port(), intake);
         } catch (RuntimeException | Error e) {

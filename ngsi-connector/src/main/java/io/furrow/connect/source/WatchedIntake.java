@@ -1,26 +1,31 @@
 package io.furrow.connect.source;
 
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
+import io.furrow.connect.repair.EntityRecord;
 import io.furrow.connect.repair.LiveEvents;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 
 /** Lets the repair know what comes by notification. */
 final class WatchedIntake implements Intake {
-    /** Is told of each entity on the topic; from any thread. */
+    /** The entities that the repair cares for; from any thread. */
     interface Entities {
+        boolean covers(FiwareScope scope);
+
+        /** One of them is on the topic. */
         void note(FiwareScope scope, String id, boolean gone);
     }
 
-    private final Intake intake;
+    private final JournaledIntake intake;
     private final LiveEvents live;
     private final Entities entities;
 
-    WatchedIntake(Intake intake, LiveEvents live, Entities entities) {
+    WatchedIntake(JournaledIntake intake, LiveEvents live, Entities entities) {
         this.intake = intake;
         this.live = live;
         this.entities = entities;
@@ -28,23 +33,40 @@ final class WatchedIntake implements Intake {
 
     @Override
     public Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
-        List<OutgoingRecord> events =
-                records.stream().filter(WatchedIntake::isEvent).toList();
-        List<String> identities = events.stream()
-                .map(record -> scope(record.headers()).identity(record.key()))
-                .toList();
-        return live.handOn(identities, () -> intake.take(records))
-                .map(durable -> durable.thenRun(() -> events.forEach(this::durable)));
+        String subscription = "";
+        List<OutgoingRecord> events = new ArrayList<>(records.size());
+        List<EntityRecord> covered = new ArrayList<>(records.size());
+        for (OutgoingRecord record : records) {
+            if (record.version() != null) {
+                FiwareScope scope = scope(record.headers());
+                subscription = subscription(record.headers());
+                if (entities.covers(scope)) {
+                    events.add(record);
+                    covered.add(entity(record, scope));
+                }
+            }
+        }
+        List<byte[]> payloads = records.stream().map(RecordForm::write).toList();
+        return live.append(subscription, covered, () -> intake.append(payloads))
+                .map(durable -> durable.thenRun(() -> events.forEach(this::note)));
     }
 
-    private void durable(OutgoingRecord record) {
-        live.durable(record.headers().get(HeaderNames.CE_ID));
+    private void note(OutgoingRecord record) {
         entities.note(scope(record.headers()), record.key(), record.value() == null);
     }
 
-    /** A dead letter is none. */
-    private static boolean isEvent(OutgoingRecord record) {
-        return record.key() != null && record.headers().containsKey(HeaderNames.CE_ID);
+    private static EntityRecord entity(OutgoingRecord record, FiwareScope scope) {
+        return new EntityRecord(
+                scope.identity(record.key()),
+                Optional.of(record.version().type()),
+                record.headers().get(HeaderNames.CE_ID),
+                record.version().modified(),
+                record.value() == null);
+    }
+
+    private static String subscription(Map<String, String> headers) {
+        String source = headers.get(HeaderNames.CE_SOURCE);
+        return source.substring(source.lastIndexOf('/') + 1);
     }
 
     private static FiwareScope scope(Map<String, String> headers) {

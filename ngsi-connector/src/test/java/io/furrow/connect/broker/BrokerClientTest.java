@@ -94,6 +94,17 @@ class BrokerClientTest {
     }
 
     @Test
+    void takesNoAnswerThatIsLargerThanAllowed() {
+        answering = exchange -> answer(exchange, 200, "x".repeat(100_000));
+        BrokerRequest asked = BrokerRequest.get(PLOT, "/v2/entities");
+
+        assertThat(new BrokerClient(settings(Duration.ofSeconds(5)).withMaxAnswerBytes(99_999)).send(asked))
+                .isEqualTo(new Outcome.Refused(200, "200, but the answer is larger than 99999 bytes"));
+        assertThat(new BrokerClient(settings(Duration.ofSeconds(5)).withMaxAnswerBytes(100_000)).send(asked))
+                .isInstanceOf(Outcome.Done.class);
+    }
+
+    @Test
     void tellsWhatIsNotThereFromWhatIsRefused() {
         assertThat(answered(404, "no entity")).isEqualTo(new Outcome.Absent("404 no entity"));
     }

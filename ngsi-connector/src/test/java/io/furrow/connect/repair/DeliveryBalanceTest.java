@@ -2,9 +2,11 @@ package io.furrow.connect.repair;
 
 import java.time.Instant;
 import java.util.Optional;
+import java.util.OptionalLong;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.connect.repair.DeliveryBalance.Arrived;
 import io.furrow.connect.repair.DeliveryBalance.Verdict;
 import io.furrow.connect.subscription.DeliveryReport;
 import io.furrow.connect.subscription.Kept;
@@ -19,51 +21,121 @@ class DeliveryBalanceTest {
 
     @Test
     void cannotTellAtTheFirstLook() {
-        assertThat(balance.look(sent(5, T), 0)).isInstanceOf(Verdict.First.class);
+        assertThat(look(sent(5, T), 0)).isInstanceOf(Verdict.First.class);
     }
 
     @Test
-    void isBalancedUpToTheLookBeforeWhenAllThatWasBegunByThenHasCome() {
-        balance.look(sent(5, T), 0);
-        assertThat(balance.look(sent(8, T.plusSeconds(10)), 1)).isEqualTo(new Verdict.Balanced(T));
-        assertThat(balance.look(sent(9, T.plusSeconds(20)), 3)).isEqualTo(new Verdict.Balanced(T.plusSeconds(10)));
+    void isBalancedWhenAllThatWasBegunHasCome() {
+        look(sent(5, T), 0);
+
+        assertThat(look(sent(8, T.plusSeconds(10)), 1)).isInstanceOf(Verdict.Open.class);
+        assertThat(look(sent(9, T.plusSeconds(20)), 4)).isEqualTo(new Verdict.Balanced(T.plusSeconds(20)));
     }
 
     @Test
     void missesWhatWasBegunAtTheLookBeforeAndHasNotCome() {
-        balance.look(sent(5, T), 0);
-        balance.look(sent(8, T.plusSeconds(10)), 3);
-        balance.look(sent(12, T.plusSeconds(20)), 6);
+        look(sent(5, T), 0);
+        look(sent(8, T.plusSeconds(10)), 3);
+        look(sent(12, T.plusSeconds(20)), 6);
 
-        assertThat(balance.look(sent(12, T.plusSeconds(30)), 6))
-                .isEqualTo(new Verdict.Missing("1 notifications were sent and did not arrive"));
-        assertThat(balance.look(sent(12, T.plusSeconds(40)), 6)).isInstanceOf(Verdict.Balanced.class);
+        assertThat(look(sent(12, T.plusSeconds(30)), 6))
+                .isEqualTo(missing("1 notifications were sent and did not arrive"));
+        assertThat(look(sent(12, T.plusSeconds(40)), 6)).isInstanceOf(Verdict.Balanced.class);
+    }
+
+    /** The next ones hide it: more have come than had been begun at the look before. */
+    @Test
+    void missesOneAmongManyThatGoOnComing() {
+        look(sent(0, T), 0);
+        for (int i = 1; i < DeliveryBalance.MOST_UNBALANCED; i++) {
+            assertThat(look(sent(100 * i, T.plusSeconds(10L * i)), 100 * i - 1)).isInstanceOf(Verdict.Open.class);
+        }
+
+        assertThat(look(sent(9000, T.plusSeconds(900)), 8999))
+                .isEqualTo(missing("sent and arrived notifications have differed for 30 looks"));
+    }
+
+    @Test
+    void countsFromTheEndOfARepair() {
+        look(sent(5, T), 0);
+        look(sent(9, T.plusSeconds(10)), 0);
+        look(sent(9, T.plusSeconds(20)), 0);
+        balance.repaired(2);
+
+        assertThat(look(sent(10, T.plusSeconds(30)), 3)).isEqualTo(new Verdict.Balanced(T.plusSeconds(30)));
+    }
+
+    /** A crash loses the queue and what was counted of it. */
+    @Test
+    void missesWhatARestartOfTheContextBrokerMayHaveLost() {
+        look(sent(1000, T), 0);
+        look(sent(2000, T.plusSeconds(10)), 1000);
+
+        assertThat(look(sent(1400, T.plusSeconds(20)), 1000))
+                .isEqualTo(missing("the context broker's counters went back"));
+        look(sent(1700, T.plusSeconds(30)), 1100);
+        assertThat(look(sent(1700, T.plusSeconds(40)), 1100))
+                .isEqualTo(missing("200 notifications were sent and did not arrive"));
+    }
+
+    @Test
+    void missesWhatIsBehindALastSuccessThatGoesBack() {
+        look(report(5, 0, Optional.empty(), Optional.of(T)), 0);
+
+        assertThat(look(report(5, 0, Optional.empty(), Optional.of(T.minusSeconds(60))), 0))
+                .isEqualTo(missing("the context broker's counters went back"));
+        assertThat(look(report(5, 0, Optional.empty(), Optional.empty()), 0))
+                .isEqualTo(missing("the context broker's counters went back"));
+    }
+
+    @Test
+    void missesWhatCountersCannotTellThatAreNoNumbers() {
+        look(sent(5, T), 0);
+
+        assertThat(look(
+                        kept(
+                                State.AT_WORK,
+                                new DeliveryReport(OptionalLong.empty(), 0, Optional.empty(), Optional.empty())),
+                        0))
+                .isEqualTo(missing("the context broker's counters cannot be read"));
     }
 
     @Test
     void missesWhatCouldNotBeDeliveredEvenIfTheNextOneCould() {
-        balance.look(sent(5, T), 0);
+        look(sent(5, T), 0);
 
-        assertThat(balance.look(kept(State.AT_WORK, new DeliveryReport(7, 0, Optional.of(T), Optional.of(T))), 2))
-                .isEqualTo(new Verdict.Missing("the context broker could not deliver"));
-        assertThat(balance.look(kept(State.AT_WORK, new DeliveryReport(8, 1, Optional.of(T), Optional.of(T))), 3))
+        assertThat(look(report(7, 0, Optional.of(T), Optional.of(T)), 2))
+                .isEqualTo(missing("the context broker could not deliver"));
+        assertThat(look(report(8, 1, Optional.of(T), Optional.of(T)), 3))
                 .as("within the same second")
                 .isInstanceOf(Verdict.Missing.class);
     }
 
     @Test
     void missesWhatASubscriptionCouldNotTellThatWasGoneOrStopped() {
-        balance.look(sent(5, T), 0);
+        look(sent(5, T), 0);
 
-        assertThat(balance.look(kept(State.RESUMED, new DeliveryReport(5, 0, Optional.empty(), Optional.empty())), 0))
-                .isEqualTo(new Verdict.Missing("the subscription did not tell us"));
-        assertThat(balance.look(kept(State.CREATED, DeliveryReport.NOTHING_SENT), 0))
-                .isEqualTo(new Verdict.Missing("the subscription was gone"));
+        assertThat(look(kept(State.RESUMED, sent(5, T).report()), 0))
+                .isEqualTo(missing("the subscription did not tell us"));
+        assertThat(look(kept(State.CREATED, DeliveryReport.NOTHING_SENT), 0))
+                .isEqualTo(missing("the subscription was gone"));
+    }
+
+    private Verdict look(Kept kept, long arrived) {
+        return balance.look(kept, new Arrived(arrived, arrived));
+    }
+
+    private static Verdict missing(String reason) {
+        return new Verdict.Missing(reason);
     }
 
     private static Kept sent(long times, Instant at) {
-        DeliveryReport report = new DeliveryReport(times, 0, Optional.empty(), Optional.empty());
+        DeliveryReport report = new DeliveryReport(OptionalLong.of(times), 0, Optional.empty(), Optional.empty());
         return new Kept("s", State.AT_WORK, report, at, Optional.empty());
+    }
+
+    private static Kept report(long times, long fails, Optional<Instant> lastFailure, Optional<Instant> lastSuccess) {
+        return kept(State.AT_WORK, new DeliveryReport(OptionalLong.of(times), fails, lastFailure, lastSuccess));
     }
 
     private static Kept kept(State state, DeliveryReport report) {

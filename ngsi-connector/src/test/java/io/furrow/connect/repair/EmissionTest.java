@@ -1,5 +1,6 @@
 package io.furrow.connect.repair;
 
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
@@ -27,32 +28,55 @@ class EmissionTest {
     @TempDir
     private Path folder;
 
-    private final LiveEvents live = new LiveEvents();
+    private final LiveEvents live = new LiveEvents(1 << 20);
     private final List<String> emitted = new ArrayList<>();
     private KnownEntities known;
     private int refusals;
 
     @BeforeEach
     void open() throws Exception {
-        known = KnownEntities.open(folder.resolve("known"), 1000);
-        live.watch();
+        known = KnownEntities.open(folder.resolve("known"), 1 << 20);
     }
 
     @Test
-    void passesOverWhatCameByNotificationSinceItWasAskedFor() throws Exception {
-        live.handOn(List.of(identity("before")), () -> null);
-        long asked = System.nanoTime();
-        live.handOn(List.of(identity("since")), () -> null);
+    void passesOverWhatANotificationToldThatIsAsNewOrNewer() throws Exception {
+        notify("same", "v", T);
+        long asked = live.now();
+        notify("newer", "later", T.plusMillis(1));
+        notify("older", "earlier", T.minusMillis(1));
 
-        int count = emission(new CompletableFuture<>()).emit(List.of(), asked);
-        count += emission(CompletableFuture.completedFuture(null))
-                .emit(List.of(finding("before"), finding("since"), finding("never")), asked);
+        int count = emission(CompletableFuture.completedFuture(null))
+                .emit(List.of(finding("same"), finding("newer"), finding("older"), finding("never")), asked);
 
         assertThat(count).isEqualTo(2);
-        assertThat(emitted).containsExactly("before", "never");
-        assertThat(known.copy()).containsExactlyInAnyOrder(identity("before"), identity("never"));
-        assertThat(live.isSeen(finding("never").event().id())).isTrue();
-        assertThat(live.isSeen(finding("since").event().id())).isFalse();
+        assertThat(emitted).containsExactly("older", "never");
+        assertThat(known.copy())
+                .containsExactlyInAnyOrder(identity("same"), identity("newer"), identity("older"), identity("never"));
+        assertThat(live.stale()).isEmpty();
+    }
+
+    @Test
+    void asksAgainWhereItCannotTellWhichIsNewer() throws Exception {
+        long asked = live.now();
+        append("e", "event", Optional.empty());
+
+        assertThat(emission(CompletableFuture.completedFuture(null)).emit(List.of(finding("e")), asked))
+                .isZero();
+        assertThat(live.stale()).containsExactly(identity("e"));
+
+        assertThat(emission(CompletableFuture.completedFuture(null)).emit(List.of(finding("e")), live.now()))
+                .isOne();
+        assertThat(live.stale()).isEmpty();
+    }
+
+    /** Off, on, off under one time of the device: the first and the last have one event id. */
+    @Test
+    void emitsAStateThatCameBackThoughItsEventWasThereBefore() throws Exception {
+        notify("e", "v", T.minusMillis(2));
+        notify("e", "other", T.minusMillis(1));
+
+        assertThat(emission(CompletableFuture.completedFuture(null)).emit(List.of(finding("e")), live.now()))
+                .isOne();
     }
 
     @Test
@@ -61,7 +85,7 @@ class EmissionTest {
         List<Finding.Changed> many =
                 IntStream.range(0, 250).mapToObj(i -> finding("e" + i)).toList();
 
-        int count = emission(CompletableFuture.completedFuture(null)).emit(many, System.nanoTime());
+        int count = emission(CompletableFuture.completedFuture(null)).emit(many, live.now());
 
         assertThat(count).isEqualTo(250);
         assertThat(emitted).hasSize(250).doesNotHaveDuplicates();
@@ -69,30 +93,48 @@ class EmissionTest {
     }
 
     @Test
-    void forgetsNothingThatDidNotBecomeDurable() throws Exception {
+    void readsAgainWhatDidNotBecomeDurable() throws Exception {
         CompletableFuture<Void> failed = CompletableFuture.failedFuture(new IllegalStateException("the disk is gone"));
 
-        assertThatThrownBy(() -> emission(failed).emit(List.of(finding("e")), System.nanoTime()))
+        assertThatThrownBy(() -> emission(failed).emit(List.of(finding("e")), live.now()))
                 .isInstanceOf(java.io.IOException.class)
                 .hasMessageContaining("the disk is gone");
-        assertThat(live.isSeen(finding("e").event().id())).isFalse();
+        assertThat(live.stale()).containsExactly(identity("e"));
+        assertThat(live.isNews(finding("e").record(), live.now())).isTrue();
         assertThat(known.size()).isZero();
     }
 
     private Emission emission(CompletableFuture<Void> durable) {
-        return new Emission(
-                (subscription, findings) -> {
-                    if (refusals > 0) {
-                        refusals--;
-                        return Optional.empty();
-                    }
-                    assertThat(findings).hasSizeLessThanOrEqualTo(100);
-                    findings.forEach(finding -> emitted.add(Identities.id(finding.identity())));
-                    return Optional.of(durable);
-                },
-                live,
-                known,
-                "s");
+        RepairOutput output = new RepairOutput() {
+            @Override
+            public byte[] serialize(String subscription, Finding finding) {
+                assertThat(Thread.holdsLock(live)).isFalse();
+                return Identities.id(finding.identity()).getBytes(StandardCharsets.UTF_8);
+            }
+
+            @Override
+            public Optional<CompletableFuture<Void>> append(List<byte[]> records) {
+                if (refusals > 0) {
+                    refusals--;
+                    return Optional.empty();
+                }
+                assertThat(records).hasSizeLessThanOrEqualTo(100);
+                records.forEach(record -> emitted.add(new String(record, StandardCharsets.UTF_8)));
+                return Optional.of(durable);
+            }
+        };
+        return new Emission(output, live, known, "s");
+    }
+
+    private void notify(String id, String value, Instant modified) {
+        append(id, event(id, value).id(), Optional.of(modified));
+    }
+
+    private void append(String id, String eventId, Optional<Instant> modified) {
+        live.append(
+                "s",
+                List.of(new EntityRecord(identity(id), Optional.of("Probe"), eventId, modified, false)),
+                () -> Optional.of(CompletableFuture.completedFuture(null)));
     }
 
     private static String identity(String id) {
@@ -100,7 +142,11 @@ class EmissionTest {
     }
 
     private static Finding.Changed finding(String id) {
-        Entity entity = Entity.builder(id, "Probe").build();
-        return new Finding.Changed(EntityEvent.of(entity, FiwareScope.DEFAULT, T, Duration.ZERO, Origin.REPAIR));
+        return Finding.Changed.of(event(id, "v"), T);
+    }
+
+    private static EntityEvent event(String id, String value) {
+        Entity entity = Entity.builder(id, "Probe").text("state", value).build();
+        return EntityEvent.of(entity, FiwareScope.DEFAULT, T, Duration.ZERO, Origin.REPAIR);
     }
 }

@@ -40,7 +40,7 @@ class KeysetReaderTest {
                     .limit(limit)
                     .map(this::state)
                     .toList();
-            return new Page(page, page.size() == limit);
+            return new Page(page, limit, page.size() == limit);
         }
 
         private EntityState state(String id) {

@@ -1,0 +1,41 @@
+package io.furrow.connect.repair;
+
+/** How much heap a JSON document takes when it is read into a tree. */
+final class HeapEstimate {
+    /** An object with its map, a list with its array, the entry of a member with its name, an element. */
+    private static final int OBJECT = 160;
+
+    private static final int LIST = 104;
+    private static final int MEMBER = 100;
+    private static final int ELEMENT = 24;
+
+    private HeapEstimate() {}
+
+    /** Bytes, rather too many than too few; of what is no JSON any number. */
+    static long of(byte[] json) {
+        long bytes = 2L * json.length;
+        boolean inText = false;
+        for (int i = 0; i < json.length; i++) {
+            byte sign = json[i];
+            if (inText) {
+                if (sign == '\\') {
+                    i++;
+                } else if (sign == '"') {
+                    inText = false;
+                }
+            } else {
+                switch (sign) {
+                    case '"' -> inText = true;
+                    case '{' -> bytes += OBJECT;
+                    case '[' -> bytes += LIST;
+                    case ':' -> bytes += MEMBER;
+                    case ',' -> bytes += ELEMENT;
+                    default -> {
+                        // part of a number, a literal or white space
+                    }
+                }
+            }
+        }
+        return bytes;
+    }
+}

@@ -1,0 +1,240 @@
+package io.furrow.connect.repair;
+
+import java.time.Instant;
+import java.util.Iterator;
+import java.util.LinkedHashMap;
+import java.util.LinkedHashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+
+/**
+ * The last record of each entity on the topic, and whether it may be older than what the topic or the context broker had before:
+ * then the entity is stale and has to be read again. Takes a bounded part of the heap: the entity that was quiet longest is
+ * forgotten, and one of which nothing is remembered counts as stale where its record is no newer than any that was
+ * forgotten. Not safe for threads.
+ */
+final class LastRecords {
+    /** Of an entry besides its identity: the nodes of map and set, two texts, the event id. */
+    private static final int ENTRY_BYTES = 320;
+
+    private static final long UNKNOWN = Long.MIN_VALUE;
+
+    /** What is to become of a record that tells what was read from the context broker. */
+    enum Judgment {
+        /** It tells what the topic does not. */
+        NEWS,
+        /** The topic's last record tells the same, or what is newer. */
+        REPEATED,
+        /** Another record came since the context broker was asked, and which one is newer cannot be told. */
+        ASK_AGAIN
+    }
+
+    private static final class Last {
+        private String eventId;
+        /** Hash of the type; 0 where it is not known. */
+        private int type;
+        /** The newest known time of any record so far, epoch milliseconds; the last record may tell an older one. */
+        private long modified;
+
+        private long at;
+        /** Hash of the subscription; 0 for a repair. */
+        private int from;
+
+        private boolean gone;
+        private boolean stale;
+        /** Entities of several types have this id, and their records cannot be compared. */
+        private boolean mixed;
+    }
+
+    private final long maxBytes;
+    private final Map<String, Last> entities = new LinkedHashMap<>(16, 0.75f, true);
+    private final Set<String> stale = new LinkedHashSet<>();
+    private long bytes;
+    private long clock;
+    private long forgotten = UNKNOWN;
+    private boolean overflow;
+
+    /** @param maxBytes of heap */
+    LastRecords(long maxBytes) {
+        this.maxBytes = maxBytes;
+    }
+
+    /** A point in the order of records, to compare later ones with. */
+    long now() {
+        return clock;
+    }
+
+    /**
+     * A notification's record was appended to the topic's.
+     *
+     * @return whether its state was not told before by the same subscription, nor read
+     */
+    boolean append(EntityRecord record, String subscription) {
+        long modified = millis(record);
+        Last last = entities.get(record.identity());
+        long newest = last == null || last.modified == UNKNOWN ? forgotten : last.modified;
+        boolean isNew = modified > newest;
+        boolean isStale;
+        if (last == null) {
+            last = add(record);
+            isStale = modified != UNKNOWN && !isNew;
+        } else if (modified == UNKNOWN) {
+            isStale = last.stale || last.gone || record.gone();
+        } else if (last.modified == UNKNOWN) {
+            isStale = last.stale || last.gone && !record.gone() || !isNew;
+        } else if (isNew) {
+            isStale = last.gone && !record.gone();
+        } else {
+            boolean repeated = modified == last.modified && record.eventId().equals(last.eventId);
+            isStale = repeated ? last.stale : modified < last.modified || !record.gone();
+        }
+        int from = subscription.hashCode();
+        boolean isOther = last.from != 0 && last.from != from && modified == last.modified;
+        set(last, record, from);
+        last.modified = modified == UNKNOWN ? UNKNOWN : Math.max(modified, newest);
+        mark(record.identity(), last, isStale || last.mixed);
+        return isNew || isOther || modified == UNKNOWN;
+    }
+
+    /** A record from before the start, of which only the event is known; those of since then are later. */
+    void restore(EntityRecord record) {
+        Last last = entities.get(record.identity());
+        if (last == null) {
+            last = add(record);
+            last.modified = UNKNOWN;
+        }
+        if (last.at == 0) {
+            last.eventId = record.eventId();
+            last.gone = record.gone();
+        }
+    }
+
+    /** What is to become of what was read, and what it shows about the records so far. */
+    Judgment judge(EntityRecord found, long asked) {
+        Last last = entities.get(found.identity());
+        if (last == null) {
+            return Judgment.NEWS;
+        }
+        long modified = millis(found);
+        boolean came = last.at > asked;
+        boolean same = found.gone() ? last.gone : !last.mixed && found.eventId().equals(last.eventId);
+        if (same) {
+            if (!found.gone()) {
+                last.modified = came ? Math.max(modified, last.modified) : modified;
+            }
+            mark(found.identity(), last, false);
+            return Judgment.REPEATED;
+        }
+        if (!came || !last.mixed && last.modified != UNKNOWN && modified > last.modified) {
+            return Judgment.NEWS;
+        }
+        if (!last.mixed && !last.stale && modified != UNKNOWN && modified < last.modified) {
+            return Judgment.REPEATED;
+        }
+        mark(found.identity(), last, true);
+        return Judgment.ASK_AGAIN;
+    }
+
+    /** A record that tells what was read was appended. */
+    void appendFound(EntityRecord found) {
+        Last last = entities.get(found.identity());
+        if (last == null) {
+            last = add(found);
+        }
+        set(last, found, 0);
+        last.modified = found.gone() ? last.modified : millis(found);
+        mark(found.identity(), last, false);
+    }
+
+    /** A record that was appended did not become durable: what the last one is cannot be said. */
+    void fail(String identity) {
+        Last last = entities.get(identity);
+        if (last != null) {
+            last.eventId = "";
+            last.gone = false;
+            mark(identity, last, true);
+        }
+    }
+
+    /** The entity is not ours to read. */
+    void settle(String identity) {
+        Last last = entities.get(identity);
+        if (last != null) {
+            mark(identity, last, false);
+        } else {
+            stale.remove(identity);
+        }
+    }
+
+    /** What changed before this time may have been told before this task remembered anything. */
+    void forgetUntil(Instant time) {
+        forgotten = Math.max(forgotten, time.toEpochMilli());
+    }
+
+    boolean isStale(String identity) {
+        return !stale.isEmpty() && stale.contains(identity);
+    }
+
+    /** An entity of before the start has to be read again. */
+    void restoreStale(String identity) {
+        stale.add(identity);
+    }
+
+    /** Those that have to be read again, also forgotten ones; the set of them takes no more than the entities do. */
+    List<String> stale() {
+        return List.copyOf(stale);
+    }
+
+    /** Whether more entities were stale than can be remembered, since this was last asked. */
+    boolean takeOverflow() {
+        boolean was = overflow;
+        overflow = false;
+        return was;
+    }
+
+    private Last add(EntityRecord record) {
+        Last last = new Last();
+        last.modified = UNKNOWN;
+        entities.put(record.identity(), last);
+        bytes += bytesOf(record.identity());
+        Iterator<Map.Entry<String, Last>> eldest = entities.entrySet().iterator();
+        while (bytes > maxBytes && entities.size() > 1) {
+            Map.Entry<String, Last> old = eldest.next();
+            forgotten = Math.max(forgotten, old.getValue().modified);
+            bytes -= bytesOf(old.getKey());
+            eldest.remove();
+        }
+        return last;
+    }
+
+    private void set(Last last, EntityRecord record, int from) {
+        int type = record.type().map(String::hashCode).orElse(last.type);
+        last.mixed |= last.type != 0 && last.type != type;
+        last.type = type;
+        last.from = from;
+        last.eventId = record.eventId();
+        last.gone = record.gone();
+        last.at = ++clock;
+    }
+
+    private void mark(String identity, Last last, boolean isStale) {
+        last.stale = isStale;
+        if (isStale && (stale.size() < maxBytes / ENTRY_BYTES || stale.contains(identity))) {
+            stale.add(identity);
+        } else if (isStale) {
+            overflow = true;
+        } else {
+            stale.remove(identity);
+        }
+    }
+
+    private static long millis(EntityRecord record) {
+        return record.modified().map(Instant::toEpochMilli).orElse(UNKNOWN);
+    }
+
+    /** At two bytes per sign. */
+    private static long bytesOf(String identity) {
+        return ENTRY_BYTES + 2L * identity.length();
+    }
+}

@@ -1,0 +1,175 @@
+package io.furrow.connect.repair;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+import java.util.function.Function;
+
+import io.furrow.connect.broker.BrokerException;
+import io.furrow.connect.broker.BrokerRequest;
+import io.furrow.connect.broker.Outcome;
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.RepairSettings.Deletions;
+import io.furrow.connect.repair.RepairSettings.Reading;
+import io.furrow.connect.subscription.Content;
+import io.furrow.connect.subscription.IdShare;
+import io.furrow.connect.subscription.Subject;
+import io.furrow.connect.subscription.Target;
+import io.furrow.connect.subscription.WantedSubscription;
+import io.furrow.model.event.EntityDeletion;
+import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.Origin;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** A source with its caretaker and without the rest: its journal is a topic in memory, which outlives it. */
+final class ModelSource implements RepairOutput, AutoCloseable {
+    static final FiwareScope PLACE = new FiwareScope("agri", "/");
+
+    private static final Duration MAX_SKEW = Duration.ofMinutes(5);
+    private static final WantedSubscription WANTED = new WantedSubscription(
+            new WantedSubscription.Name("furrow farm", IdShare.ALL, "/#"),
+            Subject.ANY,
+            new Content(List.of("*", "dateModified"), "normalized", false),
+            new Target("http://127.0.0.1:1/v2/notify", Map.of(), Optional.empty()),
+            WantedSubscription.Pace.EVERY_CHANGE);
+
+    /**
+     * What is on the topic.
+     *
+     * @param values of the last record, by id and type
+     * @param gone by id, whether its last record has no value
+     * @param unreadable ids and times of dead letters
+     */
+    record Topic(Map<String, String> values, Map<String, Boolean> gone, Map<String, Instant> unreadable) {
+        Topic() {
+            this(new HashMap<>(), new HashMap<>(), new HashMap<>());
+        }
+
+        private void changed(Entity entity) {
+            values.put(
+                    entity.id() + " " + entity.type(),
+                    entity.value("t").orElseThrow().asText());
+            gone.put(entity.id(), false);
+        }
+
+        private void deleted(String id) {
+            values.keySet().removeIf(key -> key.startsWith(id + " "));
+            gone.put(id, true);
+        }
+    }
+
+    private final Topic topic;
+    private final Ledger ledger = new Ledger();
+    private final LiveEvents live;
+    private final Caretaker caretaker;
+    private Finding[] last = new Finding[0];
+
+    ModelSource(Function<BrokerRequest, Outcome> broker, Path folder, Bounds bounds, Topic topic) throws IOException {
+        this.topic = topic;
+        live = new LiveEvents(bounds.recent());
+        RepairSettings settings = new RepairSettings(
+                folder,
+                Duration.ofSeconds(2),
+                RepairSettings.Mode.INITIAL,
+                new Reading(bounds.page(), bounds.pageBytes(), MAX_SKEW, List.of()),
+                new Deletions(1 << 20, bounds.deletions()));
+        Caretaker.Charge charge =
+                Caretaker.Charge.of(broker, new FiwareScope("agri", "/#"), WANTED, bounds.pageBytes());
+        caretaker = Caretaker.open(charge, settings, new Caretaker.Means(live, this, ledger));
+        live.onStale(this::markStale);
+    }
+
+    /** Bounds of pages, in entities and bytes, of what is remembered, in bytes, and least time between listings. */
+    record Bounds(int page, long pageBytes, long recent, Duration deletions) {}
+
+    void look() throws BrokerException, IOException, InterruptedException {
+        caretaker.look();
+    }
+
+    private void markStale(String identity) {
+        try {
+            caretaker.markStale(identity);
+        } catch (IOException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    Ledger ledger() {
+        return ledger;
+    }
+
+    /** There is no room for it. */
+    void turnAway(ModelBroker.Told told) {
+        live.arrived(told.subscription());
+        ledger.turnedAway.increment();
+    }
+
+    void take(ModelBroker.Told told) {
+        try {
+            Entity entity = Entity.of(told.entity().json(told.gone()));
+            Instant now = Instant.now();
+            String eventId = told.gone()
+                    ? EntityDeletion.of(entity, PLACE, now, MAX_SKEW, Origin.NOTIFICATION)
+                            .id()
+                    : EntityEvent.of(entity, PLACE, now, MAX_SKEW, Origin.NOTIFICATION)
+                            .id();
+            EntityVersion version = EntityVersion.of(entity);
+            String identity = PLACE.identity(entity.id());
+            live.arrived(told.subscription());
+            live.append(
+                    told.subscription(),
+                    List.of(new EntityRecord(
+                            identity, Optional.of(version.type()), eventId, version.modified(), told.gone())),
+                    () -> {
+                        if (told.gone()) {
+                            topic.deleted(entity.id());
+                        } else {
+                            topic.changed(entity);
+                        }
+                        return Optional.of(CompletableFuture.completedFuture(null));
+                    });
+            caretaker.note(PLACE, identity, told.gone());
+        } catch (UnreadableException | IOException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    @Override
+    public byte[] serialize(String subscription, Finding finding) {
+        last = java.util.Arrays.copyOf(last, last.length + 1);
+        last[last.length - 1] = finding;
+        return java.nio.ByteBuffer.allocate(4).putInt(last.length - 1).array();
+    }
+
+    @Override
+    public Optional<CompletableFuture<Void>> append(List<byte[]> records) {
+        for (byte[] record : records) {
+            Finding finding = last[java.nio.ByteBuffer.wrap(record).getInt()];
+            if (finding instanceof Finding.Changed changed) {
+                topic.changed(changed.event().entity());
+            } else if (finding instanceof Finding.Deleted deleted) {
+                topic.deleted(deleted.deletion().entityId());
+            } else if (finding instanceof Finding.Unreadable unreadable) {
+                topic.unreadable()
+                        .put(
+                                unreadable.entityId() + " "
+                                        + unreadable.state().entity().type(),
+                                unreadable.state().time());
+            }
+        }
+        return Optional.of(CompletableFuture.completedFuture(null));
+    }
+
+    @Override
+    public void close() throws IOException {
+        caretaker.close();
+    }
+}
