@@ -8,6 +8,7 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.broker.BrokerOptions;
+import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.http.AccessRule;
 
@@ -90,6 +91,14 @@ public class NgsiSourceConfig extends AbstractConfig {
                     PendingOptions.MAX_PENDING_BYTES,
                     pending.maxBytes(),
                     "must be at least " + SizeOptions.MAX_BODY_BYTES);
+        }
+        long room = journalSettings().largestAppend() - SizeOptions.ROOM_FOR_HEADERS;
+        if (sizes.maxBodyBytes() > room) {
+            throw new ConfigException(
+                    SizeOptions.MAX_BODY_BYTES,
+                    sizes.maxBodyBytes(),
+                    "a journal of " + journal.maxBytes() + " bytes never has room for it; lower it to " + room
+                            + " at most, or raise " + JournalOptions.MAX_BYTES);
         }
     }
 
@@ -208,6 +217,10 @@ public class NgsiSourceConfig extends AbstractConfig {
         return repair;
     }
 
+    JournalSettings journalSettings() {
+        return JournalSettings.of(journal.maxBytes(), pending.maxBytes(), journal.minFreeBytes());
+    }
+
     /** What the translation of notifications needs. */
     NotificationTranslator.Settings translation() {
         return new NotificationTranslator.Settings(
@@ -216,6 +229,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 topics.deadLetterTopic(),
                 entities.excludedTypes(),
                 entities.maxClockSkew(),
-                sizes.maxRecordBytes());
+                sizes.maxRecordBytes(),
+                journalSettings().largestAppend());
     }
 }

@@ -42,10 +42,11 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     /**
      * @param maxBody bytes of a body
      * @param bodies bytes of all bodies whose senders have no answer yet
-     * @param holdNanos how long a sender waits at most, until its body is read and its records are durable
+     * @param translations bytes of heap that notifications take beside their bodies, from the end of the body to the answer
+     * @param holdNanos how long a sender is held at most: for memory, and from the end of its body until its records are durable
      * @param resets whether it then loses its connection, or is answered 503
      */
-    record Limits(int maxBody, ByteBudget bodies, long holdNanos, boolean resets) {}
+    record Limits(int maxBody, ByteBudget bodies, ByteBudget translations, long holdNanos, boolean resets) {}
 
     /** What a notification passes, in this order. */
     record Path(Gatekeeper gatekeeper, NotificationTranslator translator, Deliveries deliveries) {}
@@ -91,14 +92,13 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     }
 
     private void take(Request request, Response response, Callback callback) {
-        long deadline = System.nanoTime() + limits.holdNanos();
-        BodyReader reader = new BodyReader(request, limits.maxBody(), limits.bodies(), deadline);
+        BodyReader reader = new BodyReader(request, limits.maxBody(), limits.bodies(), limits.holdNanos());
         reader.start()
                 .thenCompose(body -> {
                     if (!body.readToEnd()) {
                         response.getHeaders().put(HttpHeader.CONNECTION, "close");
                     }
-                    return deliver(translator.translate(received(request, body)), deadline);
+                    return deliver(received(request, body), System.nanoTime() + limits.holdNanos() - body.heldNanos());
                 })
                 // On a thread of the server: what completes the delivery is the one thread that writes to the disk.
                 .whenCompleteAsync(
@@ -107,6 +107,36 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
                             answer(request, response, answer, failure, callback);
                         },
                         getServer().getThreadPool());
+    }
+
+    private CompletableFuture<Answer> deliver(ReceivedNotification received, long deadline) {
+        ByteBudget memory = limits.translations();
+        long estimate = HeapEstimate.of(received.body());
+        boolean fits = estimate <= memory.size() || !received.complete();
+        long taken = fits ? Math.min(estimate, memory.size()) : asDeadLetter(received);
+        CompletableFuture<Void> room = memory.take(taken, deadline - System.nanoTime());
+        return room.thenCompose(nothing -> {
+                    Translation translation = fits
+                            ? translator.translate(received)
+                            : translator.refuse(received, tooMuch(estimate, memory));
+                    return deliver(translation, deadline);
+                })
+                .whenComplete((answer, failure) -> {
+                    if (!room.isCompletedExceptionally()) {
+                        memory.giveBack(taken);
+                    }
+                });
+    }
+
+    private long asDeadLetter(ReceivedNotification received) {
+        return Math.min(
+                (long) received.body().length * HeapEstimate.PER_BYTE,
+                limits.translations().size());
+    }
+
+    private static String tooMuch(long estimate, ByteBudget memory) {
+        return "the notification would take about " + estimate + " bytes of memory, the limit is " + memory.size()
+                + "; send fewer entities at a time, or raise " + OverloadOptions.TRANSLATION_MEMORY;
     }
 
     private CompletableFuture<Answer> deliver(Translation translation, long deadline) {

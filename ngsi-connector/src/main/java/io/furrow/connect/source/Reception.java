@@ -66,6 +66,7 @@ final class Reception implements AutoCloseable {
                 new NotificationHandler.Limits(
                         config.sizes().maxBodyBytes(),
                         new ByteBudget(config.overload().memoryBytes(), threads),
+                        new ByteBudget(config.overload().translationMemoryBytes(), threads),
                         config.overload().hold().toNanos(),
                         config.overload().resets()),
                 pages(config, ledger));

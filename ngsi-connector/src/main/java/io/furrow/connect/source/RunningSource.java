@@ -9,7 +9,6 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.apache.kafka.connect.errors.ConnectException;
 
 import io.furrow.connect.journal.JournalFolders;
-import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.LedgerBean;
 
@@ -53,11 +52,7 @@ record RunningSource(
     }
 
     private static TaskJournals openJournals(NgsiSourceConfig config, TaskJournals.Committed committed, Ledger ledger) {
-        JournalSettings settings = JournalSettings.of(
-                config.journal().maxBytes(),
-                config.pending().maxBytes(),
-                config.journal().minFreeBytes());
-        JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), settings);
+        JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), config.journalSettings());
         try {
             return new TaskJournals(folders, config.taskIndex(), committed, ledger);
         } catch (UncheckedIOException e) {

@@ -13,6 +13,9 @@ record SizeOptions(AbstractConfig config) {
     static final String MAX_BODY_BYTES = "max.body.bytes";
     static final String MAX_RECORD_BYTES = "max.record.bytes";
 
+    /** Of a record, and what the journal adds. */
+    static final int ROOM_FOR_HEADERS = 64 * 1024;
+
     private static final String PRODUCER_LIMIT = "producer.override.max.request.size";
     private static final int PRODUCER_DEFAULT = 1024 * 1024;
     private static final int ROOM_FOR_TRANSFORMATIONS = 16 * 1024;

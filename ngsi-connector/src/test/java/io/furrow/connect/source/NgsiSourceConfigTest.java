@@ -83,6 +83,19 @@ class NgsiSourceConfigTest {
     }
 
     @Test
+    void refusesABodyThatTheJournalNeverHasRoomFor() {
+        Map<String, String> large =
+                Map.of("max.body.bytes", "30000000", "max.pending.bytes", "30000000", "journal.max.bytes", "67108864");
+
+        assertThatThrownBy(() -> config(large))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("max.body.bytes")
+                .hasMessageContaining("journal.max.bytes");
+        assertThat(config(Map.of("journal.max.bytes", "67108864")).sizes().maxBodyBytes())
+                .isEqualTo(8 * 1024 * 1024);
+    }
+
+    @Test
     void wantsAFolderForTheJournal() {
         assertThatThrownBy(() -> new NgsiSourceConfig(Map.of()))
                 .isInstanceOf(ConfigException.class)
