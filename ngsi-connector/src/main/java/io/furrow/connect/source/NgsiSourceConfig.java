@@ -73,6 +73,15 @@ public class NgsiSourceConfig extends AbstractConfig {
                     listening.firstPort(),
                     "task i listens on " + ListeningOptions.PORT + " + i, and there are " + tasks + " tasks; lower it");
         }
+        int port = listening.firstPort();
+        int health = listening.firstHealthPort();
+        if (health + tasks - 1 > LAST_PORT || health > 0 && port > 0 && Math.abs(health - port) < tasks) {
+            throw new ConfigException(
+                    ListeningOptions.HEALTH_PORT,
+                    health,
+                    "task i takes this port + i, and there are " + tasks + " tasks; it must not meet "
+                            + ListeningOptions.PORT + " + i, nor pass " + LAST_PORT);
+        }
     }
 
     private void checkSizes() {
