@@ -2,8 +2,8 @@ package io.furrow.connect.source;
 
 import java.io.UncheckedIOException;
 import java.net.InetSocketAddress;
-import java.security.KeyStore;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.Map;
 import java.util.Optional;
 import java.util.OptionalInt;
@@ -85,7 +85,7 @@ final class Reception implements AutoCloseable {
             return new Reception(
                     deliveries,
                     NotificationServer.start(
-                            settings(config), threads, guarded(config, ledger, requests), ledger, patience),
+                            settings(config, ledger), threads, guarded(config, ledger, requests), ledger, patience),
                     health);
         } catch (UncheckedIOException e) {
             close(deliveries, health);
@@ -130,27 +130,28 @@ final class Reception implements AutoCloseable {
                 () -> new Page(PrometheusPage.CONTENT_TYPE, prometheus.write()));
     }
 
-    private static NotificationServer.Settings settings(NgsiSourceConfig config) {
+    private static NotificationServer.Settings settings(NgsiSourceConfig config, Ledger ledger) {
         ListeningOptions listening = config.listening();
         return new NotificationServer.Settings(
                 new InetSocketAddress(listening.host(), listening.port()),
-                tls(config.tls()),
+                tls(config.tls(), ledger),
                 listening.maxConnections(),
                 listening.idleTimeout(),
                 listening.requestTimeout());
     }
 
-    private static Optional<SslContextFactory.Server> tls(TlsOptions options) {
-        return options.keys().map(keys -> {
-            SslContextFactory.Server tls = new SslContextFactory.Server();
-            KeyStore store = KeyStores.keys(keys);
-            tls.setKeyStore(store);
-            tls.setKeyStorePassword(keys.password().value());
-            options.trusted().map(KeyStores::certificates).ifPresent(tls::setTrustStore);
-            tls.setNeedClientAuth(options.clientAuth().equals("required"));
-            tls.setWantClientAuth(options.clientAuth().equals("requested"));
-            return tls;
-        });
+    private static Optional<SslContextFactory.Server> tls(TlsOptions options, Ledger ledger) {
+        if (!options.isOn()) {
+            return Optional.empty();
+        }
+        TlsEngines engines = TlsEngines.open(options);
+        if (engines.expiry().isPresent()) {
+            ledger.gauge(
+                    "certificateExpirySeconds",
+                    "Unix time in seconds at which the first of the listener's certificates expires",
+                    () -> engines.expiry().map(Instant::getEpochSecond).orElse(0L));
+        }
+        return Optional.of(new KafkaSslContextFactory(engines));
     }
 
     /** The port that is listened on. */

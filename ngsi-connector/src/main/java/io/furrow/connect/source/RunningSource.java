@@ -18,6 +18,7 @@ record RunningSource(
         TaskJournals journals,
         OwnSubscriptions subscriptions,
         Reception reception,
+        Ledger ledger,
         LedgerBean bean)
         implements AutoCloseable {
     /** @throws ConnectException naming the option if the folder or the address cannot be used */
@@ -33,7 +34,7 @@ record RunningSource(
             Reception reception = Reception.open(config, subscriptions.watched(intake), ledger, subscriptions::arrived);
             LedgerBean bean = LedgerBean.show(ledger, config.name(), config.taskIndex());
             RunningSource source =
-                    new RunningSource(config.originalsStrings(), journals, subscriptions, reception, bean);
+                    new RunningSource(config.originalsStrings(), journals, subscriptions, reception, ledger, bean);
             source.subscribe(intake);
             return source;
         } catch (RuntimeException e) {
