@@ -133,11 +133,11 @@ public class NgsiSourceTask extends SourceTask {
      */
     @Override
     public void stop() {
-        JournalKeeper keeping = keeper.getAndSet(null);
-        boolean away = keeping != null && keeping.close();
         if (limits != null) {
             limits.close();
         }
+        JournalKeeper keeping = keeper.getAndSet(null);
+        boolean away = keeping != null && keeping.close();
         RunningSource running = source.getAndSet(null);
         if (running == null) {
             return;
