@@ -93,6 +93,9 @@ public final class ConnectRig implements AutoCloseable {
         if (config.has("journal.dir")) {
             config.put("journal.dir", journals().toString());
         }
+        if (config.has("admin.override.bootstrap.servers")) {
+            config.put("admin.override.bootstrap.servers", bootstrapServers());
+        }
         options.forEach(config::put);
         HttpResponse<String> created = ask("PUT", "/connectors/" + name + "/config", config.toString());
         assertThat(created.statusCode()).as(created.body()).isBetween(200, 201);

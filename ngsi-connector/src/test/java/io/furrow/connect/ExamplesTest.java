@@ -24,7 +24,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 /** The examples in config/ hold options that exist, with values that are valid. */
 class ExamplesTest {
     private static final Pattern OF_CONNECT = Pattern.compile("name|connector\\.class|tasks\\.max|topics"
-            + "|(key|value|header)\\.converter(\\..*)?|(producer|consumer)\\.override\\..*|errors\\..*"
+            + "|(key|value|header)\\.converter(\\..*)?|(producer|consumer|admin)\\.override\\..*|topic\\.creation\\.default\\..*|errors\\..*"
             + "|exactly\\.once\\.support|offsets\\.storage\\.topic");
 
     static List<Path> examples() throws IOException {

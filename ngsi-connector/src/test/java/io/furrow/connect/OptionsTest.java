@@ -65,7 +65,7 @@ class OptionsTest {
         "sink, batch.size, none",
         "sink, context.broker.truststore.location, /nowhere",
         "source, listen.request.timeout.ms, 1000",
-        "source, tls.client.auth, required",
+        "source, ssl.client.auth, required",
         "source, listen.port, 65536",
         "source, exclude.types, ("
     })

@@ -11,9 +11,12 @@ import com.fasterxml.jackson.databind.JsonNode;
  *
  * @param subscriptionId empty where the form does not name it
  * @param entities in the order of the notification
- * @param rejected one per unreadable entity; the others of the same notification are not harmed
+ * @param rejected one per unreadable entity, at most {@value #MAX_REJECTED}; the others of the same notification are not harmed
  */
 public record Notification(Optional<String> subscriptionId, List<Entity> entities, List<Rejected> rejected) {
+    /** A notification with more unreadable entities than this is unreadable as a whole. */
+    public static final int MAX_REJECTED = 1000;
+
     /** One unreadable entity as it was reported, and why it could not be read. */
     public record Rejected(JsonNode reported, Reason reason, String message) {}
 
@@ -25,7 +28,7 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
      *
      * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, which NGSI-LD has not, or null: then the form is told from the
      *     shape
-     * @throws UnreadableException if nothing in the body can be understood
+     * @throws UnreadableException if nothing in the body can be understood, or more than {@value #MAX_REJECTED} of its entities cannot
      */
     public static Notification read(byte[] body, String attrsFormat) throws UnreadableException {
         JsonNode root = NgsiJson.read(body);
@@ -55,7 +58,7 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
                 && NgsiLdEntity.members(root.path("data")).isPresent();
     }
 
-    private static Notification readLinkedData(JsonNode root) {
+    private static Notification readLinkedData(JsonNode root) throws UnreadableException {
         List<JsonNode> data = NgsiLdEntity.members(root.get("data")).orElseThrow();
         Optional<String> subscription =
                 Optional.ofNullable(root.path("subscriptionId").textValue());
@@ -67,13 +70,19 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
         Entity read(JsonNode reported) throws UnreadableException;
     }
 
-    private static Notification readAll(Optional<String> subscription, Iterable<JsonNode> data, EntityReader reader) {
+    private static Notification readAll(Optional<String> subscription, Iterable<JsonNode> data, EntityReader reader)
+            throws UnreadableException {
         List<Entity> entities = new ArrayList<>();
         List<Rejected> rejected = new ArrayList<>();
         for (JsonNode reported : data) {
             try {
                 entities.add(reader.read(reported));
             } catch (UnreadableException e) {
+                if (rejected.size() == MAX_REJECTED) {
+                    throw new UnreadableException(
+                            e.reason(),
+                            "more than " + MAX_REJECTED + " entities cannot be read; here, " + e.getMessage());
+                }
                 rejected.add(new Rejected(reported, e.reason(), e.getMessage()));
             }
         }

@@ -2,7 +2,10 @@ package io.furrow.model.ngsi;
 
 import java.util.Objects;
 
-/** Input that cannot be understood: it becomes a dead letter and is never tried again. */
+/**
+ * Input that cannot be understood: it becomes a dead letter and is never tried again. It has no stack trace: it is about the
+ * input, of which there may be much, not about the program.
+ */
 public class UnreadableException extends Exception {
     private static final long serialVersionUID = 1L;
 
@@ -13,7 +16,7 @@ public class UnreadableException extends Exception {
     }
 
     public UnreadableException(Reason reason, String message, Throwable cause) {
-        super(message, cause);
+        super(message, cause, false, false);
         this.reason = Objects.requireNonNull(reason);
     }
 

@@ -99,6 +99,19 @@ class NotificationTest {
     }
 
     @Test
+    void isUnreadableAsAWholeWhereTooManyEntitiesAre() throws Exception {
+        String many = "0,".repeat(Notification.MAX_REJECTED - 1);
+
+        assertThat(Notification.read(bytes("{\"data\":[" + many + "0]}"), null).rejected())
+                .hasSize(Notification.MAX_REJECTED);
+        UnreadableException refused = unreadable("{\"data\":[" + many + "0,{\"id\":\"a\"},0]}", null);
+
+        assertThat(refused.reason()).isEqualTo(Reason.NOT_AN_ENTITY);
+        assertThat(refused).hasMessageContaining("more than " + Notification.MAX_REJECTED);
+        assertThat(refused.getStackTrace()).isEmpty();
+    }
+
+    @Test
     void readsTheRestWhereOneEntityCannotBeRead() throws Exception {
         String body = "{\"data\":[{\"id\":\"a\"},{\"id\":7},3,{\"id\":\"b\",\"type\":3},[],{\"id\":\"c\"}]}";
 

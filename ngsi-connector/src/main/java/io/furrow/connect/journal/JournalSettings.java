@@ -17,4 +17,18 @@ public record JournalSettings(long maxBytes, int segmentBytes, long maxWaiting, 
         int segment = (int) Math.min(LARGEST_SEGMENT, maxBytes / SEGMENTS_AT_LEAST);
         return new JournalSettings(maxBytes, segment, maxWaiting, minFree);
     }
+
+    /** Bytes of files that records of so many bytes may need where there is none yet; it errs on the side of too many. */
+    long needed(long bytes) {
+        long usableOfSegment = segmentBytes / 4 * 3;
+        long newFiles = (bytes / usableOfSegment + 1) * segmentBytes;
+        // What does not fit well into files of the usual size gets its own.
+        long largeFiles = bytes > segmentBytes / 4 ? bytes + SegmentFormat.HEADER : 0;
+        return newFiles + largeFiles;
+    }
+
+    /** Bytes of records that always fit into an empty journal at once. */
+    public long largestAppend() {
+        return (maxBytes - segmentBytes - SegmentFormat.HEADER) / 7 * 3;
+    }
 }

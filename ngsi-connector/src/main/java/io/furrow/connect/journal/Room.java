@@ -31,11 +31,7 @@ final class Room {
         if (toWrite <= leftInLast()) {
             return true;
         }
-        long usableOfSegment = settings.segmentBytes() / 4 * 3;
-        long newFiles = (toWrite / usableOfSegment + 1) * settings.segmentBytes();
-        // What does not fit well into files of the usual size gets its own.
-        long largeFiles = bytes > settings.segmentBytes() / 4 ? bytes + SegmentFormat.HEADER : 0;
-        long needed = newFiles + largeFiles;
+        long needed = settings.needed(toWrite);
         return segments.bytes() + needed <= settings.maxBytes() && isFree(needed);
     }
 

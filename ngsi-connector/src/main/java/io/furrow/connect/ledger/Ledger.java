@@ -58,6 +58,8 @@ public final class Ledger implements Numbers {
     public final Counter repeated =
             counter("repeated", "Entities that the repair read and passed over, because their event was seen before");
     public final Counter gaps = counter("gaps", "Times that notifications were or may have been missed");
+    public final Counter oversized = counter(
+            "oversized", "Durable records that became dead letters, because the topic takes no record so large");
     public final Counter clockAhead =
             counter("clockAhead", "Accepted entities whose own time is too far in the future");
     public final Counter unauthorized = counter("unauthorized", "Requests answered 401: a wrong secret, or none");

@@ -1,9 +1,13 @@
 package io.furrow.connect.source;
 
+import java.nio.ByteBuffer;
 import java.util.Map;
 import java.util.Optional;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.util.Callback;
 
 import io.furrow.connect.source.Translation.Refusal;
 import io.furrow.model.ngsi.NgsiJson;
@@ -40,8 +44,31 @@ record Answer(int status, byte[] body, Map<String, String> headers) {
     }
 
     static Answer notAllowed() {
-        Map<String, String> allow = Map.of("Allow", "POST");
-        return error(405, "method-not-allowed", "notifications come by POST; GET knows /health and /metrics", allow);
+        Map<String, String> allow = Map.of("Allow", "GET, HEAD, POST");
+        return error(
+                405, "method-not-allowed", "notifications come by POST; GET and HEAD know /health and /metrics", allow);
+    }
+
+    static Answer unknownEncoding() {
+        return error(
+                415,
+                "unsupported-encoding",
+                "the body was not read; send it without Content-Encoding, or with gzip alone",
+                Map.of("Accept-Encoding", "gzip"));
+    }
+
+    /** Nothing of the body is kept: what is left of it says nothing. */
+    static Answer notGzip(String why) {
+        return error(400, "not-gzip", "Content-Encoding says gzip, and the body is none: " + why, Map.of());
+    }
+
+    void write(Response response, Callback callback) {
+        response.setStatus(status);
+        headers.forEach((name, value) -> response.getHeaders().put(name, value));
+        if (body.length > 0) {
+            response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
+        }
+        response.write(true, ByteBuffer.wrap(body), callback);
     }
 
     private static Answer error(int status, String code, String description, Map<String, String> headers) {

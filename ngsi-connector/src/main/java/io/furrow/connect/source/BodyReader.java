@@ -3,15 +3,14 @@ package io.furrow.connect.source;
 import java.nio.ByteBuffer;
 import java.util.Arrays;
 import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.TimeUnit;
 
 import org.eclipse.jetty.io.Content;
 
 /**
  * Reads the body of a request without holding a thread, and keeps at most {@code limit} bytes of it. A longer body is read
  * on, up to four times the limit, and dropped: a client that is still writing would not see an answer otherwise. What is
- * kept is taken from a budget before it is read; while there is too little, the body stays in the network. Who asked for the
- * body gives the budget back.
+ * kept is taken from a budget before it is read; while there is too little, the body stays in the network and its sender is
+ * held. Who asked for the body gives the budget back.
  */
 final class BodyReader implements Runnable {
     /**
@@ -19,8 +18,9 @@ final class BodyReader implements Runnable {
      *
      * @param complete whether nothing of it was dropped
      * @param readToEnd whether the connection can carry another request
+     * @param heldNanos how long the sender was held, because the budget had too little
      */
-    record Body(byte[] bytes, boolean complete, boolean readToEnd) {}
+    record Body(byte[] bytes, boolean complete, boolean readToEnd, long heldNanos) {}
 
     /** A client can claim any length: memory beyond this follows what really comes. */
     private static final int LARGEST_FIRST_CAPACITY = 256 * 1024;
@@ -30,19 +30,20 @@ final class BodyReader implements Runnable {
     private final Content.Source source;
     private final int limit;
     private final ByteBudget budget;
-    private final long deadline;
+    private final long holdNanos;
     private final CompletableFuture<Body> body = new CompletableFuture<>();
     private byte[] kept = new byte[0];
     private int size;
     private long seen;
+    private long heldNanos;
     private Content.Chunk unread;
 
-    /** @param deadline as of {@link System#nanoTime}, after which there is no use in waiting for the budget */
-    BodyReader(Content.Source source, int limit, ByteBudget budget, long deadline) {
+    /** @param holdNanos how long the sender is held at most */
+    BodyReader(Content.Source source, int limit, ByteBudget budget, long holdNanos) {
         this.source = source;
         this.limit = limit;
         this.budget = budget;
-        this.deadline = deadline;
+        this.holdNanos = holdNanos;
     }
 
     /** The body; failed with an I/O error if the client goes away, with {@link OverloadException} if there is no memory. */
@@ -82,7 +83,7 @@ final class BodyReader implements Runnable {
             keep(chunk.getByteBuffer());
             chunk.release();
             if (last || seen > 4L * limit) {
-                body.complete(new Body(trimmed(), seen <= limit, last));
+                body.complete(new Body(trimmed(), seen <= limit, last, heldNanos));
                 return;
             }
         }
@@ -100,25 +101,19 @@ final class BodyReader implements Runnable {
         return size == kept.length ? kept : Arrays.copyOf(kept, size);
     }
 
-    /** Goes on when the budget has given the bytes, or fails at the deadline. */
+    /** Goes on when the budget has given the bytes, or fails when the sender was held long enough. */
     private void grow(int capacity, Runnable next) {
-        int more = capacity - kept.length;
-        Runnable grown = () -> {
-            kept = Arrays.copyOf(kept, capacity);
-            next.run();
-        };
-        if (budget.take(more, grown)) {
-            grown.run();
-            return;
-        }
-        body.copy()
-                .orTimeout(deadline - System.nanoTime(), TimeUnit.NANOSECONDS)
-                .whenComplete((read, failure) -> {
-                    if (budget.giveUp(grown)) {
-                        dropUnread();
-                        body.completeExceptionally(OverloadException.noRoom());
-                    }
-                });
+        long asked = System.nanoTime();
+        budget.take(capacity - kept.length, holdNanos - heldNanos).whenComplete((taken, noRoom) -> {
+            if (noRoom == null) {
+                heldNanos += System.nanoTime() - asked;
+                kept = Arrays.copyOf(kept, capacity);
+                next.run();
+            } else {
+                dropUnread();
+                body.completeExceptionally(noRoom);
+            }
+        });
     }
 
     private void dropUnread() {

@@ -5,27 +5,47 @@ import java.util.Iterator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.Executor;
+import java.util.concurrent.TimeUnit;
 
 /** A number of bytes that several exchanges share; who finds too few left is called, in turn, when there are enough. */
 final class ByteBudget {
     private final Map<Runnable, Long> waiting = new LinkedHashMap<>();
     private final Executor callers;
+    private final long size;
     private long left;
 
     /** @param callers who calls those that wait */
     ByteBudget(long bytes, Executor callers) {
+        this.size = bytes;
         this.left = bytes;
         this.callers = callers;
     }
 
-    /**
-     * Takes the bytes if they are there and nobody waits already.
-     *
-     * @param whenTaken called once the bytes were taken after all, unless they are taken at once
-     * @return whether the bytes were taken at once
-     */
-    synchronized boolean take(long bytes, Runnable whenTaken) {
+    /** All bytes, taken or left. */
+    long size() {
+        return size;
+    }
+
+    /** Completed when the bytes were taken, which may be at once; failed with {@link OverloadException} if they are not in time. */
+    CompletableFuture<Void> take(long bytes, long nanos) {
+        CompletableFuture<Void> taken = new CompletableFuture<>();
+        Runnable whenTaken = () -> taken.complete(null);
+        if (take(bytes, whenTaken)) {
+            taken.complete(null);
+            return taken;
+        }
+        taken.copy().orTimeout(nanos, TimeUnit.NANOSECONDS).whenComplete((nothing, late) -> {
+            if (giveUp(whenTaken)) {
+                taken.completeExceptionally(OverloadException.noRoom());
+            }
+        });
+        return taken;
+    }
+
+    /** Whether the bytes were taken at once: they are there and nobody waits already. */
+    private synchronized boolean take(long bytes, Runnable whenTaken) {
         if (waiting.isEmpty() && left >= bytes) {
             left -= bytes;
             return true;
@@ -35,7 +55,7 @@ final class ByteBudget {
     }
 
     /** Whether it was still waiting; it will not be called any more. */
-    synchronized boolean giveUp(Runnable whenTaken) {
+    private synchronized boolean giveUp(Runnable whenTaken) {
         return waiting.remove(whenTaken) != null;
     }
 

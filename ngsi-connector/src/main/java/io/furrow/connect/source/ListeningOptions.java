@@ -1,6 +1,7 @@
 package io.furrow.connect.source;
 
 import java.time.Duration;
+import java.util.OptionalInt;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
@@ -13,10 +14,12 @@ import org.apache.kafka.common.config.ConfigDef.Width;
 record ListeningOptions(AbstractConfig config, int task) {
     static final String HOST = "listen.host";
     static final String PORT = "listen.port";
+    static final String HEALTH_PORT = "health.port";
     static final String MAX_CONNECTIONS = "listen.max.connections";
     static final String IDLE_TIMEOUT = "listen.idle.timeout.ms";
     static final String REQUEST_TIMEOUT = "listen.request.timeout.ms";
 
+    private static final int NO_PORT = -1;
     private static final long HOUR = Duration.ofHours(1).toMillis();
 
     static void define(ConfigDef options) {
@@ -45,6 +48,19 @@ record ListeningOptions(AbstractConfig config, int task) {
                 2,
                 Width.SHORT,
                 "Port");
+        options.define(
+                HEALTH_PORT,
+                Type.INT,
+                NO_PORT,
+                Range.between(NO_PORT, 65535),
+                Importance.LOW,
+                "TCP port of the first task, at the same address, for /health and /metrics in plain HTTP beside the listener: for"
+                        + " probes and scrapers where that asks for client certificates. Task i (from 0) has this port + i."
+                        + " -1 for none; 0 takes free ones, which only a test can use.",
+                group,
+                3,
+                Width.SHORT,
+                "Health port");
         defineLimits(options, group);
     }
 
@@ -77,7 +93,7 @@ record ListeningOptions(AbstractConfig config, int task) {
                 20_000L,
                 Range.between(100, HOUR),
                 Importance.LOW,
-                "Milliseconds from the first byte of a request to its answer; a slower sender is cut. More than "
+                "Milliseconds from the first byte of a request to its answer, holding included; a slower sender is cut. More than "
                         + OverloadOptions.HOLD + ".",
                 group,
                 12,
@@ -103,7 +119,22 @@ record ListeningOptions(AbstractConfig config, int task) {
 
     /** The port of this task; 0 for a free one. */
     int port() {
-        return firstPort() == 0 ? 0 : firstPort() + task;
+        return ofTask(firstPort());
+    }
+
+    /** The port of this task for the pages alone, 0 for a free one; empty where they are on the listener only. */
+    OptionalInt healthPort() {
+        int first = firstHealthPort();
+        return first == NO_PORT ? OptionalInt.empty() : OptionalInt.of(ofTask(first));
+    }
+
+    private int ofTask(int first) {
+        return first == 0 ? 0 : first + task;
+    }
+
+    /** The health port of the first task; -1 for none. */
+    int firstHealthPort() {
+        return config.getInt(HEALTH_PORT);
     }
 
     /** The port of the first task. */

@@ -8,6 +8,7 @@ import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.broker.BrokerOptions;
+import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.http.AccessRule;
 
@@ -72,6 +73,15 @@ public class NgsiSourceConfig extends AbstractConfig {
                     listening.firstPort(),
                     "task i listens on " + ListeningOptions.PORT + " + i, and there are " + tasks + " tasks; lower it");
         }
+        int port = listening.firstPort();
+        int health = listening.firstHealthPort();
+        if (health + tasks - 1 > LAST_PORT || health > 0 && port > 0 && Math.abs(health - port) < tasks) {
+            throw new ConfigException(
+                    ListeningOptions.HEALTH_PORT,
+                    health,
+                    "task i takes this port + i, and there are " + tasks + " tasks; it must not meet "
+                            + ListeningOptions.PORT + " + i, nor pass " + LAST_PORT);
+        }
     }
 
     private void checkSizes() {
@@ -90,6 +100,14 @@ public class NgsiSourceConfig extends AbstractConfig {
                     PendingOptions.MAX_PENDING_BYTES,
                     pending.maxBytes(),
                     "must be at least " + SizeOptions.MAX_BODY_BYTES);
+        }
+        long room = journalSettings().largestAppend() - SizeOptions.ROOM_FOR_HEADERS;
+        if (sizes.maxBodyBytes() > room) {
+            throw new ConfigException(
+                    SizeOptions.MAX_BODY_BYTES,
+                    sizes.maxBodyBytes(),
+                    "a journal of " + journal.maxBytes() + " bytes never has room for it; lower it to " + room
+                            + " at most, or raise " + JournalOptions.MAX_BYTES);
         }
     }
 
@@ -208,6 +226,10 @@ public class NgsiSourceConfig extends AbstractConfig {
         return repair;
     }
 
+    JournalSettings journalSettings() {
+        return JournalSettings.of(journal.maxBytes(), pending.maxBytes(), journal.minFreeBytes());
+    }
+
     /** What the translation of notifications needs. */
     NotificationTranslator.Settings translation() {
         return new NotificationTranslator.Settings(
@@ -216,6 +238,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 topics.deadLetterTopic(),
                 entities.excludedTypes(),
                 entities.maxClockSkew(),
-                sizes.maxRecordBytes());
+                sizes.maxRecordBytes(),
+                journalSettings().largestAppend());
     }
 }

@@ -25,6 +25,8 @@ public class NgsiSourceTask extends SourceTask {
     private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
     private NgsiSourceConfig config;
     private int batchSize;
+    private TopicLimits limits;
+    private RecordSizes sizes;
 
     /** Made by the worker. */
     public NgsiSourceTask() {}
@@ -42,6 +44,7 @@ public class NgsiSourceTask extends SourceTask {
             source.set(Standby.leave(config)
                     .map(running -> resumed(running, this::committed))
                     .orElseGet(() -> RunningSource.open(config, this::committed)));
+            askForLimits();
             keeper.set(JournalKeeper.start(source.get().journals(), config.taskCount() > 1));
         } catch (RuntimeException | Error e) {
             // The worker does not stop a task that did not start.
@@ -66,6 +69,19 @@ public class NgsiSourceTask extends SourceTask {
         }
     }
 
+    private void askForLimits() {
+        TopicOptions topics = config.topics();
+        limits = TopicLimits.open(
+                config.sizes().admin(),
+                "furrow-" + config.name() + "-" + config.taskIndex(),
+                List.of(topics.topic(), topics.deadLetterTopic()));
+        sizes = new RecordSizes(
+                limits,
+                config.sizes().maxRecordBytes(),
+                topics.deadLetterTopic(),
+                source.get().ledger());
+    }
+
     private OptionalLong committed(String journal) {
         return SourceOffsets.committed(context.offsetStorageReader(), journal);
     }
@@ -88,7 +104,8 @@ public class NgsiSourceTask extends SourceTask {
         if (turn.records().isEmpty()) {
             return null;
         }
-        List<SourceRecord> records = SourceRecords.of(turn);
+        limits.refresh();
+        List<SourceRecord> records = SourceRecords.of(turn, sizes);
         source.get().subscriptions().handedOn(records);
         return records;
     }
@@ -117,6 +134,9 @@ public class NgsiSourceTask extends SourceTask {
      */
     @Override
     public void stop() {
+        if (limits != null) {
+            limits.close();
+        }
         JournalKeeper keeping = keeper.getAndSet(null);
         RunningSource running = source.getAndSet(null);
         boolean standby = keeping != null

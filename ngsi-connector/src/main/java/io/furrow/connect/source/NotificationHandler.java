@@ -2,18 +2,13 @@ package io.furrow.connect.source;
 
 import java.io.IOException;
 import java.net.StandardSocketOptions;
-import java.nio.ByteBuffer;
 import java.nio.channels.NetworkChannel;
 import java.time.Clock;
-import java.util.Map;
-import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.CompletionException;
-import java.util.function.Supplier;
+import java.util.zip.ZipException;
 
 import org.eclipse.jetty.http.HttpHeader;
-import org.eclipse.jetty.http.HttpMethod;
-import org.eclipse.jetty.io.Content;
 import org.eclipse.jetty.io.EndPoint;
 import org.eclipse.jetty.io.EofException;
 import org.eclipse.jetty.server.Handler;
@@ -25,80 +20,45 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.ledger.Ledger;
 
-/**
- * {@code POST} on any path takes a notification and is answered when its records are durable; {@code GET} shows the pages. No
- * thread waits for a body, for room or for durability.
- */
+/** Takes every request for a notification and answers it when its records are durable. No thread waits for a body, for room or for durability. */
 final class NotificationHandler extends Handler.Abstract.NonBlocking {
     private static final Logger LOG = LoggerFactory.getLogger(NotificationHandler.class);
 
-    private final Gatekeeper gatekeeper;
     private final NotificationTranslator translator;
     private final Deliveries deliveries;
     private final Ledger ledger;
     private final Limits limits;
-    private final Map<String, Supplier<Page>> pages;
 
     /**
      * @param maxBody bytes of a body
      * @param bodies bytes of all bodies whose senders have no answer yet
-     * @param holdNanos how long a sender waits at most, until its body is read and its records are durable
+     * @param translations bytes of heap that notifications take beside their bodies, from the end of the body to the answer
+     * @param holdNanos how long a sender is held at most: for memory, and from the end of its body until its records are durable
      * @param resets whether it then loses its connection, or is answered 503
      */
-    record Limits(int maxBody, ByteBudget bodies, long holdNanos, boolean resets) {}
+    record Limits(int maxBody, ByteBudget bodies, ByteBudget translations, long holdNanos, boolean resets) {}
 
-    /** What a notification passes, in this order. */
-    record Path(Gatekeeper gatekeeper, NotificationTranslator translator, Deliveries deliveries) {}
-
-    NotificationHandler(Path path, Ledger ledger, Limits limits, Map<String, Supplier<Page>> pages) {
-        this.gatekeeper = path.gatekeeper();
-        this.translator = path.translator();
-        this.deliveries = path.deliveries();
+    NotificationHandler(NotificationTranslator translator, Deliveries deliveries, Ledger ledger, Limits limits) {
+        this.translator = translator;
+        this.deliveries = deliveries;
         this.ledger = ledger;
         this.limits = limits;
-        this.pages = Map.copyOf(pages);
     }
 
     @Override
     public boolean handle(Request request, Response response, Callback callback) {
-        if (HttpMethod.POST.is(request.getMethod())) {
-            Optional<Answer> refused = gatekeeper.refuse(request.getHeaders()::get);
-            if (refused.isPresent()) {
-                refuse(request, response, refused.get(), callback);
-            } else {
-                take(request, response, callback);
-            }
-            return true;
-        }
-        Supplier<Page> page = pages.get(Request.getPathInContext(request));
-        if (HttpMethod.GET.is(request.getMethod()) && page != null) {
-            show(page.get(), response, callback);
-        } else {
-            write(response, Answer.notAllowed(), callback);
-        }
+        take(request, response, callback);
         return true;
     }
 
-    /** Reads the body first, and drops it: a sender that is still writing would find its connection closed, not the answer. */
-    private void refuse(Request request, Response response, Answer refusal, Callback callback) {
-        if (request.getLength() > limits.maxBody()) {
-            response.getHeaders().put(HttpHeader.CONNECTION, "close");
-            write(response, refusal, callback);
-        } else {
-            Content.Source.consumeAll(
-                    request, Callback.from(() -> write(response, refusal, callback), callback::failed));
-        }
-    }
-
     private void take(Request request, Response response, Callback callback) {
-        long deadline = System.nanoTime() + limits.holdNanos();
-        BodyReader reader = new BodyReader(request, limits.maxBody(), limits.bodies(), deadline);
+        BodyReader reader = new BodyReader(request, limits.maxBody(), limits.bodies(), limits.holdNanos());
         reader.start()
                 .thenCompose(body -> {
                     if (!body.readToEnd()) {
                         response.getHeaders().put(HttpHeader.CONNECTION, "close");
                     }
-                    return deliver(translator.translate(received(request, body)), deadline);
+                    return deliver(received(request, body), System.nanoTime() + limits.holdNanos() - body.heldNanos());
                 })
                 // On a thread of the server: what completes the delivery is the one thread that writes to the disk.
                 .whenCompleteAsync(
@@ -107,6 +67,36 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
                             answer(request, response, answer, failure, callback);
                         },
                         getServer().getThreadPool());
+    }
+
+    private CompletableFuture<Answer> deliver(ReceivedNotification received, long deadline) {
+        ByteBudget memory = limits.translations();
+        long estimate = HeapEstimate.of(received.body());
+        boolean fits = estimate <= memory.size() || !received.complete();
+        long taken = fits ? Math.min(estimate, memory.size()) : asDeadLetter(received);
+        CompletableFuture<Void> room = memory.take(taken, deadline - System.nanoTime());
+        return room.thenCompose(nothing -> {
+                    Translation translation = fits
+                            ? translator.translate(received)
+                            : translator.refuse(received, tooMuch(estimate, memory));
+                    return deliver(translation, deadline);
+                })
+                .whenComplete((answer, failure) -> {
+                    if (!room.isCompletedExceptionally()) {
+                        memory.giveBack(taken);
+                    }
+                });
+    }
+
+    private long asDeadLetter(ReceivedNotification received) {
+        return Math.min(
+                (long) received.body().length * HeapEstimate.PER_BYTE,
+                limits.translations().size());
+    }
+
+    private static String tooMuch(long estimate, ByteBudget memory) {
+        return "the notification would take about " + estimate + " bytes of memory, the limit is " + memory.size()
+                + "; send fewer entities at a time, or raise " + OverloadOptions.TRANSLATION_MEMORY;
     }
 
     private CompletableFuture<Answer> deliver(Translation translation, long deadline) {
@@ -118,13 +108,16 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
     private void answer(Request request, Response response, Answer answer, Throwable failure, Callback callback) {
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;
         if (cause == null) {
-            write(response, answer, callback);
+            answer.write(response, callback);
         } else if (cause instanceof OverloadException || cause instanceof Intake.ClosedException) {
             ledger.overload.increment();
             if (cause instanceof OverloadException overload && overload.isLate()) {
                 ledger.late.increment();
             }
             notDurable(request, response, callback);
+        } else if (cause.getCause() instanceof ZipException notGzip) { // Jetty wraps it
+            response.getHeaders().put(HttpHeader.CONNECTION, "close");
+            Answer.notGzip(notGzip.getMessage()).write(response, callback);
         } else if (cause instanceof IOException || cause instanceof java.util.concurrent.TimeoutException) {
             ledger.cut.increment();
             callback.failed(cause);
@@ -140,7 +133,7 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
             reset(request, callback);
         } else {
             response.getHeaders().put(HttpHeader.CONNECTION, "close");
-            write(response, Answer.overload(), callback);
+            Answer.overload().write(response, callback);
         }
     }
 
@@ -169,20 +162,5 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
                 request.getHeaders()::get,
                 Clock.systemUTC().instant(),
                 Request.getRemoteAddr(request) + " " + request.getHttpURI().getPath());
-    }
-
-    private static void show(Page page, Response response, Callback callback) {
-        response.getHeaders().put(HttpHeader.CACHE_CONTROL, "no-store");
-        response.getHeaders().put(HttpHeader.CONTENT_TYPE, page.contentType());
-        response.write(true, ByteBuffer.wrap(page.body()), callback);
-    }
-
-    private static void write(Response response, Answer answer, Callback callback) {
-        response.setStatus(answer.status());
-        answer.headers().forEach((name, value) -> response.getHeaders().put(name, value));
-        if (answer.body().length > 0) {
-            response.getHeaders().put(HttpHeader.CONTENT_TYPE, "application/json");
-        }
-        response.write(true, ByteBuffer.wrap(answer.body()), callback);
     }
 }

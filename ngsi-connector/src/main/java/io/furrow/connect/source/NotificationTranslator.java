@@ -25,7 +25,8 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Turns a notification into records: one per entity, without a value where it was deleted, one dead letter per entity that cannot be read, and one dead letter
- * with the original bytes where nothing can be read. No record is larger than {@link Settings#maxRecordBytes}.
+ * with the original bytes where nothing can be read, or more than the source can hold would come of it. No record is larger than
+ * {@link Settings#maxRecordBytes}.
  */
 final class NotificationTranslator {
     static final String STAGE = "ngsi-source";
@@ -33,10 +34,16 @@ final class NotificationTranslator {
     private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
     private static final int LONGEST_MESSAGE = 500;
     private static final int HEADERS_AT_MOST = 32 * 1024;
+    /** What the journal adds to a record. */
+    private static final int JOURNAL_OVERHEAD = 100;
+    /** Records are longer than the body, mostly by their headers; never by more than this. */
+    private static final int LARGEST_GROWTH = 256;
 
     /**
      * @param name of the connector, for {@code ce_source} where no subscription is named
      * @param excluded entities of a type that one of these matches as a whole are dropped
+     * @param maxRecordBytes of one record
+     * @param maxNotificationBytes of all records of a notification: what is larger can never be made durable
      */
     record Settings(
             String name,
@@ -44,7 +51,8 @@ final class NotificationTranslator {
             String deadLetterTopic,
             List<Pattern> excluded,
             Duration maxClockSkew,
-            int maxRecordBytes) {}
+            int maxRecordBytes,
+            long maxNotificationBytes) {}
 
     private final Settings settings;
     private final Ledger ledger;
@@ -65,15 +73,25 @@ final class NotificationTranslator {
     Translation translate(ReceivedNotification received) {
         ledger.requests.increment();
         if (!received.complete()) {
-            String message =
-                    "the body is larger than " + received.body().length + " bytes; only these were kept (truncated)";
-            return refused(received, new Refusal(Reason.TOO_LARGE, message));
+            return refused(
+                    received,
+                    "the body is larger than " + received.body().length + " bytes; only these were kept (truncated)");
         }
         try {
             return translate(Notification.read(received.body(), received.attrsFormat()), received);
         } catch (UnreadableException e) {
             return refused(received, new Refusal(e.reason(), e.getMessage()));
         }
+    }
+
+    /** Does not even read it, for this reason. */
+    Translation refuse(ReceivedNotification received, String message) {
+        ledger.requests.increment();
+        return refused(received, message);
+    }
+
+    private Translation refused(ReceivedNotification received, String message) {
+        return refused(received, new Refusal(Reason.TOO_LARGE, message));
     }
 
     private Translation translate(Notification notification, ReceivedNotification received) {
@@ -84,12 +102,8 @@ final class NotificationTranslator {
                         .orElse(settings.name());
         notification.subscriptionId().ifPresent(arrived);
         List<OutgoingRecord> records = new ArrayList<>();
-        ledger.received.add(
-                notification.entities().size() + notification.rejected().size());
         for (Entity entity : notification.entities()) {
-            if (isExcluded(entity)) {
-                ledger.excluded.increment();
-            } else {
+            if (!isExcluded(entity)) {
                 records.add(translate(entity, source, received));
             }
         }
@@ -97,7 +111,36 @@ final class NotificationTranslator {
             Refusal refusal = new Refusal(rejected.reason(), rejected.message());
             records.add(deadLetter(NgsiJson.write(rejected.reported()), refusal, received));
         }
+        if (areTooLarge(records, received)) {
+            return refused(
+                    received,
+                    "the entities make records of more than " + settings.maxNotificationBytes()
+                            + " bytes together, and the journal never has room for them; raise "
+                            + JournalOptions.MAX_BYTES + ", or send fewer at a time");
+        }
+        count(notification, records);
         return new Translation(records, refusalOf(notification));
+    }
+
+    private boolean areTooLarge(List<OutgoingRecord> records, ReceivedNotification received) {
+        long most = settings.maxNotificationBytes();
+        return (long) received.body().length * LARGEST_GROWTH > most
+                && records.stream()
+                                .mapToLong(record -> record.bytes() + JOURNAL_OVERHEAD)
+                                .sum()
+                        > most;
+    }
+
+    private void count(Notification notification, List<OutgoingRecord> records) {
+        int received = notification.entities().size() + notification.rejected().size();
+        int dead = 0;
+        for (OutgoingRecord record : records) {
+            dead += record.topic().equals(settings.deadLetterTopic()) ? 1 : 0;
+        }
+        ledger.received.add(received);
+        ledger.excluded.add(received - records.size());
+        ledger.dead.add(dead);
+        ledger.accepted.add(records.size() - dead);
     }
 
     private boolean isExcluded(Entity entity) {
@@ -127,14 +170,12 @@ final class NotificationTranslator {
             ledger.clockAhead.increment();
             clocks.note(event);
         }
-        ledger.accepted.increment();
         return record;
     }
 
     private OutgoingRecord deletion(Entity entity, String source, ReceivedNotification received) {
         EntityDeletion deletion = EntityDeletion.of(
                 entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
-        ledger.accepted.increment();
         return new OutgoingRecord(
                 settings.topic(),
                 entity.id(),
@@ -155,11 +196,11 @@ final class NotificationTranslator {
 
     private Translation refused(ReceivedNotification received, Refusal refusal) {
         ledger.received.increment();
+        ledger.dead.increment();
         return new Translation(List.of(deadLetter(received.body(), refusal, received)), Optional.of(refusal));
     }
 
     private OutgoingRecord deadLetter(byte[] original, Refusal refusal, ReceivedNotification received) {
-        ledger.dead.increment();
         int room = settings.maxRecordBytes() - HEADERS_AT_MOST;
         boolean fits = original.length <= room;
         String message = shortened(refusal.message()) + (fits ? "" : " (truncated to " + room + " bytes)");

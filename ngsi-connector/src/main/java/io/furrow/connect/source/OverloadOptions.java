@@ -17,10 +17,12 @@ record OverloadOptions(AbstractConfig config) {
     static final String ANSWER = "overload.answer";
     static final String HOLD = "overload.hold.ms";
     static final String MEMORY = "overload.memory.bytes";
+    static final String TRANSLATION_MEMORY = "translation.memory.bytes";
 
     private static final String RESET = "reset";
     private static final String UNAVAILABLE = "503";
     private static final long MIB = 1024 * 1024;
+    private static final int SHARE_OF_HEAP = 4;
 
     static void define(ConfigDef options) {
         String group = "Overload";
@@ -44,8 +46,8 @@ record OverloadOptions(AbstractConfig config) {
                 4_000L,
                 Range.between(1, 60_000),
                 Importance.MEDIUM,
-                "Milliseconds that an answer is held back, until there is room and the records are durable. Less than the"
-                        + " sender's own patience, which is 5 s in an Orion unless it was started with another -httpTimeout.",
+                "Milliseconds that a sender is held, once its body is there, until there is room and the records are durable; time"
+                        + " that its body waits for memory counts too. Less than the sender's own patience, which is 5 s in an Orion unless it was started with another -httpTimeout.",
                 group,
                 2,
                 Width.SHORT,
@@ -57,12 +59,25 @@ record OverloadOptions(AbstractConfig config) {
                 Range.atLeast(1),
                 Importance.LOW,
                 "Bytes of bodies whose senders have no answer yet; beyond it bodies are left in the network, and their senders"
-                        + " wait. The heap needs about four times as much. At least " + SizeOptions.MAX_BODY_BYTES
-                        + ".",
+                        + " wait. At least " + SizeOptions.MAX_BODY_BYTES + ".",
                 group,
                 3,
                 Width.SHORT,
                 "Memory (bytes)");
+        options.define(
+                TRANSLATION_MEMORY,
+                Type.LONG,
+                0L,
+                Range.atLeast(0),
+                Importance.LOW,
+                "Bytes of heap that notifications may take at a time beside their bodies, by estimate, from the end of a body to"
+                        + " its answer; beyond it their senders wait. What is estimated to need more alone is answered 413 and"
+                        + " becomes one dead letter. A body needs " + HeapEstimate.PER_BYTE
+                        + " times its size, and the more the more values it has. 0 for a quarter of the worker's heap.",
+                group,
+                4,
+                Width.SHORT,
+                "Translation (bytes)");
     }
 
     /** Whether a connection is cut rather than answered 503. */
@@ -76,5 +91,10 @@ record OverloadOptions(AbstractConfig config) {
 
     long memoryBytes() {
         return config.getLong(MEMORY);
+    }
+
+    long translationMemoryBytes() {
+        long bytes = config.getLong(TRANSLATION_MEMORY);
+        return bytes > 0 ? bytes : Runtime.getRuntime().maxMemory() / SHARE_OF_HEAP;
     }
 }

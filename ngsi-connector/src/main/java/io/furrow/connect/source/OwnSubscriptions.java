@@ -146,7 +146,7 @@ final class OwnSubscriptions implements AutoCloseable {
     }
 
     private String http() {
-        return config.tls().keys().isPresent() ? "https" : "http";
+        return config.tls().isOn() ? "https" : "http";
     }
 
     /** The one that counts; a previous one is only taken, not asked for. */

@@ -2,10 +2,11 @@ package io.furrow.connect.source;
 
 import java.io.UncheckedIOException;
 import java.net.InetSocketAddress;
-import java.security.KeyStore;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.Map;
 import java.util.Optional;
+import java.util.OptionalInt;
 import java.util.function.Consumer;
 import java.util.function.Supplier;
 
@@ -23,13 +24,16 @@ import io.furrow.model.ngsi.NgsiJson;
 /** Everything between the port and the intake; closing it frees the port and answers whoever waits. */
 final class Reception implements AutoCloseable {
     private static final Duration BIND_PATIENCE = Duration.ofSeconds(10);
+    private static final int HEALTH_CONNECTIONS = 64;
 
     private final Deliveries deliveries;
     private final NotificationServer server;
+    private final Optional<NotificationServer> health;
 
-    private Reception(Deliveries deliveries, NotificationServer server) {
+    private Reception(Deliveries deliveries, NotificationServer server, Optional<NotificationServer> health) {
         this.deliveries = deliveries;
         this.server = server;
+        this.health = health;
     }
 
     /**
@@ -60,24 +64,61 @@ final class Reception implements AutoCloseable {
             Duration patience) {
         QueuedThreadPool threads = NotificationServer.threads();
         Deliveries deliveries = new Deliveries(intake, ledger);
-        Handler handler = new NotificationHandler(
-                new NotificationHandler.Path(new Gatekeeper(config.security(), ledger), translator, deliveries),
+        Handler notifications = new NotificationHandler(
+                translator,
+                deliveries,
                 ledger,
                 new NotificationHandler.Limits(
                         config.sizes().maxBodyBytes(),
                         new ByteBudget(config.overload().memoryBytes(), threads),
+                        new ByteBudget(config.overload().translationMemoryBytes(), threads),
                         config.overload().hold().toNanos(),
-                        config.overload().resets()),
-                pages(config, ledger));
-        Handler guarded = new AccessHandler(config.accessRule(), new ForeignRequests(ledger), handler);
+                        config.overload().resets()));
+        Handler requests = new RequestHandler(
+                new Gatekeeper(config.security(), ledger),
+                notifications,
+                new PageHandler(pages(config, ledger)),
+                config.sizes().maxBodyBytes());
+        Optional<NotificationServer> health = Optional.empty();
         try {
+            health = health(config, ledger, patience);
             return new Reception(
-                    deliveries, NotificationServer.start(settings(config), threads, guarded, ledger, patience));
+                    deliveries,
+                    NotificationServer.start(
+                            settings(config, ledger), threads, guarded(config, ledger, requests), ledger, patience),
+                    health);
         } catch (UncheckedIOException e) {
-            deliveries.close();
-            String remedy = "; free the address or change " + ListeningOptions.HOST + " or " + ListeningOptions.PORT;
+            close(deliveries, health);
+            String remedy = "; free the address or change " + ListeningOptions.HOST + ", " + ListeningOptions.PORT
+                    + " or " + ListeningOptions.HEALTH_PORT;
             throw new ConnectException(e.getCause().getMessage() + remedy, e);
+        } catch (RuntimeException e) {
+            close(deliveries, health);
+            throw e;
         }
+    }
+
+    /** In plain HTTP, with threads of its own: what becomes of the listener must not keep anybody from seeing it. */
+    private static Optional<NotificationServer> health(NgsiSourceConfig config, Ledger ledger, Duration patience) {
+        ListeningOptions listening = config.listening();
+        OptionalInt port = listening.healthPort();
+        return port.isEmpty()
+                ? Optional.empty()
+                : Optional.of(NotificationServer.start(
+                        new NotificationServer.Settings(
+                                new InetSocketAddress(listening.host(), port.getAsInt()),
+                                Optional.empty(),
+                                HEALTH_CONNECTIONS,
+                                listening.idleTimeout(),
+                                listening.requestTimeout()),
+                        NotificationServer.threads(),
+                        guarded(config, ledger, new PageHandler(pages(config, ledger))),
+                        ledger,
+                        patience));
+    }
+
+    private static Handler guarded(NgsiSourceConfig config, Ledger ledger, Handler handler) {
+        return new AccessHandler(config.accessRule(), new ForeignRequests(ledger), handler);
     }
 
     private static Map<String, Supplier<Page>> pages(NgsiSourceConfig config, Ledger ledger) {
@@ -89,27 +130,28 @@ final class Reception implements AutoCloseable {
                 () -> new Page(PrometheusPage.CONTENT_TYPE, prometheus.write()));
     }
 
-    private static NotificationServer.Settings settings(NgsiSourceConfig config) {
+    private static NotificationServer.Settings settings(NgsiSourceConfig config, Ledger ledger) {
         ListeningOptions listening = config.listening();
         return new NotificationServer.Settings(
                 new InetSocketAddress(listening.host(), listening.port()),
-                tls(config.tls()),
+                tls(config.tls(), ledger),
                 listening.maxConnections(),
                 listening.idleTimeout(),
                 listening.requestTimeout());
     }
 
-    private static Optional<SslContextFactory.Server> tls(TlsOptions options) {
-        return options.keys().map(keys -> {
-            SslContextFactory.Server tls = new SslContextFactory.Server();
-            KeyStore store = KeyStores.keys(keys);
-            tls.setKeyStore(store);
-            tls.setKeyStorePassword(keys.password().value());
-            options.trusted().map(KeyStores::certificates).ifPresent(tls::setTrustStore);
-            tls.setNeedClientAuth(options.clientAuth().equals("required"));
-            tls.setWantClientAuth(options.clientAuth().equals("requested"));
-            return tls;
-        });
+    private static Optional<SslContextFactory.Server> tls(TlsOptions options, Ledger ledger) {
+        if (!options.isOn()) {
+            return Optional.empty();
+        }
+        TlsEngines engines = TlsEngines.open(options);
+        if (engines.expiry().isPresent()) {
+            ledger.gauge(
+                    "certificateExpirySeconds",
+                    "Unix time in seconds at which the first of the listener's certificates expires",
+                    () -> engines.expiry().map(Instant::getEpochSecond).orElse(0L));
+        }
+        return Optional.of(new KafkaSslContextFactory(engines));
     }
 
     /** The port that is listened on. */
@@ -117,9 +159,19 @@ final class Reception implements AutoCloseable {
         return server.port();
     }
 
+    /** The port of the pages alone; empty where there is none. */
+    OptionalInt healthPort() {
+        return health.map(NotificationServer::port).map(OptionalInt::of).orElseGet(OptionalInt::empty);
+    }
+
+    private static void close(Deliveries deliveries, Optional<NotificationServer> health) {
+        deliveries.close();
+        health.ifPresent(NotificationServer::close);
+    }
+
     @Override
     public void close() {
-        deliveries.close();
+        close(deliveries, health);
         server.close();
     }
 }

@@ -9,7 +9,6 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.apache.kafka.connect.errors.ConnectException;
 
 import io.furrow.connect.journal.JournalFolders;
-import io.furrow.connect.journal.JournalSettings;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.ledger.LedgerBean;
 
@@ -19,6 +18,7 @@ record RunningSource(
         TaskJournals journals,
         OwnSubscriptions subscriptions,
         Reception reception,
+        Ledger ledger,
         LedgerBean bean)
         implements AutoCloseable {
     /** @throws ConnectException naming the option if the folder or the address cannot be used */
@@ -34,7 +34,7 @@ record RunningSource(
             Reception reception = Reception.open(config, subscriptions.watched(intake), ledger, subscriptions::arrived);
             LedgerBean bean = LedgerBean.show(ledger, config.name(), config.taskIndex());
             RunningSource source =
-                    new RunningSource(config.originalsStrings(), journals, subscriptions, reception, bean);
+                    new RunningSource(config.originalsStrings(), journals, subscriptions, reception, ledger, bean);
             source.subscribe(intake);
             return source;
         } catch (RuntimeException | Error e) {
@@ -53,11 +53,7 @@ record RunningSource(
     }
 
     private static TaskJournals openJournals(NgsiSourceConfig config, TaskJournals.Committed committed, Ledger ledger) {
-        JournalSettings settings = JournalSettings.of(
-                config.journal().maxBytes(),
-                config.pending().maxBytes(),
-                config.journal().minFreeBytes());
-        JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), settings);
+        JournalFolders folders = new JournalFolders(config.journal().dir(), config.name(), config.journalSettings());
         try {
             return new TaskJournals(folders, config.taskIndex(), committed, ledger);
         } catch (UncheckedIOException e) {

@@ -1,5 +1,7 @@
 package io.furrow.connect.source;
 
+import java.util.Map;
+
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
 import org.apache.kafka.common.config.ConfigDef.Importance;
@@ -13,9 +15,19 @@ record SizeOptions(AbstractConfig config) {
     static final String MAX_BODY_BYTES = "max.body.bytes";
     static final String MAX_RECORD_BYTES = "max.record.bytes";
 
-    private static final String PRODUCER_LIMIT = "producer.override.max.request.size";
-    private static final int PRODUCER_DEFAULT = 1024 * 1024;
-    private static final int ROOM_FOR_TRANSFORMATIONS = 16 * 1024;
+    /** Of a record, and what the journal adds. */
+    static final int ROOM_FOR_HEADERS = 64 * 1024;
+
+    /** What a transformation may add to a record, and the batch that it is sent in. */
+    static final int ROOM_FOR_TRANSFORMATIONS = 16 * 1024;
+
+    static final String PRODUCER_LIMIT = "producer.override.max.request.size";
+    /** Connect's prefix for the admin clients of a connector; with {@code bootstrap.servers} the source has one too. */
+    static final String ADMIN_PREFIX = "admin.override.";
+
+    private static final String NEW_TOPIC_LIMIT = "topic.creation.default.max.message.bytes";
+    private static final String BOOTSTRAP_SERVERS = ADMIN_PREFIX + "bootstrap.servers";
+    private static final int KAFKAS_DEFAULT = 1024 * 1024;
     private static final int SMALLEST_RECORD_LIMIT = 128 * 1024;
     private static final int MIB = 1024 * 1024;
 
@@ -48,8 +60,10 @@ record SizeOptions(AbstractConfig config) {
                 Range.between(0, 1024 * MIB),
                 Importance.MEDIUM,
                 "Largest record in bytes; an entity beyond it becomes a dead letter, because a record that the producer"
-                        + " or the broker refuses would stop the task. 0 derives it from " + PRODUCER_LIMIT
-                        + " of this connector, or from Kafka's 1 MiB. The broker's message.max.bytes must allow it too.",
+                        + " or the broker refuses would stop the task. 0 takes what is less of " + PRODUCER_LIMIT
+                        + " and "
+                        + NEW_TOPIC_LIMIT + ", 1 MiB where one is absent as it is Kafka's default for both; with "
+                        + BOOTSTRAP_SERVERS + " the source asks Kafka for the topic's max.message.bytes instead.",
                 group,
                 2,
                 Width.SHORT,
@@ -66,11 +80,22 @@ record SizeOptions(AbstractConfig config) {
 
     private static int maxRecordBytes(AbstractConfig config) {
         int bytes = config.getInt(MAX_RECORD_BYTES);
-        return bytes > 0 ? bytes : producerLimit(config) - ROOM_FOR_TRANSFORMATIONS;
+        return bytes > 0
+                ? bytes
+                : Math.min(limit(config, PRODUCER_LIMIT), topicLimit(config)) - ROOM_FOR_TRANSFORMATIONS;
     }
 
-    private static int producerLimit(AbstractConfig config) {
-        Object limit = config.originals().getOrDefault(PRODUCER_LIMIT, PRODUCER_DEFAULT);
-        return (Integer) ConfigDef.parseType(PRODUCER_LIMIT, limit, Type.INT);
+    private static int topicLimit(AbstractConfig config) {
+        return config.originals().containsKey(BOOTSTRAP_SERVERS) ? Integer.MAX_VALUE : limit(config, NEW_TOPIC_LIMIT);
+    }
+
+    private static int limit(AbstractConfig config, String option) {
+        Object limit = config.originals().getOrDefault(option, KAFKAS_DEFAULT);
+        return (Integer) ConfigDef.parseType(option, limit, Type.INT);
+    }
+
+    /** Settings of an admin client that may ask for the limits of topics; without servers where it may not. */
+    Map<String, Object> admin() {
+        return config.originalsWithPrefix(ADMIN_PREFIX);
     }
 }

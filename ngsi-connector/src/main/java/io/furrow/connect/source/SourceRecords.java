@@ -16,12 +16,12 @@ final class SourceRecords {
     private SourceRecords() {}
 
     /** @throws ConnectException if a newer version of the plugin wrote one of them */
-    static List<SourceRecord> of(TaskJournals.Turn turn) {
+    static List<SourceRecord> of(TaskJournals.Turn turn, RecordSizes sizes) {
         Map<String, String> partition = SourceOffsets.partition(turn.journal());
         List<SourceRecord> records = new ArrayList<>(turn.records().size());
         for (JournalRecord kept : turn.records()) {
             try {
-                records.add(of(partition, kept.sequence(), RecordForm.read(kept.payload())));
+                records.add(of(partition, kept.sequence(), sizes.fitting(kept)));
             } catch (IllegalArgumentException e) {
                 throw new ConnectException(
                         "journal " + turn.journal() + ", record " + kept.sequence() + ": " + e.getMessage()

@@ -5,6 +5,7 @@ import java.util.List;
 
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -19,5 +20,15 @@ class RoomTest {
         JournalSettings settings = new JournalSettings(maxBytes, 4000, 1000, 1000);
 
         assertThat(new Room(settings, folder, disk, segments).isForSegment()).isEqualTo(room);
+    }
+
+    @ParameterizedTest
+    @ValueSource(longs = {64, 100, 1000, 4096})
+    void hasRoomInAnEmptyJournalForWhatItSaysIsTheMost(long mebibytes) {
+        JournalSettings settings = JournalSettings.of(mebibytes * 1024 * 1024, 1000, 0);
+        Room room = new Room(settings, Path.of("."), new StubbornDisk(), new Segments(List.of()));
+
+        assertThat(room.isFor(settings.largestAppend(), 0)).isTrue();
+        assertThat(room.isFor(settings.maxBytes() / 2, 0)).isFalse();
     }
 }

@@ -28,14 +28,24 @@ class NgsiSourceConfigTest {
     }
 
     @Test
-    void derivesTheLargestRecordFromTheProducerOfTheConnector() {
-        assertThat(config(Map.of()).sizes().maxRecordBytes()).isEqualTo(1024 * 1024 - 16 * 1024);
-        assertThat(config(Map.of("producer.override.max.request.size", "16777216"))
-                        .sizes()
-                        .maxRecordBytes())
-                .isEqualTo(16777216 - 16 * 1024);
-        assertThat(config(Map.of("max.record.bytes", "500000")).sizes().maxRecordBytes())
-                .isEqualTo(500_000);
+    void derivesTheLargestRecordFromTheProducerAndTheTopic() {
+        String producer = "producer.override.max.request.size";
+        String topic = "topic.creation.default.max.message.bytes";
+        int ofKafka = 1024 * 1024 - 16 * 1024;
+        int large = 16777216 - 16 * 1024;
+
+        assertThat(maxRecordBytes(Map.of())).isEqualTo(ofKafka);
+        assertThat(maxRecordBytes(Map.of(producer, "16777216"))).isEqualTo(ofKafka);
+        assertThat(maxRecordBytes(Map.of(topic, "16777216"))).isEqualTo(ofKafka);
+        assertThat(maxRecordBytes(Map.of(producer, "16777216", topic, "16777216")))
+                .isEqualTo(large);
+        assertThat(maxRecordBytes(Map.of(producer, "16777216", "admin.override.bootstrap.servers", "127.0.0.1:9092")))
+                .isEqualTo(large);
+        assertThat(maxRecordBytes(Map.of("max.record.bytes", "500000"))).isEqualTo(500_000);
+    }
+
+    private static int maxRecordBytes(Map<String, String> options) {
+        return config(options).sizes().maxRecordBytes();
     }
 
     @Test
@@ -71,15 +81,29 @@ class NgsiSourceConfigTest {
         "listen.max.connections, 0",
         "secret.header, 'a b'",
         "secret.previous, old",
-        "tls.client.auth, required",
-        "tls.truststore.location, /a",
-        "tls.keystore.type, DER",
+        "ssl.client.auth, required",
+        "ssl.client.auth, sometimes",
+        "ssl.truststore.location, /a",
+        "ssl.keystore.password, unused",
         "batch.size, 0"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {
         assertThatThrownBy(() -> config(Map.of(option, value)))
                 .isInstanceOf(ConfigException.class)
                 .hasMessageContaining(option);
+    }
+
+    @Test
+    void refusesABodyThatTheJournalNeverHasRoomFor() {
+        Map<String, String> large =
+                Map.of("max.body.bytes", "30000000", "max.pending.bytes", "30000000", "journal.max.bytes", "67108864");
+
+        assertThatThrownBy(() -> config(large))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("max.body.bytes")
+                .hasMessageContaining("journal.max.bytes");
+        assertThat(config(Map.of("journal.max.bytes", "67108864")).sizes().maxBodyBytes())
+                .isEqualTo(8 * 1024 * 1024);
     }
 
     @Test

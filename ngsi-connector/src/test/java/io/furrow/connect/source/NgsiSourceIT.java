@@ -167,7 +167,17 @@ class NgsiSourceIT {
 
     private void listen(String topic) {
         int port = ConnectRig.freePort();
-        rig.create("ngsi-source", Map.of("topic", topic, "listen.port", Integer.toString(port)));
+        rig.create(
+                "ngsi-source",
+                Map.of(
+                        "topic",
+                        topic,
+                        "listen.port",
+                        Integer.toString(port),
+                        "producer.override.max.request.size",
+                        "16777216",
+                        "admin.override.bootstrap.servers",
+                        rig.bootstrapServers()));
         source = URI.create("http://127.0.0.1:" + port);
         org.awaitility.Awaitility.await()
                 .atMost(java.time.Duration.ofSeconds(60))

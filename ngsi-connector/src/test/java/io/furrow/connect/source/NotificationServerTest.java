@@ -90,7 +90,7 @@ class NotificationServerTest {
         HttpResponse<String> answer = rig.send(put).join();
 
         assertThat(answer.statusCode()).isEqualTo(405);
-        assertThat(answer.headers().firstValue("Allow")).contains("POST");
+        assertThat(answer.headers().firstValue("Allow")).contains("GET, HEAD, POST");
         assertThat(rig.intake.taken).isEmpty();
     }
 

@@ -3,6 +3,7 @@ package io.furrow.connect.source;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.Collections;
 import java.util.List;
 import java.util.regex.Pattern;
 
@@ -19,6 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class NotificationTranslatorTest {
     private static final Instant NOW = Instant.parse("2026-11-21T02:00:00Z");
     private static final int RECORD_LIMIT = 200_000;
+    private static final long NOTIFICATION_LIMIT = 1_000_000;
 
     private final Ledger ledger = new Ledger();
     private final NotificationTranslator translator = new NotificationTranslator(
@@ -28,7 +30,8 @@ class NotificationTranslatorTest {
                     "raw.dead",
                     List.of(Pattern.compile("Analytics:.*"), Pattern.compile("Domain")),
                     Duration.ofMinutes(5),
-                    RECORD_LIMIT),
+                    RECORD_LIMIT,
+                    NOTIFICATION_LIMIT),
             ledger);
 
     @Test
@@ -139,6 +142,38 @@ class NotificationTranslatorTest {
                 .containsEntry(DeadLetter.REASON, "too-large")
                 .hasEntrySatisfying(
                         DeadLetter.MESSAGE, message -> assertThat(message).contains("truncated"));
+    }
+
+    @Test
+    void setsANotificationAsideWhoseRecordsTheJournalNeverHasRoomFor() {
+        String entity = "{\"id\": \"a\", \"text\": \"" + "x".repeat(RECORD_LIMIT / 2) + "\"}";
+        String body = "{\"data\": [" + String.join(",", Collections.nCopies(10, entity)) + "]}";
+
+        Translation translation = translate(body);
+
+        assertThat(translation.refusal()).map(Translation.Refusal::reason).contains(Reason.TOO_LARGE);
+        assertThat(translation.records())
+                .singleElement()
+                .satisfies(dead -> assertThat(dead.headers())
+                        .hasEntrySatisfying(
+                                DeadLetter.MESSAGE,
+                                message -> assertThat(message).contains("journal.max.bytes")));
+        assertThat(ledger.received.sum()).isEqualTo(1);
+        assertThat(ledger.dead.sum()).isEqualTo(1);
+        assertThat(ledger.accepted.sum()).isZero();
+    }
+
+    @Test
+    void keepsANotificationInOnePieceOfWhichTooManyEntitiesCannotBeRead() {
+        String body = "{\"data\": [{\"id\": \"a\"}" + ",0".repeat(1001) + "]}";
+
+        Translation translation = translate(body);
+
+        assertThat(translation.refusal()).map(Translation.Refusal::reason).contains(Reason.NOT_AN_ENTITY);
+        assertThat(translation.records())
+                .singleElement()
+                .satisfies(dead -> assertThat(text(dead)).isEqualTo(body));
+        assertThat(ledger.dead.sum()).isEqualTo(1);
     }
 
     @Test

@@ -6,6 +6,7 @@ import java.net.Socket;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
@@ -46,6 +47,28 @@ class OverloadTest {
             assertThat(rig.ledger.turnedAway.sum()).isZero();
             durable.completeExceptionally(new Intake.ClosedException());
             assertThat(rig.ledger.turnedAway.sum()).isEqualTo(1);
+        }
+    }
+
+    @Test
+    void countsTheHoldFromTheEndOfTheBody() throws IOException {
+        try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "2000");
+                Socket slow = new Socket("127.0.0.1", rig.port())) {
+            slow.setSoTimeout((int) ReceptionRig.PATIENCE.toMillis());
+            slow.getOutputStream()
+                    .write("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 11\r\n\r\n{".getBytes());
+            // The rest takes longer than the sender may be held, and the records then take a moment.
+            await().pollDelay(Duration.ofMillis(2500)).until(() -> true);
+            CompletableFuture<Void> durable = new CompletableFuture<>();
+            rig.intake.answer = Optional.of(durable);
+
+            slow.getOutputStream().write("\"id\": \"a\"}".getBytes());
+            await().until(() -> rig.intake.taken.size() == 1);
+            durable.complete(null);
+
+            byte[] status = slow.getInputStream().readNBytes("HTTP/1.1 200".length());
+            assertThat(new String(status, StandardCharsets.US_ASCII)).isEqualTo("HTTP/1.1 200");
+            assertThat(rig.ledger.overload.sum()).isZero();
         }
     }
 
@@ -188,7 +211,7 @@ class OverloadTest {
             kept.getOutputStream().write(request);
             await().until(() -> rig.intake.taken.size() == 1);
 
-            await().pollDelay(java.time.Duration.ofMillis(700)).until(() -> true);
+            await().pollDelay(Duration.ofMillis(700)).until(() -> true);
             kept.getOutputStream().write(request);
 
             await().until(() -> rig.intake.taken.size() == 2);
@@ -206,7 +229,7 @@ class OverloadTest {
                 second.connect(new java.net.InetSocketAddress("127.0.0.1", rig.port()));
                 second.getOutputStream().write(request("second"));
 
-                await().during(java.time.Duration.ofMillis(300)).until(() -> rig.intake.taken.size() == 1);
+                await().during(Duration.ofMillis(300)).until(() -> rig.intake.taken.size() == 1);
             }
 
             await().until(() -> rig.intake.taken.size() == 2);
@@ -223,7 +246,7 @@ class OverloadTest {
     private static void trickle(Socket socket, String beginning) throws IOException {
         OutputStream out = socket.getOutputStream();
         out.write(beginning.getBytes(StandardCharsets.US_ASCII));
-        await().pollInterval(java.time.Duration.ofMillis(50)).until(() -> {
+        await().pollInterval(Duration.ofMillis(50)).until(() -> {
             try {
                 out.write('x');
                 out.flush();

@@ -38,7 +38,7 @@ class OwnSubscriptionsTest {
                 "secret", "known-to-both",
                 "secret.header", "X-Farm",
                 "secret.previous", "former",
-                "tls.keystore.location", directory.resolve("keys.p12").toString()));
+                "ssl.keystore.location", directory.resolve("keys.p12").toString()));
 
         assertThat(target.path("url").asText()).isEqualTo("https://127.0.0.1:8091/v2/notify");
         assertThat(target.at("/headers/X-Farm").asText()).isEqualTo("known-to-both");
@@ -49,7 +49,7 @@ class OwnSubscriptionsTest {
         JsonNode target = targetOf(Map.of(
                 "secret", "known-to-both",
                 "public.url", "https://farm.example/in",
-                "tls.keystore.location", directory.resolve("keys.p12").toString()));
+                "ssl.keystore.location", directory.resolve("keys.p12").toString()));
 
         assertThat(target.path("url").asText()).isEqualTo("https://farm.example/in");
     }

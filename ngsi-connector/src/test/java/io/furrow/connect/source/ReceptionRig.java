@@ -71,6 +71,10 @@ final class ReceptionRig implements AutoCloseable {
         return reception.port();
     }
 
+    int healthPort() {
+        return reception.healthPort().orElseThrow();
+    }
+
     URI uri(String path) {
         return URI.create("http://127.0.0.1:" + port() + path);
     }

@@ -8,15 +8,12 @@ import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.security.KeyStore;
+import java.security.cert.X509Certificate;
+import java.time.Duration;
 import java.util.ArrayList;
-import java.util.Base64;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.TimeUnit;
-import javax.net.ssl.KeyManagerFactory;
-import javax.net.ssl.SSLContext;
-import javax.net.ssl.TrustManagerFactory;
+import javax.net.ssl.SSLParameters;
 
 import org.apache.kafka.common.config.ConfigException;
 import org.junit.jupiter.api.BeforeAll;
@@ -25,37 +22,35 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.connect.ledger.Gauge;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
 
 class TlsTest {
-    private static final char[] PASSWORD = "p4ssword".toCharArray();
-
     @TempDir
     static Path directory;
 
+    private static TlsKeys keys;
+
     @BeforeAll
     static void makeKeys() throws Exception {
-        makeKey("server", "RSA");
-        makeKey("server-ec", "EC");
-        makeKey("client", "RSA");
-        writePem("server");
-        writePem("server-ec");
+        keys = new TlsKeys(directory);
     }
 
     @ParameterizedTest
-    @ValueSource(strings = {"PKCS12 server.p12", "PEM server.pem", "PEM server-ec.pem"})
-    void takesNotificationsOverTls(String keys) throws Exception {
-        String[] typeAndFile = keys.split(" ");
+    @ValueSource(strings = {"PKCS12 server.p12", "JKS server.p12", "PEM server.pem", "PEM server-ec.pem"})
+    void takesNotificationsOverTls(String kind) throws Exception {
+        String[] typeAndFile = kind.split(" ");
         String name = typeAndFile[1].replaceAll("\\..*", "");
-        try (ReceptionRig rig = new ReceptionRig(
-                "tls.keystore.location",
-                directory.resolve(typeAndFile[1]).toString(),
-                "tls.keystore.type",
-                typeAndFile[0],
-                "tls.keystore.password",
-                typeAndFile[0].equals("PEM") ? "" : new String(PASSWORD))) {
-            assertThat(post(rig, client(name, null)).statusCode()).isEqualTo(200);
+        List<String> options = new ArrayList<>(List.of("ssl.keystore.type", typeAndFile[0]));
+        options.addAll(List.of("ssl.keystore.location", keys.file(typeAndFile[1])));
+        if (!typeAndFile[0].equals("PEM")) {
+            options.addAll(List.of("ssl.keystore.password", TlsKeys.PASSWORD));
+        }
+        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+            assertThat(post(rig, keys.client(name, null)).statusCode()).isEqualTo(200);
             assertThat(rig.intake.taken).hasSize(1);
             assertThatThrownBy(() -> rig.post("{\"id\": \"in plain text\"}").join())
                     .hasRootCauseInstanceOf(IOException.class);
@@ -63,36 +58,125 @@ class TlsTest {
     }
 
     @Test
-    void takesNotificationsOfKnownClientsOnlyWhereThatIsWanted() throws Exception {
+    void takesAKeyThatIsGivenAsAnOption() throws Exception {
+        String pem = Files.readString(directory.resolve("server-ec.pem"));
+        int certificate = pem.indexOf("-----BEGIN CERTIFICATE-----");
         try (ReceptionRig rig = new ReceptionRig(
-                "tls.keystore.location",
-                directory.resolve("server.p12").toString(),
-                "tls.keystore.password",
-                new String(PASSWORD),
-                "tls.truststore.location",
-                directory.resolve("client.p12").toString(),
-                "tls.truststore.password",
-                new String(PASSWORD),
-                "tls.client.auth",
-                "required")) {
-            assertThat(post(rig, client("server", "client")).statusCode()).isEqualTo(200);
-            assertThatThrownBy(() -> post(rig, client("server", null))).isInstanceOf(IOException.class);
-            assertThatThrownBy(() -> post(rig, client("server", "server-ec"))).isInstanceOf(IOException.class);
+                "ssl.keystore.type",
+                "PEM",
+                "ssl.keystore.key",
+                pem.substring(0, certificate),
+                "ssl.keystore.certificate.chain",
+                pem.substring(certificate))) {
+            assertThat(post(rig, keys.client("server-ec", null)).statusCode()).isEqualTo(200);
+        }
+    }
+
+    @Test
+    void takesNotificationsOfKnownClientsOnlyWhereThatIsWanted() throws Exception {
+        try (ReceptionRig rig = new ReceptionRig(withClientAuth("client.p12"))) {
+            assertThat(post(rig, keys.client("server", "client")).statusCode()).isEqualTo(200);
+            assertThatThrownBy(() -> post(rig, keys.client("server", null))).isInstanceOf(IOException.class);
+            assertThatThrownBy(() -> post(rig, keys.client("server", "server-ec")))
+                    .isInstanceOf(IOException.class);
+        }
+    }
+
+    @Test
+    void showsTheHealthToProbesWithoutACertificateOnItsOwnPort() throws Exception {
+        List<String> options = new ArrayList<>(List.of(withClientAuth("client.p12")));
+        options.addAll(List.of("health.port", "0"));
+        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+            URI health = URI.create("http://127.0.0.1:" + rig.healthPort() + "/health");
+
+            assertThat(rig.send(HttpRequest.newBuilder(health).build()).join().statusCode())
+                    .isEqualTo(200);
+        }
+    }
+
+    @Test
+    void speaksOnlyTheProtocolsThatAreEnabled() throws Exception {
+        List<String> options = new ArrayList<>(List.of(withKeys("server.p12")));
+        options.addAll(List.of("ssl.enabled.protocols", "TLSv1.3"));
+        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+            SSLParameters old = new SSLParameters();
+            old.setProtocols(new String[] {"TLSv1.2"});
+            HttpClient client = HttpClient.newBuilder()
+                    .sslContext(keys.context("server", null))
+                    .sslParameters(old)
+                    .build();
+
+            assertThatThrownBy(() -> post(rig, client)).isInstanceOf(IOException.class);
+            assertThat(post(rig, keys.client("server", null)).statusCode()).isEqualTo(200);
+        }
+    }
+
+    @Test
+    void takesUpNewKeysAndNewTrustWhileItListens() throws Exception {
+        keys.copy("server.p12", "renewed.p12");
+        keys.copy("client.p12", "trusted.p12");
+        List<String> options = new ArrayList<>(List.of(withClientAuth("trusted.p12")));
+        options.set(options.indexOf(keys.file("server.p12")), keys.file("renewed.p12"));
+        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
+            assertThat(post(rig, keys.client("server", "client")).statusCode()).isEqualTo(200);
+
+            keys.copy("other.p12", "renewed.p12");
+            await().ignoreExceptions()
+                    .untilAsserted(() -> assertThat(
+                                    post(rig, keys.client("other", "client")).statusCode())
+                            .isEqualTo(200));
+            assertThatThrownBy(() -> post(rig, keys.client("other", "other"))).isInstanceOf(IOException.class);
+
+            keys.copy("other.p12", "trusted.p12");
+            await().ignoreExceptions()
+                    .untilAsserted(() -> assertThat(
+                                    post(rig, keys.client("other", "other")).statusCode())
+                            .isEqualTo(200));
+        }
+    }
+
+    @Test
+    void goesOnWithTheKeysFromBeforeWhereNewOnesCannotBeUsed() throws Exception {
+        keys.copy("server.p12", "broken.p12");
+        try (ReceptionRig rig = new ReceptionRig(withKeys("broken.p12"))) {
+            Files.writeString(directory.resolve("broken.p12"), "no key store");
+
+            await().during(Duration.ofMillis(1500))
+                    .until(() -> post(rig, keys.client("server", null)).statusCode() == 200);
+            keys.copy("other.p12", "broken.p12");
+
+            await().ignoreExceptions()
+                    .untilAsserted(() -> assertThat(
+                                    post(rig, keys.client("other", null)).statusCode())
+                            .isEqualTo(200));
+        }
+    }
+
+    @Test
+    void showsWhenTheCertificateExpires() throws Exception {
+        long expiry = ((X509Certificate) keys.load("server").getCertificate("server"))
+                .getNotAfter()
+                .toInstant()
+                .getEpochSecond();
+        try (ReceptionRig rig = new ReceptionRig(withKeys("server.p12"))) {
+            assertThat(rig.ledger.gauges())
+                    .filteredOn(gauge -> gauge.name().equals("certificateExpirySeconds"))
+                    .singleElement()
+                    .satisfies(gauge -> assertThat(gauge.now().getAsLong()).isEqualTo(expiry));
+        }
+        try (ReceptionRig rig = new ReceptionRig()) {
+            assertThat(rig.ledger.gauges()).extracting(Gauge::name).doesNotContain("certificateExpirySeconds");
         }
     }
 
     @Test
     void resetsATlsConnectionUnderOverload() throws Exception {
-        try (ReceptionRig rig = new ReceptionRig(
-                "tls.keystore.location",
-                directory.resolve("server.p12").toString(),
-                "tls.keystore.password",
-                new String(PASSWORD),
-                "overload.hold.ms",
-                "100")) {
+        List<String> options = new ArrayList<>(List.of(withKeys("server.p12")));
+        options.addAll(List.of("overload.hold.ms", "100"));
+        try (ReceptionRig rig = new ReceptionRig(options.toArray(String[]::new))) {
             rig.intake.answer = java.util.Optional.empty();
 
-            assertThatThrownBy(() -> post(rig, client("server", null))).isInstanceOf(IOException.class);
+            assertThatThrownBy(() -> post(rig, keys.client("server", null))).isInstanceOf(IOException.class);
             assertThat(rig.ledger.overload.sum()).isEqualTo(1);
         }
     }
@@ -100,16 +184,40 @@ class TlsTest {
     @ParameterizedTest
     @ValueSource(strings = {"absent.p12", "server.pem"})
     void saysWhichFileCannotBeRead(String file) {
-        assertThatThrownBy(() -> new ReceptionRig(
-                                "tls.keystore.location",
-                                directory.resolve(file).toString(),
-                                "tls.keystore.password",
-                                new String(PASSWORD))
-                        .close())
+        assertThatThrownBy(() -> new ReceptionRig(withKeys(file)).close())
                 .isInstanceOf(ConfigException.class)
-                .hasMessageContaining("tls.keystore.location")
+                .hasMessageContaining("ssl.keystore.location")
                 .hasMessageContaining(file)
-                .hasMessageNotContaining(new String(PASSWORD));
+                .hasMessageNotContaining(TlsKeys.PASSWORD);
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"keystore.location", "client.auth", "keystore.password"})
+    void namesTheOptionOfNowForAFormerOne(String name) {
+        Map<String, String> former = Map.of("journal.dir", "/tmp/journal", "tls." + name, "s3cret");
+
+        assertThatThrownBy(() -> new NgsiSourceConfig(former))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("ssl." + name)
+                .hasMessageNotContaining("s3cret");
+    }
+
+    private static String[] withKeys(String file) {
+        return new String[] {
+            "ssl.keystore.type",
+            "PKCS12",
+            "ssl.keystore.location",
+            keys.file(file),
+            "ssl.keystore.password",
+            TlsKeys.PASSWORD
+        };
+    }
+
+    private static String[] withClientAuth(String trusted) {
+        List<String> options = new ArrayList<>(List.of(withKeys("server.p12")));
+        options.addAll(List.of("ssl.truststore.type", "PKCS12", "ssl.truststore.location", keys.file(trusted)));
+        options.addAll(List.of("ssl.truststore.password", TlsKeys.PASSWORD, "ssl.client.auth", "required"));
+        return options.toArray(String[]::new);
     }
 
     private static HttpResponse<String> post(ReceptionRig rig, HttpClient client) throws Exception {
@@ -119,77 +227,5 @@ class TlsTest {
                 .POST(BodyPublishers.ofString("{\"id\": \"a\"}"))
                 .build();
         return client.send(request, HttpResponse.BodyHandlers.ofString());
-    }
-
-    /** A client that trusts one certificate, and shows another unless it is null. */
-    private static HttpClient client(String trusted, String shown) throws Exception {
-        TrustManagerFactory trust = TrustManagerFactory.getInstance(TrustManagerFactory.getDefaultAlgorithm());
-        trust.init(load(trusted));
-        KeyManagerFactory keys = KeyManagerFactory.getInstance(KeyManagerFactory.getDefaultAlgorithm());
-        if (shown != null) {
-            keys.init(load(shown), PASSWORD);
-        }
-        SSLContext tls = SSLContext.getInstance("TLS");
-        tls.init(shown == null ? null : keys.getKeyManagers(), trust.getTrustManagers(), null);
-        return HttpClient.newBuilder().sslContext(tls).build();
-    }
-
-    private static KeyStore load(String name) throws Exception {
-        KeyStore store = KeyStore.getInstance("PKCS12");
-        try (var file = Files.newInputStream(directory.resolve(name + ".p12"))) {
-            store.load(file, PASSWORD);
-        }
-        if (name.startsWith("client") || name.startsWith("server")) {
-            store.setCertificateEntry("trusted", store.getCertificate(name));
-        }
-        return store;
-    }
-
-    private static void makeKey(String name, String algorithm) throws Exception {
-        List<String> command = new ArrayList<>(List.of(
-                Path.of(System.getProperty("java.home"), "bin", "keytool").toString(),
-                "-genkeypair",
-                "-alias",
-                name,
-                "-keyalg",
-                algorithm,
-                "-dname",
-                "CN=127.0.0.1",
-                "-ext",
-                "san=ip:127.0.0.1",
-                "-validity",
-                "2",
-                "-storetype",
-                "PKCS12",
-                "-storepass",
-                new String(PASSWORD),
-                "-keystore",
-                directory.resolve(name + ".p12").toString()));
-        Process keytool = new ProcessBuilder(command).inheritIO().start();
-        assertThat(keytool.waitFor(60, TimeUnit.SECONDS)).isTrue();
-        assertThat(keytool.exitValue()).isZero();
-        if (name.equals("client")) {
-            // A key of one's own is no trusted certificate: the trust store has it as one.
-            KeyStore store = load(name);
-            try (var file = Files.newOutputStream(directory.resolve(name + ".p12"))) {
-                store.store(file, PASSWORD);
-            }
-        }
-    }
-
-    private static void writePem(String name) throws Exception {
-        KeyStore store = load(name);
-        Map<String, byte[]> parts = new java.util.LinkedHashMap<>();
-        parts.put("PRIVATE KEY", store.getKey(name, PASSWORD).getEncoded());
-        parts.put("CERTIFICATE", store.getCertificate(name).getEncoded());
-        StringBuilder pem = new StringBuilder();
-        parts.forEach((kind, bytes) -> pem.append("-----BEGIN ")
-                .append(kind)
-                .append("-----\n")
-                .append(Base64.getMimeEncoder().encodeToString(bytes))
-                .append("\n-----END ")
-                .append(kind)
-                .append("-----\n"));
-        Files.writeString(directory.resolve(name + ".pem"), pem);
     }
 }

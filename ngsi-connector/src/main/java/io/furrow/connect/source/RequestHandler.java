@@ -1,0 +1,68 @@
+package io.furrow.connect.source;
+
+import java.util.Optional;
+
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.http.HttpMethod;
+import org.eclipse.jetty.io.Content;
+import org.eclipse.jetty.server.Handler;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.server.handler.gzip.GzipHandler;
+import org.eclipse.jetty.util.Callback;
+
+/** Passes {@code POST} on any path to the notifications, inflated, if its sender may send; all else to the pages. */
+final class RequestHandler extends Handler.Wrapper {
+    private static final int INFLATE_BUFFER = 16 * 1024;
+
+    private final Gatekeeper gatekeeper;
+    private final PageHandler pages;
+    private final int maxBody;
+
+    /** @param maxBody bytes of a body that is read although its sender may not send */
+    RequestHandler(Gatekeeper gatekeeper, Handler notifications, PageHandler pages, int maxBody) {
+        super(inflating(notifications));
+        this.gatekeeper = gatekeeper;
+        this.pages = pages;
+        this.maxBody = maxBody;
+    }
+
+    /** A bit at a time, as the body is read: what is too long inflated is not inflated to its end. */
+    private static Handler inflating(Handler notifications) {
+        GzipHandler gzip = new GzipHandler();
+        gzip.setInflateBufferSize(INFLATE_BUFFER);
+        gzip.setHandler(notifications);
+        return gzip;
+    }
+
+    @Override
+    public boolean handle(Request request, Response response, Callback callback) throws Exception {
+        if (!HttpMethod.POST.is(request.getMethod())) {
+            return pages.handle(request, response, callback);
+        }
+        Optional<Answer> refused = gatekeeper.refuse(request.getHeaders()::get).or(() -> unknownEncoding(request));
+        if (refused.isPresent()) {
+            refuse(request, response, refused.get(), callback);
+            return true;
+        }
+        return super.handle(request, response, callback);
+    }
+
+    private static Optional<Answer> unknownEncoding(Request request) {
+        String encoding = request.getHeaders().get(HttpHeader.CONTENT_ENCODING);
+        return encoding == null || encoding.equalsIgnoreCase("gzip")
+                ? Optional.empty()
+                : Optional.of(Answer.unknownEncoding());
+    }
+
+    /** Reads the body first, and drops it: a sender that is still writing would find its connection closed, not the answer. */
+    private void refuse(Request request, Response response, Answer refusal, Callback callback) {
+        if (request.getLength() > maxBody) {
+            response.getHeaders().put(HttpHeader.CONNECTION, "close");
+            refusal.write(response, callback);
+        } else {
+            Content.Source.consumeAll(
+                    request, Callback.from(() -> refusal.write(response, callback), callback::failed));
+        }
+    }
+}

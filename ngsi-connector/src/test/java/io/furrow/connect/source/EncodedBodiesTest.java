@@ -1,0 +1,107 @@
+package io.furrow.connect.source;
+
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.util.Arrays;
+import java.util.zip.GZIPOutputStream;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.model.event.DeadLetter;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class EncodedBodiesTest {
+    private static final int LIMIT = 100_000;
+
+    @ParameterizedTest
+    @ValueSource(ints = {0, 1000, 60_000})
+    void areInflated(int length) {
+        String body = "{\"id\": \"a\", \"x\": \"" + "x".repeat(length) + "\"}";
+        try (ReceptionRig rig = new ReceptionRig("max.body.bytes", Integer.toString(LIMIT))) {
+            assertThat(post(rig, gzip(body), "gzip").statusCode()).isEqualTo(200);
+
+            OutgoingRecord record = rig.intake.taken.remove().get(0);
+            assertThat(record.key()).isEqualTo("a");
+            assertThat(new String(record.value(), StandardCharsets.UTF_8)).contains("x".repeat(length));
+        }
+    }
+
+    @Test
+    void areAsLongAsTheyAreInflated() {
+        byte[] bomb = gzip("x".repeat(50_000_000));
+        try (ReceptionRig rig = new ReceptionRig("max.body.bytes", Integer.toString(LIMIT))) {
+            HttpResponse<String> answer = post(rig, bomb, "gzip");
+
+            assertThat(bomb.length).isLessThan(LIMIT);
+            assertThat(answer.statusCode()).isEqualTo(413);
+            assertThat(answer.headers().firstValue("Connection")).contains("close");
+            OutgoingRecord dead = rig.intake.taken.remove().get(0);
+            assertThat(dead.headers()).containsEntry(DeadLetter.REASON, "too-large");
+            assertThat(dead.value()).hasSize(LIMIT);
+        }
+    }
+
+    @Test
+    void areRefusedWhereTheyAreNoGzip() {
+        try (ReceptionRig rig = new ReceptionRig()) {
+            HttpResponse<String> answer = post(rig, "{\"id\": \"a\"}".getBytes(StandardCharsets.UTF_8), "gzip");
+
+            assertThat(answer.statusCode()).isEqualTo(400);
+            assertThat(answer.body()).contains("gzip");
+            assertThat(rig.intake.taken).isEmpty();
+            assertThat(rig.post("{\"id\": \"a\"}").join().statusCode()).isEqualTo(200);
+        }
+    }
+
+    @Test
+    void areNoEntityWhereTheirEndIsMissing() {
+        byte[] whole = gzip("{\"id\": \"a\", \"x\": \"" + "xyz".repeat(1000) + "\"}");
+        try (ReceptionRig rig = new ReceptionRig()) {
+            HttpResponse<String> answer = post(rig, Arrays.copyOf(whole, whole.length / 2), "gzip");
+
+            assertThat(answer.statusCode()).isEqualTo(400);
+        }
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"br", "deflate", "gzip, gzip"})
+    void areRefusedInOtherEncodings(String encoding) {
+        try (ReceptionRig rig = new ReceptionRig()) {
+            HttpResponse<String> answer = post(rig, gzip("{\"id\": \"a\"}"), encoding);
+
+            assertThat(answer.statusCode()).isEqualTo(415);
+            assertThat(answer.headers().firstValue("Accept-Encoding")).contains("gzip");
+            assertThat(answer.body()).contains("Content-Encoding");
+            assertThat(rig.intake.taken).isEmpty();
+        }
+    }
+
+    @Test
+    void areNotInflatedForWhoeverMayNotSend() {
+        try (ReceptionRig rig = new ReceptionRig("secret", "s3cret")) {
+            assertThat(post(rig, new byte[] {1, 2, 3}, "gzip").statusCode()).isEqualTo(401);
+        }
+    }
+
+    private static HttpResponse<String> post(ReceptionRig rig, byte[] body, String encoding) {
+        return rig.post("/v2/notify", BodyPublishers.ofByteArray(body), "Content-Encoding", encoding)
+                .join();
+    }
+
+    private static byte[] gzip(String text) {
+        ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+        try (GZIPOutputStream out = new GZIPOutputStream(bytes)) {
+            out.write(text.getBytes(StandardCharsets.UTF_8));
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+        return bytes.toByteArray();
+    }
+}
