@@ -25,6 +25,7 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     private final ListeningOptions listening;
     private final TopicOptions topics;
+    private final RecordOptions records;
     private final EntityOptions entities;
     private final SizeOptions sizes;
     private final PendingOptions pending;
@@ -42,6 +43,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         super(definition(), properties);
         listening = new ListeningOptions(this, taskIndex());
         topics = new TopicOptions(this);
+        records = new RecordOptions(this);
         entities = new EntityOptions(this);
         sizes = new SizeOptions(this);
         pending = new PendingOptions(this);
@@ -115,6 +117,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         ConfigDef options = new ConfigDef();
         ListeningOptions.define(options);
         TopicOptions.define(options);
+        RecordOptions.define(options);
         EntityOptions.define(options);
         SizeOptions.define(options);
         PendingOptions.define(options);
@@ -154,6 +157,10 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     TopicOptions topics() {
         return topics;
+    }
+
+    RecordOptions records() {
+        return records;
     }
 
     EntityOptions entities() {

@@ -25,6 +25,7 @@ public class NgsiSourceTask extends SourceTask {
     private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
     private NgsiSourceConfig config;
     private int batchSize;
+    private SourceRecords sourceRecords;
 
     /** Made by the worker. */
     public NgsiSourceTask() {}
@@ -38,6 +39,7 @@ public class NgsiSourceTask extends SourceTask {
     public void start(Map<String, String> properties) {
         config = new NgsiSourceConfig(properties);
         batchSize = config.acknowledging().batchSize();
+        sourceRecords = config.records().records();
         try {
             source.set(Standby.leave(config)
                     .map(running -> resumed(running, this::committed))
@@ -88,7 +90,7 @@ public class NgsiSourceTask extends SourceTask {
         if (turn.records().isEmpty()) {
             return null;
         }
-        List<SourceRecord> records = SourceRecords.of(turn);
+        List<SourceRecord> records = sourceRecords.of(turn);
         source.get().subscriptions().handedOn(records);
         return records;
     }

@@ -4,7 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
-import org.apache.kafka.connect.data.Schema;
+import org.apache.kafka.connect.data.SchemaAndValue;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
@@ -12,11 +12,9 @@ import org.apache.kafka.connect.source.SourceRecord;
 import io.furrow.connect.journal.JournalRecord;
 
 /** Journal records as the worker wants them. */
-final class SourceRecords {
-    private SourceRecords() {}
-
+record SourceRecords(KeyMode keys, ValueMode values) {
     /** @throws ConnectException if a newer version of the plugin wrote one of them */
-    static List<SourceRecord> of(TaskJournals.Turn turn) {
+    List<SourceRecord> of(TaskJournals.Turn turn) {
         Map<String, String> partition = SourceOffsets.partition(turn.journal());
         List<SourceRecord> records = new ArrayList<>(turn.records().size());
         for (JournalRecord kept : turn.records()) {
@@ -32,18 +30,20 @@ final class SourceRecords {
         return records;
     }
 
-    private static SourceRecord of(Map<String, String> partition, long sequence, OutgoingRecord record) {
+    private SourceRecord of(Map<String, String> partition, long sequence, OutgoingRecord record) {
         ConnectHeaders headers = new ConnectHeaders();
         record.headers().forEach(headers::addString);
+        SchemaAndValue key = keys.of(record.key());
+        SchemaAndValue value = values.of(record, headers);
         return new SourceRecord(
                 partition,
                 SourceOffsets.offsetOf(sequence),
                 record.topic(),
                 null,
-                record.key() == null ? null : Schema.STRING_SCHEMA,
-                record.key(),
-                record.value() == null ? Schema.OPTIONAL_BYTES_SCHEMA : Schema.BYTES_SCHEMA,
-                record.value(),
+                key.schema(),
+                key.value(),
+                value.schema(),
+                value.value(),
                 record.time().toEpochMilli(),
                 headers);
     }
