@@ -19,6 +19,8 @@ import org.apache.kafka.streams.StreamsConfig;
 import org.apache.kafka.streams.TopologyTestDriver;
 import org.apache.kafka.streams.test.TestRecord;
 
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -85,6 +87,28 @@ final class WatchedFarm implements AutoCloseable {
     void pipe(String topic, TestRecord<String, byte[]> record) {
         driver.createInputTopic(topic, new StringSerializer(), new ByteArraySerializer())
                 .pipeInput(record);
+    }
+
+    void want(String id, String type, boolean running) {
+        want(id, type, "m", running);
+    }
+
+    void want(String id, String type, String mission, boolean running) {
+        Long until = running ? null : Long.valueOf(now.toEpochMilli());
+        DeviceVersion version =
+                new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
+        WantedDevice device = new WantedDevice(
+                version,
+                type,
+                type == null ? null : id,
+                running,
+                Duration.ofSeconds(10),
+                NgsiJson.mapper().createObjectNode());
+        pipe(Topics.DEVICES, version.key(), device.toBytes());
+    }
+
+    void report(EntityBuilder entity) {
+        pipe(Topics.RAW, entity.id(), entity.toBytes());
     }
 
     void pass(Duration time) {

@@ -108,6 +108,13 @@ public final class EmbeddedKafka implements AutoCloseable {
                 Map.entry("message.max.bytes", MAX_RECORD_BYTES),
                 Map.entry("offsets.topic.num.partitions", PARTITIONS),
                 Map.entry("offsets.topic.replication.factor", 1),
+                // A single node loses and regains its own leadership at each start. A load that was begun before may
+                // then be taken for
+                // that of the new state, and groups get offsets of long ago; with small reads it notices and stops.
+                Map.entry("offsets.load.buffer.size", 64 * 1024),
+                // How long the broker itself waits for the markers of a transaction before it refuses the first batch
+                // of the next.
+                Map.entry("add.partitions.to.txn.retry.backoff.max.ms", 10_000),
                 Map.entry("transaction.state.log.num.partitions", PARTITIONS),
                 Map.entry("transaction.state.log.replication.factor", 1),
                 Map.entry("transaction.state.log.min.isr", 1),

@@ -6,15 +6,12 @@ import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
-import java.util.concurrent.TimeUnit;
 
 import org.apache.flink.api.common.eventtime.Watermark;
 import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.api.common.functions.RichFilterFunction;
 import org.apache.flink.configuration.Configuration;
-import org.apache.flink.metrics.Gauge;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.datastream.DataStream;
@@ -41,12 +38,11 @@ import io.furrow.model.ngsi.UnreadableException;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
-import static org.awaitility.Awaitility.await;
 
 class PresenceJobTest {
     private static final Logger LOG = LoggerFactory.getLogger(PresenceJobTest.class);
 
-    private static final InMemoryReporter METRICS = InMemoryReporter.create();
+    static final InMemoryReporter METRICS = InMemoryReporter.create();
 
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
@@ -57,7 +53,7 @@ class PresenceJobTest {
 
     private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
     /** Time of a record whose watermark is the first that there is. */
-    private static final long FIRST = Long.MIN_VALUE + Story.BOUND + 2;
+    static final long FIRST = Long.MIN_VALUE + Story.BOUND + 2;
 
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
@@ -214,46 +210,6 @@ class PresenceJobTest {
 
         @Override
         public void onPeriodicEmit(WatermarkOutput output) {}
-    }
-
-    /**
-     * Holds records up until all who follow devices have heard that the fields hold event time up no more: which position is late
-     * would else depend on which of their two inputs they read first. They have where the first watermark is their event time.
-     */
-    private static final class AfterFields extends RichFilterFunction<TopicRecord> {
-        private static final long serialVersionUID = 1L;
-
-        private final int followers;
-        private transient boolean open;
-
-        AfterFields(int followers) {
-            this.followers = followers;
-        }
-
-        @Override
-        public boolean filter(TopicRecord record) {
-            if (record.timestamp() == FIRST) {
-                return false;
-            }
-            if (!open) {
-                String job = getRuntimeContext().getJobInfo().getJobId().toString();
-                await().atMost(1, TimeUnit.MINUTES).until(() -> unhindered(job) == followers);
-                open = true;
-            }
-            return true;
-        }
-
-        private static long unhindered(String job) {
-            return METRICS.getMetricsByGroup().entrySet().stream()
-                    .filter(group -> {
-                        Map<String, String> names = group.getKey().getAllVariables();
-                        return job.equals(names.get("<job_id>"))
-                                && "Follow devices through fields".equals(names.get("<operator_name>"));
-                    })
-                    .map(group -> group.getValue().get("currentInputWatermark"))
-                    .filter(metric -> metric instanceof Gauge<?> gauge && (Long) gauge.getValue() > Long.MIN_VALUE)
-                    .count();
-        }
     }
 
     private static final class NoHindrance implements WatermarkGenerator<TopicRecord> {

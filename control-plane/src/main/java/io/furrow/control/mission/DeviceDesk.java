@@ -208,6 +208,15 @@ final class DeviceDesk {
         return missing;
     }
 
+    /** What the host says of one of the devices; empty where it says nothing. */
+    String saidOfMissing(Mission mission) {
+        return missing(mission).stream()
+                .filter(device -> device.reason() != null)
+                .findFirst()
+                .map(device -> "; %s: %s".formatted(device.id(), device.reason()))
+                .orElse("");
+    }
+
     /** Those of its devices that are still its own. */
     List<DeviceState> of(Mission mission) {
         List<DeviceState> own = new ArrayList<>();

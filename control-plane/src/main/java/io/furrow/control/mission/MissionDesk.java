@@ -240,7 +240,7 @@ public final class MissionDesk implements DomainMissions {
         } else if (status.state() == MissionState.CREATED) {
             begin(mission, status, now);
         } else if (status.state() == MissionState.STARTING && status.confirmed() == 0) {
-            String said = saidOfMissing(mission);
+            String said = devices.saidOfMissing(mission);
             devices.dismiss(mission, now);
             fail(
                     mission,
@@ -250,15 +250,6 @@ public final class MissionDesk implements DomainMissions {
         } else {
             keep(status.without(devices.missing(mission), now));
         }
-    }
-
-    /** What the host says of one of the devices; empty where it says nothing. */
-    private String saidOfMissing(Mission mission) {
-        return devices.missing(mission).stream()
-                .filter(device -> device.reason() != null)
-                .findFirst()
-                .map(device -> "; %s: %s".formatted(device.id(), device.reason()))
-                .orElse("");
     }
 
     private void begin(Mission mission, MissionStatus status, long now) {

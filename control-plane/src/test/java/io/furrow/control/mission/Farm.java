@@ -5,6 +5,7 @@ import java.util.List;
 import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainDesk;
@@ -18,6 +19,7 @@ import io.furrow.control.manager.TestStores;
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
+import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
@@ -31,6 +33,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** Domains and missions with the stores of their managers, without Kafka. */
 final class Farm {
@@ -145,5 +149,16 @@ final class Farm {
 
     static String json(Object state) {
         return new String(StateJson.write(state));
+    }
+
+    /** Expects that something is refused and changes nothing. */
+    void refused(ErrorCode code, ThrowingCallable what) {
+        String before = content();
+        int written = outbox.all().size();
+        assertThatThrownBy(what)
+                .isInstanceOfSatisfying(
+                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
+        assertThat(content()).isEqualTo(before);
+        assertThat(outbox.all()).hasSize(written);
     }
 }

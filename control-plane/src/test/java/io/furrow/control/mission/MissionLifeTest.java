@@ -2,31 +2,22 @@ package io.furrow.control.mission;
 
 import java.time.Duration;
 import java.time.Instant;
-import java.util.List;
 
-import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
-import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.MissionTemplate;
-import io.furrow.model.control.RefusedException;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.topic.Topics;
 
-import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
 import static org.assertj.core.api.Assertions.assertThat;
-import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class MissionLifeTest {
     private final Farm farm = new Farm();
@@ -198,40 +189,40 @@ class MissionLifeTest {
         farm.domain("south");
         farm.start("m", "north", Farm.group("Camera", 1), DeviceGroup.entity("urn:robot"));
 
-        refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
-        refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Stop("other")));
-        refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Delete("other")));
-        refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(new MissionCommand.Delete("m")));
-        refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.start("other", "east"));
-        refused(ErrorCode.DEVICE_TAKEN, () -> farm.start("other", "south", DeviceGroup.entity("urn:robot")));
-        refused(
+        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.start("m", "north"));
+        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Stop("other")));
+        farm.refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.Delete("other")));
+        farm.refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(new MissionCommand.Delete("m")));
+        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.start("other", "east"));
+        farm.refused(ErrorCode.DEVICE_TAKEN, () -> farm.start("other", "south", DeviceGroup.entity("urn:robot")));
+        farm.refused(
                 ErrorCode.DEVICE_TAKEN,
                 () -> farm.start(
                         "other", "south", Farm.group("Camera", 1), DeviceGroup.entity("urn:ngsi-ld:Camera:other-1")));
-        refused(
+        farm.refused(
                 ErrorCode.UNKNOWN_TEMPLATE,
                 () -> farm.ask(new MissionCommand.Start(
                         "other", "north", new MissionPlan.FromTemplate("nosuch", 0), null, null)));
-        refused(
+        farm.refused(
                 ErrorCode.MISSION_EXISTS,
                 () -> farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid())));
 
         farm.ask(new MissionCommand.Stop("m"));
-        refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.ask(new MissionCommand.Stop("m")));
+        farm.refused(ErrorCode.MISSION_NOT_RUNNING, () -> farm.ask(new MissionCommand.Stop("m")));
         farm.hostAll();
-        refused(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
+        farm.refused(ErrorCode.NAME_TAKEN, () -> farm.start("m", "south"));
         farm.start("other", "south", DeviceGroup.entity("urn:robot"));
     }
 
     @Test
     void keepsADomainInWhichMissionsRunUnlessForced() throws Exception {
         farm.start("m", "north", Farm.group("Camera", 1));
-        refused(ErrorCode.MISSIONS_RUNNING, () -> farm.ask(new DomainCommand.Delete("north", false)));
+        farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.ask(new DomainCommand.Delete("north", false)));
 
         farm.ask(new DomainCommand.Delete("north", true));
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
         assertThat(farm.outbox.compacted(Topics.DOMAINS)).isEmpty();
-        refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.ask(new DomainCommand.Delete("north", true)));
+        farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.ask(new DomainCommand.Delete("north", true)));
     }
 
     @Test
@@ -268,168 +259,10 @@ class MissionLifeTest {
                 .isEqualTo(3);
 
         farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0));
-        refused(ErrorCode.UNKNOWN_TEMPLATE, () -> farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
+        farm.refused(ErrorCode.UNKNOWN_TEMPLATE, () -> farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
         farm.run(farm.missionDesk.templates()::stock);
         assertThat(farm.outbox.compacted(Topics.TEMPLATES)).isEmpty();
         farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
         assertThat(farm.status("m").devices()).isEqualTo(5);
-    }
-
-    @Test
-    void saysWhatIsCarriedByWhat() throws Exception {
-        DeviceGroup robots = new DeviceGroup("robots", null, "Robot", 2, null, null, instance.objectNode());
-        DeviceGroup cameras = new DeviceGroup(null, null, "Camera", 3, "robots", null, instance.objectNode());
-        farm.start("m", "north", cameras, robots);
-
-        assertThat(farm.device("urn:ngsi-ld:Camera:m-1").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-1");
-        assertThat(farm.device("urn:ngsi-ld:Camera:m-2").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-2");
-        assertThat(farm.device("urn:ngsi-ld:Camera:m-3").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-1");
-        assertThat(farm.device("urn:ngsi-ld:Robot:m-1").version().carriedBy()).isNull();
-    }
-
-    /** However many devices share an area, it is written once. */
-    @Test
-    void writesTheSettingsOfAGroupOnce() throws Exception {
-        ObjectNode area = instance.objectNode().put("area", "field-1");
-        area.putObject("parameters").put("mean", 18);
-        farm.start("m", "north", new DeviceGroup(null, null, "Thermometer", 3, null, Duration.ofSeconds(1), area));
-
-        assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0");
-        for (byte[] device : farm.outbox.compacted(Topics.DEVICES).values()) {
-            assertThat(new String(device)).doesNotContain("field-1").contains("\"period\":\"PT1S\"");
-        }
-        assertThat(farm.settings("urn:ngsi-ld:Thermometer:m-3")).isEqualTo(area);
-
-        farm.ask(new MissionCommand.Stop("m"));
-        farm.hostAll();
-        farm.ask(new MissionCommand.Delete("m"));
-        assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).isEmpty();
-    }
-
-    @Test
-    void writesManyDevicesInSeveralTransactions() throws Exception {
-        Farm many = new Farm(10);
-        many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 25));
-
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(10);
-        assertThat(many.status("m").devices()).isEqualTo(25);
-        many.pass(Farm.PATIENCE);
-        assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
-        many.step();
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(20);
-        many.step();
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(25);
-        assertThat(many.step()).isFalse();
-        many.pass(Farm.PATIENCE - 1);
-        assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
-        many.hostAll();
-        assertThat(many.status("m").state()).isEqualTo(MissionState.RUNNING);
-
-        many.ask(new MissionCommand.Stop("m"));
-        many.hostAll();
-        assertThat(many.status("m").state()).isEqualTo(MissionState.STOPPING);
-        many.step();
-        many.step();
-        many.hostAll();
-        assertThat(many.status("m").state()).isEqualTo(MissionState.STOPPED);
-    }
-
-    @Test
-    void stopsAMissionOfWhichSomeDevicesWereNeverAskedFor() throws Exception {
-        Farm many = new Farm(10);
-        many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 25));
-        many.ask(new MissionCommand.Stop("m"));
-        while (many.step()) {
-            many.hostAll();
-        }
-        assertThat(many.status("m").state()).isEqualTo(MissionState.STOPPED);
-        assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(10);
-    }
-
-    @Test
-    void givesNoDeviceAwayThatAMissionIsAboutToAskFor() throws Exception {
-        Farm many = new Farm(1);
-        many.domain("north");
-        many.start("m", "north", Farm.group("Camera", 2), DeviceGroup.entity("urn:robot"));
-        assertThatThrownBy(() -> many.start("other", "north", DeviceGroup.entity("urn:robot")))
-                .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(ErrorCode.DEVICE_TAKEN));
-    }
-
-    @Test
-    void takesALongListInSeveralRequests() throws Exception {
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
-        farm.ask(add("robots", "Robot", 2));
-        farm.ask(new MissionCommand.AddDevices(
-                "m",
-                new MissionDevices(
-                        List.of(new DeviceGroup(null, null, "Camera", 2, "robots", null, instance.objectNode())))));
-        refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("robots", "Robot", 1)));
-        refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("more", "Robot", DeviceGroup.MOST)));
-        refused(ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.AddDevices("other", MissionDevices.NONE)));
-
-        assertThat(farm.missions.get("m").deviceCount()).isEqualTo(4);
-        assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0", "m.1");
-        farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
-        assertThat(farm.device("urn:ngsi-ld:Camera:m-2").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-2");
-        refused(ErrorCode.MISSION_RUNNING, () -> farm.ask(add("late", "Robot", 1)));
-    }
-
-    private static MissionCommand add(String name, String type, int count) {
-        return new MissionCommand.AddDevices(
-                "m",
-                new MissionDevices(
-                        List.of(new DeviceGroup(name, null, type, count, null, null, instance.objectNode()))));
-    }
-
-    @Test
-    void takesNoMoreThanThereIsRoomFor() throws Exception {
-        ObjectNode large = instance.objectNode();
-        large.putObject("parameters").put("note", "x".repeat(500_000));
-        MissionCommand more = new MissionCommand.AddDevices(
-                "m", new MissionDevices(List.of(new DeviceGroup(null, null, "Camera", 1, null, null, large))));
-        farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
-        for (int bytes = 0; bytes + 500_100 < Limits.MISSION_BYTES; bytes += 500_100) {
-            farm.ask(more);
-        }
-        refused(ErrorCode.TOO_LARGE, () -> farm.ask(more));
-
-        ObjectNode area = instance.objectNode().put("type", "Polygon").put("note", "x".repeat(800_000));
-        area.putArray("coordinates");
-        int domains = 0;
-        while (domains < 100) {
-            try {
-                farm.ask(new DomainCommand.Create("d" + domains, new DomainDetails(null, null, area, null)));
-                domains++;
-            } catch (RefusedException e) {
-                assertThat(e.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED);
-                break;
-            }
-        }
-        assertThat(domains).isBetween(30, 40);
-        refused(ErrorCode.QUOTA_EXCEEDED, () -> farm.start("big", "north", Farm.group("Camera", 10_000)));
-        farm.ask(new DomainCommand.Delete("d0", false));
-        farm.ask(new DomainCommand.Create("d0", new DomainDetails(null, null, area, null)));
-        for (int i = 0; i < 20; i++) {
-            farm.ask(new DomainCommand.Delete("d" + i, false));
-        }
-        farm.start("big", "north", Farm.group("Camera", 10_000));
-
-        area.put("more", "x".repeat(Limits.RECORD_BYTES));
-        assertThatThrownBy(() -> farm.ask(new DomainCommand.Change("d20", new DomainDetails(null, null, area, null))))
-                .hasMessageContaining("d20")
-                .hasMessageContaining("900000");
-    }
-
-    private void refused(ErrorCode code, ThrowingCallable what) {
-        String before = farm.content();
-        int written = farm.outbox.all().size();
-        assertThatThrownBy(what)
-                .isInstanceOfSatisfying(
-                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
-        assertThat(farm.content()).isEqualTo(before);
-        assertThat(farm.outbox.all()).hasSize(written);
     }
 }

@@ -16,7 +16,6 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.readiness.PartStatus;
 import io.furrow.control.readiness.Readiness;
-import io.furrow.model.control.Limits;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -228,48 +227,6 @@ class RestApiIT {
         }
     }
 
-    /** The answer of another request would say that something was done which was not. */
-    @Test
-    void refusesAKeyThatWasGivenToAnotherRequest() throws Exception {
-        client.send("POST", "/api/domains", "{\"domain\":\"keyed\"}");
-        String start = "{\"domain\":\"keyed\"}";
-        client.send("POST", "/api/missions/b/start", start);
-        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
-                        .statusCode())
-                .isEqualTo(200);
-
-        assertThat(client.error(client.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
-                .isEqualTo("422 request-id-reused");
-        assertThat(client.error(client.send(
-                        "POST", "/api/missions/a/start", "{\"domain\":\"nowhere\"}", "Idempotency-Key", "key-2")))
-                .isEqualTo("422 request-id-reused");
-        assertThat(running.get("/api/missions/b").at("/status/state").asText()).isEqualTo("running");
-        assertThat(client.send("POST", "/api/missions/a/start", start, "Idempotency-Key", "key-2")
-                        .statusCode())
-                .isEqualTo(200);
-
-        try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
-            ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.PATIENCE).until(other::isReady);
-            assertThat(there.error(there.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
-                    .isEqualTo("422 request-id-reused");
-        }
-    }
-
-    @Test
-    void refusesWhatIsTooLargeAndGoesOn() throws Exception {
-        String area = "{\"type\":\"Polygon\",\"coordinates\":[],\"note\":\"%s\"}";
-        for (int bytes : new int[] {Limits.REQUEST_BYTES - 100, Limits.REQUEST_BYTES, 1_300_000}) {
-            String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
-            assertThat(client.error(client.send("POST", "/api/domains", body))).isEqualTo("413 too-large");
-        }
-        String body =
-                "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(Limits.REQUEST_BYTES - 400)));
-        assertThat(client.send("POST", "/api/domains", body).statusCode()).isEqualTo(201);
-        assertThat(running.get("/api/domains/large").at("/area/note").asText()).hasSize(Limits.REQUEST_BYTES - 400);
-        client.send("DELETE", "/api/domains/large", null);
-    }
-
     @Test
     void takesALongDeviceListInSeveralRequests() throws Exception {
         client.send("POST", "/api/domains", "{\"domain\":\"listed\"}");
@@ -304,24 +261,6 @@ class RestApiIT {
                         "furrow_control_view_complete 1",
                         "path=\"/api/alarms\"",
                         "furrow_control_answers_total{manager=\"service.domainmanager\",status=\"created\"}");
-    }
-
-    @Test
-    void refusesAFilterOfAlarmsThatNoneCanPass() throws Exception {
-        for (String query : new String[] {
-            "state=opne",
-            "state=",
-            "state=open&state=open",
-            "state=null&state=null",
-            "limit=0",
-            "limit=1&limit=2",
-            "limit=x"
-        }) {
-            assertThat(client.error(client.send("GET", "/api/alarms?" + query, null)))
-                    .as(query)
-                    .isEqualTo("400 wrong-member");
-        }
-        assertThat(running.get("/api/alarms?state=closed&limit=5")).isEmpty();
     }
 
     /** The alarms' manager does not run here. */
