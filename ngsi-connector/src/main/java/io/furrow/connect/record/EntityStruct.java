@@ -1,7 +1,7 @@
 package io.furrow.connect.record;
 
 import java.nio.charset.StandardCharsets;
-import java.util.HashMap;
+import java.util.LinkedHashMap;
 import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -64,7 +64,7 @@ public final class EntityStruct {
     }
 
     public static Struct of(Entity entity) {
-        Map<String, Struct> attributes = new HashMap<>();
+        Map<String, Struct> attributes = new LinkedHashMap<>();
         entity.attributes().forEach(each -> attributes.put(each.getKey(), attribute(each.getValue())));
         return new Struct(ENTITY)
                 .put("id", entity.id())
@@ -74,9 +74,12 @@ public final class EntityStruct {
 
     private static Struct attribute(JsonNode attribute) {
         JsonNode value = attribute.path("value");
-        Map<String, Struct> metadata = new HashMap<>();
-        attribute.path("metadata").properties().forEach(item -> metadata.put(item.getKey(), typed(METADATA, item)));
-        Struct struct = typed(ATTRIBUTE, Map.entry("", attribute)).put("metadata", metadata);
+        Map<String, Struct> metadata = new LinkedHashMap<>();
+        attribute
+                .path("metadata")
+                .properties()
+                .forEach(item -> metadata.put(item.getKey(), typed(METADATA, item.getValue())));
+        Struct struct = typed(ATTRIBUTE, attribute).put("metadata", metadata);
         if (value.isTextual()) {
             struct.put("textValue", value.textValue());
         } else if (value.isBoolean()) {
@@ -87,10 +90,10 @@ public final class EntityStruct {
         return struct;
     }
 
-    private static Struct typed(Schema schema, Map.Entry<String, JsonNode> of) {
-        JsonNode value = of.getValue().path("value");
+    private static Struct typed(Schema schema, JsonNode of) {
+        JsonNode value = of.path("value");
         return new Struct(schema)
-                .put("type", of.getValue().path("type").textValue())
+                .put("type", of.path("type").textValue())
                 .put("value", value.isMissingNode() ? "null" : text(value));
     }
 

@@ -26,6 +26,8 @@ final class ContextWriter implements AutoCloseable {
         int deleted;
         final List<RefusedChange> refused = new ArrayList<>();
         private final List<FailingChange> failing = new ArrayList<>();
+        /** Whether the context broker took a write or a deletion, and so works. */
+        private boolean anyTaken;
     }
 
     private final BrokerClient client;
@@ -76,8 +78,7 @@ final class ContextWriter implements AutoCloseable {
         if (fates.failing.isEmpty()) {
             return;
         }
-        boolean takesOthers = fates.written + fates.deleted > 0;
-        if (!takesOthers && !isolation.refusesWithoutProof()) {
+        if (!fates.anyTaken && !isolation.refusesWithoutProof()) {
             throw new BrokerAwayException(fates.failing.get(0).away());
         }
         for (FailingChange failing : fates.failing) {
@@ -100,6 +101,7 @@ final class ContextWriter implements AutoCloseable {
         EntityWriter.Result result = writer.write(plan.updates(), apart);
         result.written().forEach(this::remember);
         fates.written += result.written().size();
+        fates.anyTaken |= !result.written().isEmpty();
         if (result.failure() != null) {
             fail(result.failure());
         }
@@ -150,7 +152,9 @@ final class ContextWriter implements AutoCloseable {
             throws BrokerAwayException, WrongSettingException {
         EntityDeleter.Result result = deleter.delete(deletions, apart);
         result.deleted().forEach(deletion -> known.delete(deletion.key(), deletion.time()));
-        fates.deleted += result.deleted().size();
+        result.absent().forEach(deletion -> known.delete(deletion.key(), deletion.time()));
+        fates.deleted += result.deleted().size() + result.absent().size();
+        fates.anyTaken |= !result.deleted().isEmpty();
         fates.refused.addAll(result.refused());
         fates.failing.addAll(result.failing());
     }

@@ -18,9 +18,15 @@ final class EntityDeleter {
     /**
      * What became of deletions; together they are as many as there were.
      *
+     * @param deleted those that the context broker confirmed
+     * @param absent those that are not there, perhaps because of this deletion
      * @param failing those that drew a 500, each for itself
      */
-    record Result(List<Change> deleted, List<RefusedChange> refused, List<FailingChange> failing) {}
+    record Result(List<Change> deleted, List<Change> absent, List<RefusedChange> refused, List<FailingChange> failing) {
+        static Result empty() {
+            return new Result(new ArrayList<>(), new ArrayList<>(), new ArrayList<>(), new ArrayList<>());
+        }
+    }
 
     private final BrokerClient client;
     private final ContextBrokerApi api;
@@ -39,7 +45,7 @@ final class EntityDeleter {
      * @param apart whether a batch that draws a 500 is halved, too
      */
     Result delete(List<Change> deletions, boolean apart) throws BrokerAwayException, WrongSettingException {
-        Result result = new Result(new ArrayList<>(), new ArrayList<>(), new ArrayList<>());
+        Result result = Result.empty();
         List<Rendered<Change>> rendered = deletions.stream()
                 .map(deletion -> new Rendered<>(deletion, deletion.key().scope(), api.renderDeletion(deletion.key())))
                 .toList();
@@ -85,7 +91,7 @@ final class EntityDeleter {
             if (existing.contains(one.of().key())) {
                 left.add(one);
             } else {
-                result.deleted().add(one.of());
+                result.absent().add(one.of());
             }
         }
         int half = left.size() == batch.size() ? left.size() / 2 : 0;
@@ -100,8 +106,10 @@ final class EntityDeleter {
     private void delete(Change deletion, boolean apart, Result result)
             throws BrokerAwayException, WrongSettingException {
         Outcome outcome = client.send(api.delete(deletion.key()));
-        if (outcome instanceof Outcome.Done || outcome instanceof Outcome.Absent) {
+        if (outcome instanceof Outcome.Done) {
             result.deleted().add(deletion);
+        } else if (outcome instanceof Outcome.Absent) {
+            result.absent().add(deletion);
         } else if (outcome instanceof Outcome.Refused refusal) {
             result.refused().add(new RefusedChange(deletion, refusal.words()));
         } else if (outcome instanceof Outcome.WrongSetting wrong) {

@@ -102,6 +102,17 @@ class IsolationTest {
     }
 
     @Test
+    void takesADeletionOfWhatIsAbsentForNoProofThatTheContextBrokerWorks() {
+        options.put("retry.refuse.after", "0");
+        start();
+        poison("append", 500);
+        List<SinkRecord> records = records(0, 3);
+        records.add(deletion("gone", 9));
+
+        putAgainAndAgain(records, 10);
+    }
+
+    @Test
     void refusesAnEntityThatIsAloneAfterSoManyTries() {
         start();
         poison("", 500);
@@ -141,9 +152,8 @@ class IsolationTest {
         start();
         task.put(records(0, 10));
         poison("e7", 500);
-        List<SinkRecord> deletions = IntStream.range(0, 10)
-                .mapToObj(i -> new SinkRecord("t", 0, null, "e" + i, null, null, i, 1_000L, TimestampType.CREATE_TIME))
-                .toList();
+        List<SinkRecord> deletions =
+                IntStream.range(0, 10).mapToObj(i -> deletion("e" + i, i)).toList();
 
         putAgainAndAgain(deletions, 2);
         task.put(deletions);
@@ -178,6 +188,10 @@ class IsolationTest {
             records.add(record("e" + i, "x", i));
         }
         return records;
+    }
+
+    private static SinkRecord deletion(String id, long offset) {
+        return new SinkRecord("t", 0, null, id, null, null, offset, 1_000L, TimestampType.CREATE_TIME);
     }
 
     private static SinkRecord record(String id, String attribute, long time) {
