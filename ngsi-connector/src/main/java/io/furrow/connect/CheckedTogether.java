@@ -1,11 +1,16 @@
 package io.furrow.connect;
 
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
 import org.apache.kafka.common.config.Config;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.ConfigValue;
 
 /** Puts what is wrong with several options together beside the option that should be changed. */
 public final class CheckedTogether {
+    private static final Pattern NAMED = Pattern.compile(" for configuration ([^\\s:]+):");
+
     private CheckedTogether() {}
 
     /**
@@ -26,12 +31,18 @@ public final class CheckedTogether {
         return each;
     }
 
-    /** The class does not keep the name by itself. */
+    /** The class does not keep the name by itself. An option of the worker's, such as a converter, gets its value here. */
     private static ConfigValue optionOf(ConfigException wrong, Config each) {
-        String message = wrong.getMessage() + ":";
+        Matcher named = NAMED.matcher(wrong.getMessage() + ":");
+        if (!named.find()) {
+            throw wrong;
+        }
         return each.configValues().stream()
-                .filter(value -> message.contains(" for configuration " + value.name() + ":"))
+                .filter(value -> value.name().equals(named.group(1)))
                 .findFirst()
-                .orElseThrow(() -> wrong);
+                .orElseGet(() -> {
+                    each.configValues().add(new ConfigValue(named.group(1)));
+                    return each.configValues().get(each.configValues().size() - 1);
+                });
     }
 }

@@ -128,13 +128,13 @@ public final class BrokerClient {
     }
 
     private static Outcome away(String reason, Throwable cause) {
-        return new Outcome.Away(reason, Optional.empty(), cause);
+        return new Outcome.Away(reason, Optional.empty(), cause, 0);
     }
 
     private static Outcome away(URI uri, String words, HttpResponse<byte[]> answer) {
         Optional<Duration> retryAfter =
                 answer.headers().firstValue("Retry-After").flatMap(BrokerClient::retryAfter);
-        return new Outcome.Away(uri + " answered " + words, retryAfter, null);
+        return new Outcome.Away(uri + " answered " + words, retryAfter, null, answer.statusCode());
     }
 
     /** RFC 9110: seconds, or a date. */

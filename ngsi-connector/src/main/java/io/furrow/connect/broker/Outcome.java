@@ -48,8 +48,9 @@ public sealed interface Outcome {
      * @param reason a sentence with the URL
      * @param retryAfter how long the broker asks to be left alone, at least zero
      * @param cause null where there was an answer
+     * @param status of the answer, 0 where there was none
      */
-    record Away(String reason, Optional<Duration> retryAfter, Throwable cause) implements Outcome {}
+    record Away(String reason, Optional<Duration> retryAfter, Throwable cause, int status) implements Outcome {}
 
     /** No request can succeed until a setting is changed (401, 403, 405, 3xx). {@code words} are the URL and the answer. */
     record WrongSetting(String words) implements Outcome {}

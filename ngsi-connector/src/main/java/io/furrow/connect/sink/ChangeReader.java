@@ -9,9 +9,9 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.common.record.TimestampType;
 import org.apache.kafka.connect.data.Struct;
-import org.apache.kafka.connect.header.Header;
 import org.apache.kafka.connect.sink.SinkRecord;
 
+import io.furrow.connect.record.EntityStruct;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -39,7 +39,7 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         if (record.value() == null) {
             return new Change(new EntityKey(scope, key(record)), null, time, source);
         }
-        JsonNode json = record.value() instanceof Struct struct ? StructReader.entity(struct) : json(record.value());
+        JsonNode json = record.value() instanceof Struct struct ? json(struct) : json(record.value());
         if (json instanceof ObjectNode object) {
             complete(object, record);
         }
@@ -58,8 +58,8 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
 
     private FiwareScope scope(SinkRecord record) throws UnreadableException {
         FiwareScope scope = FiwareScope.of(
-                header(record, HeaderNames.SERVICE, defaultScope.service()),
-                header(record, HeaderNames.SERVICE_PATH, defaultScope.servicePath()));
+                RecordHeaders.name(record, HeaderNames.SERVICE, defaultScope.service()),
+                RecordHeaders.name(record, HeaderNames.SERVICE_PATH, defaultScope.servicePath()));
         if (!SERVICE.matcher(scope.service()).matches()
                 || !SERVICE_PATH.matcher(scope.servicePath()).matches()) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "fiware-service or fiware-servicepath is malformed");
@@ -70,9 +70,7 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
     /** The record's time is the event's, unless the topic stamps records itself. */
     private static long time(SinkRecord record) {
         if (record.timestampType() == TimestampType.LOG_APPEND_TIME) {
-            String stated = header(record, HeaderNames.CE_TIME, "");
-            return ReportedTimes.millis(NgsiJson.mapper().getNodeFactory().textNode(stated))
-                    .orElse(record.timestamp());
+            return RecordHeaders.millis(record, HeaderNames.CE_TIME).orElse(record.timestamp());
         }
         return record.timestamp() == null || record.timestamp() < 0 ? Change.NO_TIME : record.timestamp();
     }
@@ -86,14 +84,8 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         return id;
     }
 
-    static String header(SinkRecord record, String name, String otherwise) {
-        Header header = record.headers().lastWithName(name);
-        if (header == null || header.value() == null) {
-            return otherwise;
-        }
-        return header.value() instanceof byte[] bytes
-                ? new String(bytes, StandardCharsets.UTF_8)
-                : String.valueOf(header.value());
+    private static JsonNode json(Struct struct) throws UnreadableException {
+        return EntityStruct.isOf(struct.schema()) ? EntityStruct.json(struct) : StructReader.entity(struct);
     }
 
     private static JsonNode json(Object value) throws UnreadableException {

@@ -33,6 +33,15 @@ interface ContextBrokerApi {
     /** Deletes an entity. */
     BrokerRequest delete(EntityKey key);
 
+    /** The entity as one element of a batch of deletions, UTF-8 JSON. */
+    byte[] renderDeletion(EntityKey key);
+
+    /**
+     * Deletes the entities of elements that {@link #renderDeletion} made, all of one scope. The others are deleted also where some are
+     * absent, but the answer need not say which.
+     */
+    BrokerRequest delete(FiwareScope scope, List<byte[]> elements);
+
     /** Deletes an attribute of an entity. */
     BrokerRequest delete(EntityKey key, EntityTimes.Name attribute);
 

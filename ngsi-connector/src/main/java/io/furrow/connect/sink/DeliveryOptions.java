@@ -10,14 +10,19 @@ import org.apache.kafka.common.config.ConfigDef.Type;
 import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
 
-/** How much goes into a request, how many requests at a time, and how long to wait for a broker that is away. */
+/** How much goes into a request, how many at a time, what is remembered, and how a delivery that fails is tried again. */
 record DeliveryOptions(AbstractConfig config) {
     static final String BATCH_SIZE = "batch.size";
     static final String BATCH_BYTES = "batch.bytes";
     static final String PARALLEL = "parallel.requests";
     static final String MAX_KNOWN = "known.attributes.max";
+    static final String MAX_KNOWN_AGE = "known.max.age.ms";
+    static final String ISOLATE_AFTER = "retry.isolate.after";
+    static final String REFUSE_AFTER = "retry.refuse.after";
     static final String RETRY_BACKOFF = "retry.backoff.ms";
     static final String RETRY_BACKOFF_MAX = "retry.backoff.max.ms";
+
+    private static final String RETRIES = "Retries";
 
     /** Checks what concerns more than one option. */
     DeliveryOptions {
@@ -30,7 +35,8 @@ record DeliveryOptions(AbstractConfig config) {
     static void define(ConfigDef options) {
         defineBatches(options);
         defineKnown(options);
-        definePatience(options);
+        defineRetries(options);
+        defineIsolation(options);
     }
 
     private static void defineBatches(ConfigDef options) {
@@ -85,10 +91,23 @@ record DeliveryOptions(AbstractConfig config) {
                 1,
                 Width.SHORT,
                 "Known attributes");
+        options.define(
+                MAX_KNOWN_AGE,
+                Type.LONG,
+                600_000L,
+                Range.between(0, Duration.ofDays(365).toMillis()),
+                Importance.LOW,
+                "Milliseconds after which the times of an entity are read from the context broker again, before a record of it is"
+                        + " written: so long an older value may overwrite a newer one that another task or program wrote."
+                        + " 0 reads them for every delivery.",
+                "Memory",
+                2,
+                Width.SHORT,
+                "Age of what is known (ms)");
     }
 
-    private static void definePatience(ConfigDef options) {
-        String group = "Patience";
+    private static void defineRetries(ConfigDef options) {
+        String group = RETRIES;
         options.define(
                 RETRY_BACKOFF,
                 Type.LONG,
@@ -114,6 +133,35 @@ record DeliveryOptions(AbstractConfig config) {
                 "Longest back-off (ms)");
     }
 
+    private static void defineIsolation(ConfigDef options) {
+        options.define(
+                ISOLATE_AFTER,
+                Type.INT,
+                5,
+                Range.between(0, 1_000_000),
+                Importance.LOW,
+                "Every so many tries of the same records that the context broker answers 500, batches are halved until the entity"
+                        + " that draws it stands alone. If any other record of the delivery is written then, that entity is"
+                        + " refused. 0 for never.",
+                RETRIES,
+                3,
+                Width.SHORT,
+                "Tries until isolation");
+        options.define(
+                REFUSE_AFTER,
+                Type.INT,
+                100,
+                Range.between(0, 1_000_000),
+                Importance.LOW,
+                "Tries after which an entity that draws a 500 alone is refused although no other record of the delivery could be"
+                        + " written to show that the context broker works. 100 are about 90 minutes with the default"
+                        + " back-off. 0 for never: then such a record waits as long as it takes.",
+                RETRIES,
+                4,
+                Width.SHORT,
+                "Tries until refusal");
+    }
+
     Batches batches() {
         return new Batches(config.getInt(BATCH_SIZE), config.getLong(BATCH_BYTES));
     }
@@ -124,6 +172,14 @@ record DeliveryOptions(AbstractConfig config) {
 
     long maxKnownAttributes() {
         return config.getLong(MAX_KNOWN);
+    }
+
+    Duration maxKnownAge() {
+        return Duration.ofMillis(config.getLong(MAX_KNOWN_AGE));
+    }
+
+    Isolation isolation() {
+        return new Isolation(config.getInt(ISOLATE_AFTER), config.getInt(REFUSE_AFTER));
     }
 
     Backoff backoff() {

@@ -13,6 +13,7 @@ final class EntityTimes {
     private String[] names = {};
     private long[] times = {};
     private long deletedAt = Change.NO_TIME;
+    private long readAtNanos;
 
     /** {@link Change#NO_TIME} where nothing is known. */
     long of(String type, String name) {
@@ -22,6 +23,16 @@ final class EntityTimes {
 
     long deletedAt() {
         return deletedAt;
+    }
+
+    /** When they were read from the context broker, by the clock of {@link KnownTimes}. */
+    long readAtNanos() {
+        return readAtNanos;
+    }
+
+    void readAt(long nanos, long deletedAt) {
+        this.readAtNanos = nanos;
+        this.deletedAt = deletedAt;
     }
 
     /** Of all attributes of all types. */

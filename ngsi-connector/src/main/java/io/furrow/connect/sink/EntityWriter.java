@@ -21,24 +21,29 @@ final class EntityWriter implements AutoCloseable {
     /** An update that the context broker does not take, and its words. */
     record RefusedUpdate(Update update, String words) {}
 
+    /** An update that draws a 500 alone. */
+    record FailingUpdate(Update update, Outcome.Away away) {}
+
     /**
      * What became of updates.
      *
-     * @param failure null where nothing stood in the way; else some updates are neither written nor refused
+     * @param failing empty unless batches are taken apart
+     * @param failure null where nothing stood in the way; else some updates are neither written, refused nor failing
      */
-    record Result(List<Update> written, List<RefusedUpdate> refused, Outcome failure) {
+    record Result(List<Update> written, List<RefusedUpdate> refused, List<FailingUpdate> failing, Outcome failure) {
         static Result empty() {
-            return new Result(new ArrayList<>(), new ArrayList<>(), null);
+            return new Result(new ArrayList<>(), new ArrayList<>(), new ArrayList<>(), null);
         }
 
         Result and(Result other) {
             written.addAll(other.written);
             refused.addAll(other.refused);
-            return new Result(written, refused, failure == null ? other.failure : failure);
+            failing.addAll(other.failing);
+            return new Result(written, refused, failing, failure == null ? other.failure : failure);
         }
 
         private Result failed(Outcome outcome) {
-            return new Result(written, refused, outcome);
+            return new Result(written, refused, failing, outcome);
         }
     }
 
@@ -61,26 +66,30 @@ final class EntityWriter implements AutoCloseable {
         return thread;
     }
 
-    /** An interrupt while it waits stays set and counts as {@link Outcome.Away}. */
-    Result write(List<Update> updates) {
-        List<List<Rendered>> cut = batches.cut(updates.stream()
-                .map(update -> new Rendered(update, api.render(update)))
+    /**
+     * An interrupt while it waits stays set and counts as {@link Outcome.Away}.
+     *
+     * @param apart whether a batch that draws a 500 is halved, too
+     */
+    Result write(List<Update> updates, boolean apart) {
+        List<List<Rendered<Update>>> cut = batches.cut(updates.stream()
+                .map(update -> new Rendered<>(update, update.key().scope(), api.render(update)))
                 .toList());
         Result all = Result.empty();
         if (requests == null || cut.size() == 1) {
             for (int i = 0; i < cut.size() && all.failure() == null; i++) {
-                all = all.and(write(cut.get(i), Result.empty()));
+                all = all.and(write(cut.get(i), apart, Result.empty()));
             }
             return all;
         }
-        return writeTogether(cut);
+        return writeTogether(cut, apart);
     }
 
     /** Waits for all of them, also after one has failed: what is under way must not overtake a second try. */
-    private Result writeTogether(List<List<Rendered>> cut) {
+    private Result writeTogether(List<List<Rendered<Update>>> cut, boolean apart) {
         List<Future<Result>> underWay = new ArrayList<>();
-        for (List<Rendered> batch : cut) {
-            underWay.add(requests.submit(() -> write(batch, Result.empty())));
+        for (List<Rendered<Update>> batch : cut) {
+            underWay.add(requests.submit(() -> write(batch, apart, Result.empty())));
         }
         Result all = Result.empty();
         boolean interrupted = false;
@@ -102,45 +111,58 @@ final class EntityWriter implements AutoCloseable {
         return all;
     }
 
-    private Result write(List<Rendered> batch, Result soFar) {
+    private Result write(List<Rendered<Update>> batch, boolean apart, Result soFar) {
         Outcome outcome = client.send(api.write(
-                batch.get(0).update().key().scope(),
-                batch.stream().map(Rendered::json).toList()));
+                batch.get(0).scope(), batch.stream().map(Rendered::json).toList()));
         if (outcome instanceof Outcome.Done done) {
-            return taken(batch, done, soFar);
+            return taken(batch, done, apart, soFar);
         } else if (outcome instanceof Outcome.Refused refusal) {
-            return refused(batch, refusal.words(), soFar);
+            return refused(batch, refusal.words(), apart, soFar);
+        } else if (apart && outcome instanceof Outcome.Away away && FailingChange.isMeant(away)) {
+            return failing(batch, away, soFar);
         } else if (outcome instanceof Outcome.Absent absent) {
             return soFar.failed(new Outcome.WrongSetting(api.name() + " is not there: " + absent.words()));
         }
         return soFar.failed(outcome);
     }
 
-    private Result taken(List<Rendered> batch, Outcome.Done done, Result soFar) {
+    private Result taken(List<Rendered<Update>> batch, Outcome.Done done, boolean apart, Result soFar) {
         try {
             Map<String, String> refused = api.refused(done);
-            for (Rendered one : batch) {
-                String words = refused.get(api.idOf(one.update()));
+            for (Rendered<Update> one : batch) {
+                String words = refused.get(api.idOf(one.of()));
                 if (words == null) {
-                    soFar.written().add(one.update());
+                    soFar.written().add(one.of());
                 } else {
-                    soFar.refused().add(new RefusedUpdate(one.update(), words));
+                    soFar.refused().add(new RefusedUpdate(one.of(), words));
                 }
             }
             return soFar;
         } catch (UnreadableException e) {
-            return refused(batch, done.status() + " with a body that is no JSON: " + e.getMessage(), soFar);
+            return refused(batch, done.status() + " with a body that is no JSON: " + e.getMessage(), apart, soFar);
         }
     }
 
-    private Result refused(List<Rendered> batch, String words, Result soFar) {
+    private Result refused(List<Rendered<Update>> batch, String words, boolean apart, Result soFar) {
         if (batch.size() == 1) {
-            soFar.refused().add(new RefusedUpdate(batch.get(0).update(), words));
+            soFar.refused().add(new RefusedUpdate(batch.get(0).of(), words));
             return soFar;
         }
+        return halved(batch, apart, soFar);
+    }
+
+    private Result failing(List<Rendered<Update>> batch, Outcome.Away away, Result soFar) {
+        if (batch.size() == 1) {
+            soFar.failing().add(new FailingUpdate(batch.get(0).of(), away));
+            return soFar;
+        }
+        return halved(batch, true, soFar);
+    }
+
+    private Result halved(List<Rendered<Update>> batch, boolean apart, Result soFar) {
         int half = batch.size() / 2;
-        Result first = write(batch.subList(0, half), soFar);
-        return first.failure() == null ? write(batch.subList(half, batch.size()), first) : first;
+        Result first = write(batch.subList(0, half), apart, soFar);
+        return first.failure() == null ? write(batch.subList(half, batch.size()), apart, first) : first;
     }
 
     @Override

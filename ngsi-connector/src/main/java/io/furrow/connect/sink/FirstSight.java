@@ -2,6 +2,7 @@ package io.furrow.connect.sink;
 
 import java.util.ArrayList;
 import java.util.Collection;
+import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.LinkedHashSet;
 import java.util.List;
@@ -16,7 +17,7 @@ import io.furrow.connect.broker.Outcome;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads the times of entities that are not known yet from the context broker, many at a time. */
+/** Reads the times of entities that are not known, or not any more, from the context broker, many at a time. */
 final class FirstSight {
     private static final Logger LOG = LoggerFactory.getLogger(FirstSight.class);
 
@@ -34,7 +35,7 @@ final class FirstSight {
     void learn(Collection<Change> changes) throws BrokerAwayException, WrongSettingException {
         Map<FiwareScope, Map<String, Set<String>>> unknown = new LinkedHashMap<>();
         for (Change change : changes) {
-            if (known.of(change.key()) == null) {
+            if (!known.isFresh(change.key())) {
                 Set<String> types = unknown.computeIfAbsent(change.key().scope(), scope -> new LinkedHashMap<>())
                         .computeIfAbsent(change.key().id(), id -> new LinkedHashSet<>());
                 if (!change.isDeletion()) {
@@ -42,26 +43,45 @@ final class FirstSight {
                 }
             }
         }
+        Map<EntityKey, EntityTimes> found = read(unknown);
+        unknown.forEach((scope, ids) -> ids.keySet().forEach(id -> {
+            EntityKey key = new EntityKey(scope, id);
+            known.learn(key, found.getOrDefault(key, new EntityTimes()));
+        }));
+    }
+
+    /** Those of the entities that are there now, and those that the context broker does not speak of. */
+    Set<EntityKey> existing(Collection<EntityKey> keys) throws BrokerAwayException, WrongSettingException {
+        Map<FiwareScope, Map<String, Set<String>>> asked = new LinkedHashMap<>();
+        keys.forEach(key -> asked.computeIfAbsent(key.scope(), scope -> new LinkedHashMap<>())
+                .put(key.id(), Set.of()));
+        return read(asked).keySet();
+    }
+
+    /** Without those that are absent. */
+    private Map<EntityKey, EntityTimes> read(Map<FiwareScope, Map<String, Set<String>>> unknown)
+            throws BrokerAwayException, WrongSettingException {
+        Map<EntityKey, EntityTimes> found = new HashMap<>();
         for (Map.Entry<FiwareScope, Map<String, Set<String>>> entry : unknown.entrySet()) {
             List<String> ids = new ArrayList<>(entry.getValue().keySet());
             for (int from = 0; from < ids.size(); from += api.idsPerRead()) {
                 int to = Math.min(ids.size(), from + api.idsPerRead());
-                read(entry.getKey(), entry.getValue(), ids.subList(from, to));
+                read(entry.getKey(), entry.getValue(), ids.subList(from, to), found);
             }
         }
+        return found;
     }
 
-    private void read(FiwareScope scope, Map<String, Set<String>> types, List<String> ids)
+    private void read(
+            FiwareScope scope, Map<String, Set<String>> types, List<String> ids, Map<EntityKey, EntityTimes> found)
             throws BrokerAwayException, WrongSettingException {
         Map<String, Set<String>> asked = new LinkedHashMap<>();
         ids.forEach(id -> asked.put(id, types.get(id)));
         Outcome outcome = client.send(api.read(scope, asked));
         if (outcome instanceof Outcome.Done done) {
-            found(scope, ids, done);
-        } else if (outcome instanceof Outcome.Absent) {
-            none(scope, ids);
+            found(scope, ids, done, found);
         } else if (outcome instanceof Outcome.Refused refusal) {
-            refused(scope, types, ids, refusal);
+            refused(scope, types, ids, refusal, found);
         } else if (outcome instanceof Outcome.Away away) {
             throw new BrokerAwayException(away);
         } else if (outcome instanceof Outcome.WrongSetting wrong) {
@@ -69,29 +89,30 @@ final class FirstSight {
         }
     }
 
-    private void found(FiwareScope scope, List<String> ids, Outcome.Done done) throws WrongSettingException {
+    private void found(FiwareScope scope, List<String> ids, Outcome.Done done, Map<EntityKey, EntityTimes> found)
+            throws WrongSettingException {
         try {
-            Map<String, EntityTimes> times = api.times(ids, done);
-            ids.forEach(id -> known.put(new EntityKey(scope, id), times.getOrDefault(id, new EntityTimes())));
+            api.times(ids, done).forEach((id, times) -> found.put(new EntityKey(scope, id), times));
         } catch (UnreadableException e) {
             throw new WrongSettingException("what should be a context broker answers a query with no entities: " + e);
         }
     }
 
-    private void none(FiwareScope scope, List<String> ids) {
-        ids.forEach(id -> known.put(new EntityKey(scope, id), new EntityTimes()));
-    }
-
     /** One id that no entity can have makes the broker refuse all; the write of that one will be refused too. */
-    private void refused(FiwareScope scope, Map<String, Set<String>> types, List<String> ids, Outcome.Refused refusal)
+    private void refused(
+            FiwareScope scope,
+            Map<String, Set<String>> types,
+            List<String> ids,
+            Outcome.Refused refusal,
+            Map<EntityKey, EntityTimes> found)
             throws BrokerAwayException, WrongSettingException {
         if (ids.size() == 1) {
             LOG.warn("The context broker does not say what it has of {}: {}", ids.get(0), refusal.words());
-            none(scope, ids);
+            found.put(new EntityKey(scope, ids.get(0)), new EntityTimes());
         } else {
             int half = ids.size() / 2;
-            read(scope, types, ids.subList(0, half));
-            read(scope, types, ids.subList(half, ids.size()));
+            read(scope, types, ids.subList(0, half), found);
+            read(scope, types, ids.subList(half, ids.size()), found);
         }
     }
 }

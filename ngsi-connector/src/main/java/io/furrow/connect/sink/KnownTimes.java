@@ -1,17 +1,33 @@
 package io.furrow.connect.sink;
 
+import java.time.Duration;
 import java.util.Iterator;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.function.LongSupplier;
 
-/** The times of the entities written or read last, as many as hold {@code maxAttributes} attributes together. */
+/**
+ * The times of the entities written or read last, as many as hold {@code maxAttributes} attributes together; they are to be read
+ * again when the last reading is {@code maxAge} old, because others may have written meanwhile.
+ */
 final class KnownTimes {
     private final long maxAttributes;
+    private final long maxAgeNanos;
+    private final LongSupplier nanoClock;
     private final Map<EntityKey, EntityTimes> entities = new LinkedHashMap<>(16, 0.75f, true);
     private long attributes;
 
-    KnownTimes(long maxAttributes) {
+    /** @param nanoClock as {@link System#nanoTime} */
+    KnownTimes(long maxAttributes, Duration maxAge, LongSupplier nanoClock) {
         this.maxAttributes = maxAttributes;
+        this.maxAgeNanos = maxAge.toNanos();
+        this.nanoClock = nanoClock;
+    }
+
+    /** Whether the entity is known, from a reading that is not too old. */
+    boolean isFresh(EntityKey key) {
+        EntityTimes times = entities.get(key);
+        return times != null && nanoClock.getAsLong() - times.readAtNanos() < maxAgeNanos;
     }
 
     /** Null where the entity is not known, which is not the same as known to be absent. */
@@ -19,8 +35,10 @@ final class KnownTimes {
         return entities.get(key);
     }
 
-    void put(EntityKey key, EntityTimes times) {
+    /** What was read just now takes the place of what was known; a deletion stays known, no context broker tells of it. */
+    void learn(EntityKey key, EntityTimes times) {
         EntityTimes before = entities.put(key, times);
+        times.readAt(nanoClock.getAsLong(), before == null ? Change.NO_TIME : before.deletedAt());
         attributes += cost(times) - (before == null ? 0 : cost(before));
     }
 

@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * NGSI-LD: {@code POST /ngsi-ld/v1/entityOperations/upsert?options=update}. Each attribute carries its event time as
+ * NGSI-LD: {@code POST /ngsi-ld/v1/entityOperations/upsert?options=update}, and {@code …/delete}. Each attribute carries its event time as
  * {@code observedAt}; one that has none counts as old as its {@code modifiedAt}.
  *
  * @param context URL of the {@code @context} that names the types and attributes; empty for the core context alone
@@ -72,6 +72,17 @@ record NgsiLd(String context) implements ContextBrokerApi {
     @Override
     public BrokerRequest delete(EntityKey key) {
         return scoped(BrokerRequest.delete(key.scope(), "/ngsi-ld/v1/entities/" + NgsiV2.encoded(key.id())));
+    }
+
+    @Override
+    public byte[] renderDeletion(EntityKey key) {
+        return NgsiJson.write(JsonNodeFactory.instance.textNode(key.id()));
+    }
+
+    @Override
+    public BrokerRequest delete(FiwareScope scope, List<byte[]> elements) {
+        byte[] body = NgsiV2.joined(START, elements, END);
+        return scoped(BrokerRequest.post(scope, "/ngsi-ld/v1/entityOperations/delete", body));
     }
 
     @Override

@@ -45,6 +45,11 @@ public class NgsiSinkConfig extends AbstractConfig {
         return Integer.parseInt(originalsStrings().getOrDefault(TASK_INDEX, "0"));
     }
 
+    /** Whether another task may write the same entities. */
+    boolean hasSeveralTasks() {
+        return !originalsStrings().getOrDefault("tasks.max", "1").strip().equals("1");
+    }
+
     BrokerOptions broker() {
         return broker;
     }
@@ -60,7 +65,8 @@ public class NgsiSinkConfig extends AbstractConfig {
     /** Knows nothing yet. */
     ContextWriter writer() {
         BrokerClient client = new BrokerClient(broker.settings());
-        EntityWriter writer = new EntityWriter(client, api.api(), delivery.batches(), delivery.parallelRequests());
-        return new ContextWriter(client, api.api(), new KnownTimes(delivery.maxKnownAttributes()), writer);
+        KnownTimes known = new KnownTimes(delivery.maxKnownAttributes(), delivery.maxKnownAge(), System::nanoTime);
+        return new ContextWriter(
+                client, api.api(), known, delivery.batches(), delivery.parallelRequests(), delivery.isolation());
     }
 }

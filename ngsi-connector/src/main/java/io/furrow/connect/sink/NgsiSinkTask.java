@@ -2,8 +2,10 @@ package io.furrow.connect.sink;
 
 import java.util.ArrayList;
 import java.util.Collection;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.connect.errors.ConnectException;
@@ -12,6 +14,8 @@ import org.apache.kafka.connect.errors.RetriableException;
 import org.apache.kafka.connect.sink.ErrantRecordReporter;
 import org.apache.kafka.connect.sink.SinkRecord;
 import org.apache.kafka.connect.sink.SinkTask;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.PluginVersion;
 import io.furrow.connect.broker.BrokerOptions;
@@ -29,11 +33,15 @@ import io.furrow.model.ngsi.UnreadableException;
 public class NgsiSinkTask extends SinkTask {
     private record Errant(SinkRecord record, Exception cause) {}
 
+    private static final Logger LOG = LoggerFactory.getLogger(NgsiSinkTask.class);
+
     private final SinkLedger ledger = new SinkLedger();
+    private final Set<String> keylessTopics = new HashSet<>();
     private SinkEntityOptions entities;
     private ChangeReader reader;
     private ContextWriter writer;
     private Backoff backoff;
+    private boolean hasNeighbors;
     private LedgerBean bean;
 
     /** Made by the worker. */
@@ -49,6 +57,7 @@ public class NgsiSinkTask extends SinkTask {
         NgsiSinkConfig config = new NgsiSinkConfig(properties);
         entities = config.entities();
         reader = new ChangeReader(entities.scope(), entities.defaultType());
+        hasNeighbors = config.hasSeveralTasks();
         writer = config.writer();
         backoff = config.delivery().backoff();
         bean = LedgerBean.show(ledger, "ngsi-sink", config.name(), config.taskIndex());
@@ -72,7 +81,7 @@ public class NgsiSinkTask extends SinkTask {
         int ignored = 0;
         for (int i = 0; i < records.size(); i++) {
             SinkRecord record = records.get(i);
-            if (entities.isEcho(ChangeReader.header(record, HeaderNames.CE_SOURCE, ""))) {
+            if (entities.isEcho(RecordHeaders.text(record, HeaderNames.CE_SOURCE, ""))) {
                 echo++;
             } else if (record.value() == null && !entities.deletesOnNull()) {
                 ignored++;
@@ -95,6 +104,13 @@ public class NgsiSinkTask extends SinkTask {
     }
 
     private void read(SinkRecord record, int source, List<Change> changes, List<Errant> errant) {
+        if (record.key() == null && hasNeighbors && keylessTopics.add(record.topic())) {
+            LOG.warn(
+                    "Topic {} has records with no key, so that one entity may come to several tasks: an older value can then"
+                            + " overwrite a newer one for as long as {} says; let the entity's id be the key, or set tasks.max=1",
+                    record.topic(),
+                    DeliveryOptions.MAX_KNOWN_AGE);
+        }
         try {
             changes.add(reader.read(record, source));
         } catch (UnreadableException e) {

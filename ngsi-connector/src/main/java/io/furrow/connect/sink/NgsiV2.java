@@ -22,7 +22,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * NGSI-v2: {@code POST /v2/op/update} with action {@code append}. Each attribute carries its event time as metadata, where an
+ * NGSI-v2: {@code POST /v2/op/update} with action {@code append} or {@code delete}. Each attribute carries its event time as metadata, where an
  * IoT Agent puts it too. An attribute that has none was written by somebody else: it counts as old as the entity's {@code Time}
  * or {@code TimeInstant} if it was not changed after that, else as its own {@code dateModified}.
  *
@@ -30,6 +30,8 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     private static final byte[] START = "{\"actionType\":\"append\",\"entities\":[".getBytes(StandardCharsets.US_ASCII);
+    private static final byte[] START_DELETION =
+            "{\"actionType\":\"delete\",\"entities\":[".getBytes(StandardCharsets.US_ASCII);
     private static final byte[] END = "]}".getBytes(StandardCharsets.US_ASCII);
     private static final int IDS_PER_READ = 200;
     /** Several entities may share an id; five on average are allowed for. */
@@ -94,6 +96,16 @@ record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     @Override
     public BrokerRequest delete(EntityKey key) {
         return BrokerRequest.delete(key.scope(), "/v2/entities/" + encoded(key.id()));
+    }
+
+    @Override
+    public byte[] renderDeletion(EntityKey key) {
+        return NgsiJson.write(JsonNodeFactory.instance.objectNode().put("id", key.id()));
+    }
+
+    @Override
+    public BrokerRequest delete(FiwareScope scope, List<byte[]> elements) {
+        return BrokerRequest.post(scope, "/v2/op/update", joined(START_DELETION, elements, END));
     }
 
     @Override

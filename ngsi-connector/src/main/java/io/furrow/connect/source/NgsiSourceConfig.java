@@ -26,6 +26,7 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     private final ListeningOptions listening;
     private final TopicOptions topics;
+    private final RecordOptions records;
     private final EntityOptions entities;
     private final SizeOptions sizes;
     private final PendingOptions pending;
@@ -43,6 +44,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         super(definition(), properties);
         listening = new ListeningOptions(this, taskIndex());
         topics = new TopicOptions(this);
+        records = new RecordOptions(this);
         entities = new EntityOptions(this);
         sizes = new SizeOptions(this);
         pending = new PendingOptions(this);
@@ -133,6 +135,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         ConfigDef options = new ConfigDef();
         ListeningOptions.define(options);
         TopicOptions.define(options);
+        RecordOptions.define(options);
         EntityOptions.define(options);
         SizeOptions.define(options);
         PendingOptions.define(options);
@@ -172,6 +175,10 @@ public class NgsiSourceConfig extends AbstractConfig {
 
     TopicOptions topics() {
         return topics;
+    }
+
+    RecordOptions records() {
+        return records;
     }
 
     EntityOptions entities() {

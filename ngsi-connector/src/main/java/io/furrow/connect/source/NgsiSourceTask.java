@@ -25,6 +25,7 @@ public class NgsiSourceTask extends SourceTask {
     private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
     private NgsiSourceConfig config;
     private int batchSize;
+    private SourceRecords sourceRecords;
     private TopicLimits limits;
     private RecordSizes sizes;
 
@@ -40,6 +41,7 @@ public class NgsiSourceTask extends SourceTask {
     public void start(Map<String, String> properties) {
         config = new NgsiSourceConfig(properties);
         batchSize = config.acknowledging().batchSize();
+        sourceRecords = config.records().records();
         try {
             source.set(Standby.leave(config)
                     .map(running -> resumed(running, this::committed))
@@ -105,7 +107,7 @@ public class NgsiSourceTask extends SourceTask {
             return null;
         }
         limits.refresh();
-        List<SourceRecord> records = SourceRecords.of(turn, sizes);
+        List<SourceRecord> records = sourceRecords.of(turn, sizes::fitting);
         source.get().subscriptions().handedOn(records);
         return records;
     }

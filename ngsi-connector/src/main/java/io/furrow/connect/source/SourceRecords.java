@@ -3,8 +3,9 @@ package io.furrow.connect.source;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.function.Function;
 
-import org.apache.kafka.connect.data.Schema;
+import org.apache.kafka.connect.data.SchemaAndValue;
 import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
@@ -12,16 +13,17 @@ import org.apache.kafka.connect.source.SourceRecord;
 import io.furrow.connect.journal.JournalRecord;
 
 /** Journal records as the worker wants them. */
-final class SourceRecords {
-    private SourceRecords() {}
-
-    /** @throws ConnectException if a newer version of the plugin wrote one of them */
-    static List<SourceRecord> of(TaskJournals.Turn turn, RecordSizes sizes) {
+record SourceRecords(KeyMode keys, ValueMode values) {
+    /**
+     * @param reading what goes to Kafka for a record of the journal
+     * @throws ConnectException if a newer version of the plugin wrote one of them
+     */
+    List<SourceRecord> of(TaskJournals.Turn turn, Function<JournalRecord, OutgoingRecord> reading) {
         Map<String, String> partition = SourceOffsets.partition(turn.journal());
         List<SourceRecord> records = new ArrayList<>(turn.records().size());
         for (JournalRecord kept : turn.records()) {
             try {
-                records.add(of(partition, kept.sequence(), sizes.fitting(kept)));
+                records.add(of(partition, kept.sequence(), reading.apply(kept)));
             } catch (IllegalArgumentException e) {
                 throw new ConnectException(
                         "journal " + turn.journal() + ", record " + kept.sequence() + ": " + e.getMessage()
@@ -32,18 +34,20 @@ final class SourceRecords {
         return records;
     }
 
-    private static SourceRecord of(Map<String, String> partition, long sequence, OutgoingRecord record) {
+    private SourceRecord of(Map<String, String> partition, long sequence, OutgoingRecord record) {
         ConnectHeaders headers = new ConnectHeaders();
         record.headers().forEach(headers::addString);
+        SchemaAndValue key = keys.of(record.key());
+        SchemaAndValue value = values.of(record, headers);
         return new SourceRecord(
                 partition,
                 SourceOffsets.offsetOf(sequence),
                 record.topic(),
                 null,
-                record.key() == null ? null : Schema.STRING_SCHEMA,
-                record.key(),
-                record.value() == null ? Schema.OPTIONAL_BYTES_SCHEMA : Schema.BYTES_SCHEMA,
-                record.value(),
+                key.schema(),
+                key.value(),
+                value.schema(),
+                value.value(),
                 record.time().toEpochMilli(),
                 headers);
     }

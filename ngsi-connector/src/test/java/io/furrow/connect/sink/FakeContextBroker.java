@@ -3,6 +3,7 @@ package io.furrow.connect.sink;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
@@ -133,6 +134,10 @@ final class FakeContextBroker implements AutoCloseable {
     }
 
     private Reply done(Update update, Reply reply) {
+        boolean isLdDeletion = update.path().endsWith("/entityOperations/delete");
+        if (isLdDeletion || update.body().path("actionType").asText().equals("delete")) {
+            return deleted(update, isLdDeletion, reply);
+        }
         if (update.method().equals("DELETE")) {
             String id = update.path().substring(update.path().lastIndexOf('/') + 1);
             return entities.remove(id.replace("%3A", ":")) == null ? new Reply(404, "none") : reply;
@@ -145,6 +150,29 @@ final class FakeContextBroker implements AutoCloseable {
             }
         }
         return reply;
+    }
+
+    /** Those that are there, and what context brokers answer where others are not. */
+    private Reply deleted(Update update, boolean isLd, Reply reply) {
+        List<String> ids = new ArrayList<>();
+        update.elements()
+                .forEach(one -> ids.add(isLd ? one.textValue() : one.path("id").textValue()));
+        List<String> absent =
+                ids.stream().filter(id -> entities.remove(id) == null).toList();
+        if (absent.isEmpty()) {
+            return reply;
+        } else if (absent.size() == ids.size()) {
+            return new Reply(404, "none");
+        } else if (!isLd) {
+            return new Reply(422, "{\"error\": \"PartialUpdate\"}");
+        }
+        ObjectNode answer = JsonNodeFactory.instance.objectNode();
+        absent.forEach(id -> answer.withArray("errors")
+                .addObject()
+                .put("entityId", id)
+                .putObject("error")
+                .put("status", 404));
+        return new Reply(207, answer.toString());
     }
 
     @Override

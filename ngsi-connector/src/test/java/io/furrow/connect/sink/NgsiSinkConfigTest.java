@@ -46,6 +46,9 @@ class NgsiSinkConfigTest {
         "echo.sources, (",
         "parallel.requests, 0",
         "known.attributes.max, -1",
+        "known.max.age.ms, -1",
+        "retry.isolate.after, -1",
+        "retry.refuse.after, -1",
         "context.broker.truststore.location, /nowhere"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {

@@ -65,6 +65,15 @@ class NgsiSinkTaskTest {
     }
 
     @Test
+    void writesNumbersDigitForDigitAndNulls() {
+        task.put(List.of(record("a", "{\"type\": \"T\", \"x\": 21.50, \"y\": 9007199254740993, \"z\": null}")));
+
+        assertThat(broker.value("a", "x")).hasToString("21.50");
+        assertThat(broker.value("a", "y")).hasToString("9007199254740993");
+        assertThat(broker.value("a", "z").isNull()).isTrue();
+    }
+
+    @Test
     void findsTheOneOfABatchThatIsRefused() {
         broker.behaviour = update -> update.body().toString().contains("\"e7\"")
                 ? new Reply(400, "{\"error\":\"BadRequest\",\"description\":\"invalid e7\"}")

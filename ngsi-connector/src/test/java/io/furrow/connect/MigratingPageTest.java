@@ -1,0 +1,54 @@
+package io.furrow.connect;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.regex.MatchResult;
+import java.util.regex.Pattern;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** The page for those who come from other connectors names a test for every row, and each test exists. */
+class MigratingPageTest {
+    private static final Path PAGE = Path.of("docs", "migrating.md");
+    private static final Pattern NAMED = Pattern.compile("`(\\w+(?:Test|IT))\\.(\\w+)`");
+
+    @Test
+    void namesTestsThatExist() throws IOException {
+        List<MatchResult> named =
+                NAMED.matcher(Files.readString(PAGE)).results().toList();
+
+        assertThat(named)
+                .hasSizeGreaterThan(20)
+                .allSatisfy(test ->
+                        assertThat(source(test.group(1))).as(test.group()).contains("void " + test.group(2) + "("));
+    }
+
+    @Test
+    void hasATestForEveryRow() throws IOException {
+        List<String> rows = Files.readAllLines(PAGE).stream()
+                .filter(line -> line.startsWith("| ") && !line.startsWith("| wish"))
+                .toList();
+
+        assertThat(rows)
+                .hasSizeGreaterThan(10)
+                .allSatisfy(row -> assertThat(row).containsPattern(NAMED));
+    }
+
+    private static String source(String test) throws IOException {
+        for (Path root : List.of(Path.of("src/test/java"), Path.of("../model/src/test/java"))) {
+            try (Stream<Path> files = Files.walk(root)) {
+                List<Path> found =
+                        files.filter(file -> file.endsWith(test + ".java")).toList();
+                if (!found.isEmpty()) {
+                    return Files.readString(found.get(0));
+                }
+            }
+        }
+        return "";
+    }
+}

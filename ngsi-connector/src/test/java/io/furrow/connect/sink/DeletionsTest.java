@@ -1,0 +1,140 @@
+package io.furrow.connect.sink;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.connect.sink.SinkRecord;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.connect.sink.FakeContextBroker.Reply;
+import io.furrow.model.ngsi.Entity;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** Deletions go to the context broker in batches; those of a batch are deleted, absent or refused each for itself. */
+class DeletionsTest {
+    private static final int MANY = 250;
+
+    private final FakeContextBroker broker = new FakeContextBroker();
+    private final FakeSinkContext context = new FakeSinkContext(true);
+    private NgsiSinkTask task;
+
+    @AfterEach
+    void stop() {
+        task.stop();
+        broker.close();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
+    void goInBatches(String api) {
+        start(api);
+        task.put(entities());
+        broker.requests.clear();
+
+        task.put(deletions());
+
+        assertThat(broker.entities).isEmpty();
+        assertThat(broker.requests)
+                .hasSize(3)
+                .allSatisfy(request -> assertThat(request.size()).isLessThanOrEqualTo(100));
+        assertThat(context.reported).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
+    void countEntitiesThatAreGoneAlreadyAsDeleted(String api) {
+        start(api);
+        task.put(entities());
+        broker.entities.keySet().removeIf(id -> id.endsWith("7"));
+        broker.requests.clear();
+
+        task.put(deletions());
+
+        assertThat(broker.entities).isEmpty();
+        assertThat(broker.requests).hasSize(3);
+        assertThat(context.reported).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
+    void needNoRequestForEachEntityWhenAllAreGone(String api) {
+        start(api);
+
+        task.put(deletions());
+
+        assertThat(broker.requests).hasSize(3);
+        assertThat(context.reported).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"ngsi-v2", "ngsi-ld"})
+    void setTheOneAsideThatIsRefused(String api) {
+        start(api);
+        task.put(entities());
+        broker.behaviour =
+                update -> (update.path() + update.body()).replace("%3A", ":").contains("urn:x:77\"")
+                                || update.path().endsWith("77")
+                        ? new Reply(400, "no, not this one")
+                        : Reply.WRITTEN;
+
+        task.put(deletions());
+
+        assertThat(broker.entities).containsOnlyKeys("urn:x:77");
+        assertThat(context.reported).singleElement().satisfies(reported -> {
+            assertThat(reported.record().key()).isEqualTo("urn:x:77");
+            assertThat(reported.cause()).hasMessageContaining("no, not this one");
+        });
+    }
+
+    /** The id is all that one deletion needs. */
+    @Test
+    void goAloneWhereThereIsOne() {
+        start("ngsi-v2");
+
+        task.put(deletions().subList(0, 1));
+
+        assertThat(broker.requests)
+                .singleElement()
+                .satisfies(request -> assertThat(request.method()).isEqualTo("DELETE"));
+    }
+
+    private void start(String api) {
+        task = new NgsiSinkTask();
+        task.initialize(context);
+        task.start(new HashMap<>(Map.of(
+                "context.broker.url",
+                broker.url().toString(),
+                "api",
+                api,
+                "parallel.requests",
+                "1",
+                "delete.on.null",
+                "true")));
+    }
+
+    private static List<SinkRecord> entities() {
+        return records(10L, true);
+    }
+
+    private static List<SinkRecord> deletions() {
+        return records(20L, false);
+    }
+
+    private static List<SinkRecord> records(long time, boolean withValue) {
+        List<SinkRecord> records = new ArrayList<>();
+        for (int i = 0; i < MANY; i++) {
+            String id = "urn:x:" + i;
+            byte[] value =
+                    withValue ? Entity.builder(id, "T").integer("x", i).build().toBytes() : null;
+            records.add(new SinkRecord("t", 0, null, id, null, value, i, time, TimestampType.CREATE_TIME));
+        }
+        return records;
+    }
+}
