@@ -60,6 +60,9 @@ public final class Ledger implements Numbers {
     public final Counter gaps = counter("gaps", "Times that notifications were or may have been missed");
     public final Counter clockAhead =
             counter("clockAhead", "Accepted entities whose own time is too far in the future");
+    public final Counter undated = counter(
+            "undated",
+            "Accepted entities without dateModified, of which a change back to an earlier value cannot be told from a repeat");
     public final Counter unauthorized = counter("unauthorized", "Requests answered 401: a wrong secret, or none");
     public final Counter foreignTenant =
             counter("foreignTenant", "Requests answered 403: a tenant that is not allowed");

@@ -65,8 +65,7 @@ final class Repair {
             if (reading.isExcluded(state.entity().type())) {
                 continue;
             }
-            EntityEvent event =
-                    EntityEvent.of(state.entity(), state.scope(), now, reading.maxClockSkew(), Origin.REPAIR);
+            EntityEvent event = EntityEvent.of(state.entity(), state.scope(), now, reading.times(), Origin.REPAIR);
             if (live.isSeen(event.id())) {
                 repeated++;
                 known.add(state.identity());

@@ -5,6 +5,8 @@ import java.time.Duration;
 import java.util.List;
 import java.util.regex.Pattern;
 
+import io.furrow.model.event.EventTimeRule;
+
 /**
  * How a repair is done.
  *
@@ -27,10 +29,10 @@ public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading r
 
     /**
      * @param pageSize entities per request
-     * @param maxClockSkew how far an entity's own time may be ahead
+     * @param times which time of an entity is that of its event
      * @param excluded types, matched as a whole
      */
-    public record Reading(int pageSize, Duration maxClockSkew, List<Pattern> excluded) {
+    public record Reading(int pageSize, EventTimeRule times, List<Pattern> excluded) {
         boolean isExcluded(String type) {
             return excluded.stream().anyMatch(pattern -> pattern.matcher(type).matches());
         }

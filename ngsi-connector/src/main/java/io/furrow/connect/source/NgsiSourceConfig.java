@@ -215,7 +215,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 topics.topic(),
                 topics.deadLetterTopic(),
                 entities.excludedTypes(),
-                entities.maxClockSkew(),
+                entities.eventTimes(),
                 sizes.maxRecordBytes());
     }
 }

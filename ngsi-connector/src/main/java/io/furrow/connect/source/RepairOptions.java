@@ -62,7 +62,7 @@ record RepairOptions(AbstractConfig config) {
                 folder,
                 Duration.ofMillis(config.getLong(OVERLAP)),
                 Mode.valueOf(config.getString(MODE).toUpperCase(Locale.ROOT)),
-                new Reading(config.getLong(PAGE_SIZE).intValue(), entities.maxClockSkew(), entities.excludedTypes()),
+                new Reading(config.getLong(PAGE_SIZE).intValue(), entities.eventTimes(), entities.excludedTypes()),
                 config.getLong(KNOWN_MAX).intValue());
     }
 }

@@ -27,6 +27,7 @@ import io.furrow.connect.subscription.Target;
 import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.connect.subscription.WantedSubscription.Name;
 import io.furrow.connect.subscription.WantedSubscription.Pace;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.simulators.fiware.FiwareSettings;
 
@@ -201,7 +202,8 @@ class CaretakersTest {
                 folder,
                 Duration.ofSeconds(1),
                 mode,
-                new RepairSettings.Reading(4, Duration.ofMinutes(5), List.of(Pattern.compile("Analytics:.*"))),
+                new RepairSettings.Reading(
+                        4, EventTimeRule.within(Duration.ofMinutes(5)), List.of(Pattern.compile("Analytics:.*"))),
                 1000);
         try {
             caretakers = Caretakers.start(

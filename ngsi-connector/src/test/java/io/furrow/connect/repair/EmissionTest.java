@@ -14,6 +14,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -101,6 +102,7 @@ class EmissionTest {
 
     private static Finding.Changed finding(String id) {
         Entity entity = Entity.builder(id, "Probe").build();
-        return new Finding.Changed(EntityEvent.of(entity, FiwareScope.DEFAULT, T, Duration.ZERO, Origin.REPAIR));
+        return new Finding.Changed(
+                EntityEvent.of(entity, FiwareScope.DEFAULT, T, EventTimeRule.within(Duration.ZERO), Origin.REPAIR));
     }
 }
