@@ -18,6 +18,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -73,7 +74,7 @@ public final class NumberedEvents {
     private static ProducerRecord<String, byte[]> record(long number, long time) {
         Entity entity = Farm.report(number, time);
         Instant now = Instant.ofEpochMilli(time);
-        EntityEvent event = EntityEvent.of(entity, SCOPE, now, Duration.ZERO, Origin.NOTIFICATION);
+        EntityEvent event = EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
         var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
         event.headers("/soak")
                 .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));

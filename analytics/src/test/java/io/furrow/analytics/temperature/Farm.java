@@ -12,6 +12,7 @@ import picocli.CommandLine;
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -47,7 +48,8 @@ final class Farm {
 
     static TopicRecord changed(FiwareScope scope, long time, Entity entity) {
         java.time.Instant received = java.time.Instant.ofEpochMilli(time);
-        Map<String, String> headers = EntityEvent.of(entity, scope, received, Duration.ZERO, Origin.NOTIFICATION)
+        Map<String, String> headers = EntityEvent.of(
+                        entity, scope, received, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION)
                 .headers("/ngsi/test");
         return TopicRecord.of(Topics.RAW, time, entity.id(), entity.toBytes(), headers);
     }

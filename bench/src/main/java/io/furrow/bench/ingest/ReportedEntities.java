@@ -11,6 +11,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -61,7 +62,8 @@ final class ReportedEntities {
         int device = number % plan.devices();
         Instant time = first.plusMillis(number * 1000L / plan.devices());
         Entity entity = Entity.parse(json(device, number, time).getBytes(StandardCharsets.UTF_8));
-        EntityEvent event = EntityEvent.of(entity, SCOPE, time.plus(DELAY), Duration.ofMinutes(5), Origin.NOTIFICATION);
+        EntityEvent event = EntityEvent.of(
+                entity, SCOPE, time.plus(DELAY), EventTimeRule.within(Duration.ofMinutes(5)), Origin.NOTIFICATION);
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(
                 topic, null, time.toEpochMilli(), entity.id().getBytes(StandardCharsets.UTF_8), entity.toBytes());
         event.headers("/ngsi-source/bench")

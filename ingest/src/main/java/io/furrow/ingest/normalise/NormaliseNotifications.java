@@ -1,7 +1,6 @@
 package io.furrow.ingest.normalise;
 
 import java.io.Serializable;
-import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Map;
@@ -19,6 +18,7 @@ import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTime;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
@@ -41,7 +41,7 @@ public final class NormaliseNotifications extends ProcessFunction<TopicRecord, T
     private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
 
     /** @param excluded entities of a type that one of these matches as a whole are dropped */
-    record Settings(String output, List<Pattern> excluded, Duration maxClockSkew, int maxRecordBytes)
+    record Settings(String output, List<Pattern> excluded, EventTimeRule times, int maxRecordBytes)
             implements Serializable {}
 
     private final Settings settings;
@@ -115,8 +115,7 @@ public final class NormaliseNotifications extends ProcessFunction<TopicRecord, T
     }
 
     private TopicRecord change(Entity entity, TopicRecord record, String source) {
-        EntityEvent event =
-                EntityEvent.of(entity, scope(record), received(record), settings.maxClockSkew(), Origin.KAFKA);
+        EntityEvent event = EntityEvent.of(entity, scope(record), received(record), settings.times(), Origin.KAFKA);
         if (event.time().basis() == EventTime.Basis.RECEIPT_FOR_FUTURE) {
             clockAhead.inc();
         }
@@ -125,8 +124,8 @@ public final class NormaliseNotifications extends ProcessFunction<TopicRecord, T
     }
 
     private TopicRecord deletion(Entity entity, TopicRecord record, String source) {
-        EntityDeletion deletion =
-                EntityDeletion.of(entity, scope(record), received(record), settings.maxClockSkew(), Origin.KAFKA);
+        EntityDeletion deletion = EntityDeletion.of(
+                entity, scope(record), received(record), settings.times().maxSkew(), Origin.KAFKA);
         long time = deletion.time().toEpochMilli();
         return TopicRecord.of(settings.output(), time, entity.id(), null, deletion.headers(source));
     }

@@ -15,6 +15,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.flink.JobOptions;
 import io.furrow.flink.TopicOptions;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code normalise}. */
@@ -56,6 +57,19 @@ public final class NormaliseOptions extends JobOptions implements Callable<Integ
     private Duration maxClockSkew;
 
     @Option(
+            names = "--event-time",
+            paramLabel = "SOURCE,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "device,attributes,entity",
+            description =
+                    "Which time of an event is its event time: the first of these that it has. device: its attribute Time, "
+                            + "else TimeInstant, dateObserved, timestamp. attributes: the newest metadata dateModified of its "
+                            + "attributes. entity: its dateModified. An event that has none of them gets the time of the "
+                            + "notification. Default: ${DEFAULT-VALUE}.")
+    private List<String> eventTime;
+
+    @Option(
             names = "--max-record-bytes",
             paramLabel = "N",
             defaultValue = "8388608",
@@ -81,7 +95,7 @@ public final class NormaliseOptions extends JobOptions implements Callable<Integ
 
     /** What the translation needs to know. */
     NormaliseNotifications.Settings settings() {
-        return new NormaliseNotifications.Settings(output, excluded(), maxClockSkew(), maxRecordBytes);
+        return new NormaliseNotifications.Settings(output, excluded(), times(), maxRecordBytes);
     }
 
     private List<Pattern> excluded() {
@@ -92,11 +106,15 @@ public final class NormaliseOptions extends JobOptions implements Callable<Integ
         }
     }
 
-    private Duration maxClockSkew() {
+    private EventTimeRule times() {
         if (maxClockSkew.compareTo(HOUR) >= 0) {
             throw refused("--max-clock-skew is an hour or more; write for instance 5min", null);
         }
-        return maxClockSkew;
+        try {
+            return EventTimeRule.of(eventTime, maxClockSkew);
+        } catch (IllegalArgumentException e) {
+            throw refused("--event-time: " + e.getMessage(), e);
+        }
     }
 
     @Override

@@ -25,6 +25,7 @@ import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.CollectedOutput;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
@@ -68,7 +69,7 @@ class NormaliseJobTest {
                         entity,
                         FiwareScope.of("farm", "/north"),
                         Instant.ofEpochMilli(RECEIVED),
-                        Duration.ofMinutes(5),
+                        EventTimeRule.within(Duration.ofMinutes(5)),
                         Origin.KAFKA)
                 .headers(form.startsWith("simplified") ? "/ngsi/normalise" : "/ngsi/s1");
         assertThat(written).singleElement().satisfies(record -> {

@@ -1,6 +1,5 @@
 package io.furrow.model.event;
 
-import java.time.Duration;
 import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
@@ -14,9 +13,10 @@ import io.furrow.model.ngsi.Entity;
  * @param received when the source had it
  */
 public record EntityEvent(Entity entity, FiwareScope scope, EventTime time, Instant received, Origin origin) {
-    /** An event whose time is read from the entity, see {@link EventTime}. */
-    public static EntityEvent of(Entity entity, FiwareScope scope, Instant received, Duration maxSkew, Origin origin) {
-        return new EntityEvent(entity, scope, EventTime.of(entity, received, maxSkew), received, origin);
+    /** An event whose time is read from the entity, see {@link EventTimeRule}. */
+    public static EntityEvent of(
+            Entity entity, FiwareScope scope, Instant received, EventTimeRule rule, Origin origin) {
+        return new EntityEvent(entity, scope, EventTime.of(entity, received, rule), received, origin);
     }
 
     public String id() {

@@ -14,11 +14,14 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.Instants;
 
 /**
- * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity id, event time and the sorted
- * attribute name and value pairs, in lower-case hexadecimal. Types, metadata, built-ins, the order of attributes and the
- * way a number is written (18, 18.0, 1.8e1) make no difference, because they differ between notifications of one change.
+ * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity id, event time, the sorted attribute name
+ * and value pairs and, where it is told, the entity's {@code dateModified}, in lower-case hexadecimal. So three changes that turn
+ * something on, off and on again under one time of the device are three events. Types, metadata, other built-ins, the order of
+ * attributes and the way a number is written (18, 18.0, 1.8e1) make no difference, because they differ between notifications of one
+ * change.
  */
 public final class EventId {
     private static final int BYTES = 16;
@@ -34,6 +37,7 @@ public final class EventId {
         for (Map.Entry<String, JsonNode> attribute : attributes) {
             parts.addAttribute(attribute.getKey(), attribute.getValue().path("value"));
         }
+        entity.value(Entity.MODIFIED).flatMap(Instants::of).ifPresent(parts::addModified);
         return parts.digest();
     }
 
@@ -45,6 +49,9 @@ public final class EventId {
         parts.addEvent(scope, entity.id(), eventTime);
         for (EntityBuilder.Attribute attribute : attributes) {
             parts.addAttribute(attribute.name(), attribute.value());
+            if (attribute.name().equals(Entity.MODIFIED)) {
+                Instants.of(attribute.value()).ifPresent(parts::addModified);
+            }
         }
         return parts.digest();
     }
@@ -60,12 +67,18 @@ public final class EventId {
     /** What the digest is over, gathered first: one large step of a digest costs a fraction of many small ones. */
     private static final class Parts {
         private final StringBuilder text = new StringBuilder(TYPICAL_LENGTH);
+        private String modified = "";
 
         void addEvent(FiwareScope scope, String entityId, Instant eventTime) {
             addText(scope.service());
             addText(scope.servicePath());
             addText(entityId);
             text.append(eventTime.toEpochMilli());
+        }
+
+        /** Kept, and written last, since attributes come sorted. */
+        void addModified(Instant time) {
+            modified = "m" + time.toEpochMilli();
         }
 
         void addAttribute(String name, JsonNode value) {
@@ -106,7 +119,7 @@ public final class EventId {
         }
 
         String digest() {
-            byte[] digest = sha256().digest(text.toString().getBytes(StandardCharsets.UTF_8));
+            byte[] digest = sha256().digest(text.append(modified).toString().getBytes(StandardCharsets.UTF_8));
             return HexFormat.of().formatHex(digest, 0, BYTES);
         }
     }

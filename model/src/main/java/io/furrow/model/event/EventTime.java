@@ -1,18 +1,13 @@
 package io.furrow.model.event;
 
-import java.time.Duration;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
-import java.util.List;
-import java.util.Optional;
 
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.Instants;
 
 /**
- * When an event happened: {@code Time} (epoch ms), else {@code TimeInstant}, {@code dateObserved}, {@code timestamp} (ISO
- * 8601 or epoch ms), else {@code dateModified} of the context broker, else the time of receipt. The first of these that can be
- * read decides. A date and time without offset is UTC, as NGSI-v2 has it.
+ * When an event happened, as an {@link EventTimeRule} has it; by default the device's own time, else when the context broker changed
+ * what is told, else the time of receipt. A date and time without offset is UTC, as NGSI-v2 has it.
  *
  * @param time whole milliseconds, never before 1970, at most the allowed skew after the receipt
  * @param basis what it was taken from
@@ -32,25 +27,17 @@ public record EventTime(Instant time, Basis basis) {
         time = time.truncatedTo(ChronoUnit.MILLIS);
     }
 
-    private static final List<String> DEVICE_TIMES = List.of("Time", "TimeInstant", "dateObserved", "timestamp");
-
-    /**
-     * @param received when the event came in
-     * @param maxSkew how far the device's clock may be ahead
-     */
-    public static EventTime of(Entity entity, Instant received, Duration maxSkew) {
-        Optional<Instant> device = DEVICE_TIMES.stream()
-                .flatMap(name -> entity.value(name).flatMap(Instants::of).stream())
-                .findFirst();
-        if (device.isEmpty()) {
-            return entity.value("dateModified")
-                    .flatMap(Instants::of)
-                    .filter(time -> !time.isAfter(received.plus(maxSkew)))
-                    .map(time -> new EventTime(time, Basis.BROKER))
-                    .orElseGet(() -> new EventTime(received, Basis.RECEIPT));
+    /** @param received when the event came in */
+    public static EventTime of(Entity entity, Instant received, EventTimeRule rule) {
+        Instant latest = received.plus(rule.maxSkew());
+        for (EventTimeRule.Source source : rule.order()) {
+            Instant time = source.read(entity).orElse(null);
+            if (time != null && !time.isAfter(latest)) {
+                return new EventTime(time, source == EventTimeRule.Source.DEVICE ? Basis.DEVICE : Basis.BROKER);
+            } else if (time != null && source == EventTimeRule.Source.DEVICE) {
+                return new EventTime(received, Basis.RECEIPT_FOR_FUTURE);
+            }
         }
-        return device.get().isAfter(received.plus(maxSkew))
-                ? new EventTime(received, Basis.RECEIPT_FOR_FUTURE)
-                : new EventTime(device.get(), Basis.DEVICE);
+        return new EventTime(received, Basis.RECEIPT);
     }
 }

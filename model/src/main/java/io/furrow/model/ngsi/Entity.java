@@ -16,9 +16,12 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * @param json the normalized form; owned by the entity, not to be changed by readers
  */
 public record Entity(ObjectNode json) {
+    /** When the context broker changed an entity, and as metadata an attribute of it. */
+    public static final String MODIFIED = "dateModified";
+
     /** What the context broker adds to an entity on request; no attributes of the thing itself. */
     public static final Set<String> BUILT_INS =
-            Set.of("dateCreated", "dateModified", "dateExpires", "servicePath", "alterationType", "deletedAt");
+            Set.of("dateCreated", MODIFIED, "dateExpires", "servicePath", "alterationType", "deletedAt");
 
     private static final Set<String> NOT_ATTRIBUTES = Set.of("id", "type");
 

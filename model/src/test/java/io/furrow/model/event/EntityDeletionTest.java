@@ -72,7 +72,12 @@ class EntityDeletionTest {
 
         assertThat(deletion(deleted).id())
                 .isEqualTo(deletion(deleted).id())
-                .isNotEqualTo(EntityEvent.of(entity("{\"id\": \"a\"}"), SCOPE, RECEIVED, SKEW, Origin.NOTIFICATION)
+                .isNotEqualTo(EntityEvent.of(
+                                entity("{\"id\": \"a\"}"),
+                                SCOPE,
+                                RECEIVED,
+                                EventTimeRule.within(SKEW),
+                                Origin.NOTIFICATION)
                         .id());
     }
 

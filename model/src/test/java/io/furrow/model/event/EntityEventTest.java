@@ -17,8 +17,12 @@ class EntityEventTest {
     void carriesTheHeadersOfTheContract() {
         Entity entity =
                 Entity.builder("a", "T").integer("Time", 1_795_223_399_000L).build();
-        EntityEvent event =
-                EntityEvent.of(entity, FiwareScope.of("Agri", "/p"), RECEIVED, Duration.ofMinutes(5), Origin.REPAIR);
+        EntityEvent event = EntityEvent.of(
+                entity,
+                FiwareScope.of("Agri", "/p"),
+                RECEIVED,
+                EventTimeRule.within(Duration.ofMinutes(5)),
+                Origin.REPAIR);
 
         assertThat(event.headers("http://orion:1026"))
                 .containsExactly(
@@ -49,6 +53,7 @@ class EntityEventTest {
     }
 
     private static EntityEvent received(Entity entity, Instant when) {
-        return EntityEvent.of(entity, FiwareScope.DEFAULT, when, Duration.ofMinutes(5), Origin.NOTIFICATION);
+        return EntityEvent.of(
+                entity, FiwareScope.DEFAULT, when, EventTimeRule.within(Duration.ofMinutes(5)), Origin.NOTIFICATION);
     }
 }

@@ -36,7 +36,7 @@ class EventIdTest {
                 "{\"id\":\"a\",\"x\":18.0,\"y\":\"t\"}",
                 "{\"id\":\"a\",\"x\":1.8e1,\"y\":\"t\"}",
                 "{\"id\":\"a\",\"x\":18,\"y\":\"\\u0074\"}",
-                "{\"id\":\"a\",\"x\":18,\"y\":\"t\",\"dateModified\":\"2026-11-21T01:00:00Z\",\"dateCreated\":1}",
+                "{\"id\":\"a\",\"x\":18,\"y\":\"t\",\"dateModified\":\"never\",\"dateCreated\":1}",
                 "{\"id\":\"a\",\"x\":18,\"y\":\"t\",\"servicePath\":\"/b\",\"alterationType\":1,\"dateExpires\":1}"
             })
     void ignoresWhatDiffersBetweenNotificationsOfOneChange(String body) throws Exception {

@@ -10,6 +10,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 
@@ -68,7 +69,8 @@ class MutatedNotificationsTest {
             assertThat(position.latitude()).isBetween(-90.0, 90.0);
             assertThat(position.longitude()).isBetween(-180.0, 180.0);
         });
-        EntityEvent event = EntityEvent.of(entity, FiwareScope.DEFAULT, RECEIVED, SKEW, Origin.NOTIFICATION);
+        EntityEvent event =
+                EntityEvent.of(entity, FiwareScope.DEFAULT, RECEIVED, EventTimeRule.within(SKEW), Origin.NOTIFICATION);
         assertThat(event.time().time()).isBetween(Instant.EPOCH, RECEIVED.plus(SKEW));
         assertThat(event.headers("/test")).doesNotContainValue(null);
         assertThat(event.id()).matches("[0-9a-f]{32}");

@@ -62,6 +62,9 @@ public final class Ledger implements Numbers {
             "oversized", "Durable records that became dead letters, because the topic takes no record so large");
     public final Counter clockAhead =
             counter("clockAhead", "Accepted entities whose own time is too far in the future");
+    public final Counter undated = counter(
+            "undated",
+            "Accepted entities without dateModified, of which a change back to an earlier value cannot be told from a repeat");
     public final Counter unauthorized = counter("unauthorized", "Requests answered 401: a wrong secret, or none");
     public final Counter foreignTenant =
             counter("foreignTenant", "Requests answered 403: a tenant that is not allowed");

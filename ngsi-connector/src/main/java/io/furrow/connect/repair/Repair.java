@@ -75,7 +75,7 @@ final class Repair {
         if (state.problem().isPresent()) {
             return new Finding.Unreadable(state, now);
         }
-        EntityEvent event = EntityEvent.of(state.entity(), state.scope(), now, reading.maxClockSkew(), Origin.REPAIR);
+        EntityEvent event = EntityEvent.of(state.entity(), state.scope(), now, reading.times(), Origin.REPAIR);
         return Finding.Changed.of(event, state.time());
     }
 

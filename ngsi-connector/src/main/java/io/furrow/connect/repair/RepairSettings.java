@@ -5,6 +5,8 @@ import java.time.Duration;
 import java.util.List;
 import java.util.regex.Pattern;
 
+import io.furrow.model.event.EventTimeRule;
+
 /**
  * How a repair is done.
  *
@@ -28,10 +30,10 @@ public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading r
     /**
      * @param pageSize entities per request
      * @param pageMaxBytes of the body of an answer
-     * @param maxClockSkew how far an entity's own time may be ahead
+     * @param times which time of an entity is that of its event
      * @param excluded types, matched as a whole
      */
-    public record Reading(int pageSize, long pageMaxBytes, Duration maxClockSkew, List<Pattern> excluded) {
+    public record Reading(int pageSize, long pageMaxBytes, EventTimeRule times, List<Pattern> excluded) {
         boolean isExcluded(String type) {
             return excluded.stream().anyMatch(pattern -> pattern.matcher(type).matches());
         }

@@ -244,7 +244,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 topics.topic(),
                 topics.deadLetterTopic(),
                 entities.excludedTypes(),
-                entities.maxClockSkew(),
+                entities.eventTimes(),
                 sizes.maxRecordBytes(),
                 journalSettings().largestAppend());
     }

@@ -1,6 +1,5 @@
 package io.furrow.connect.source;
 
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
@@ -15,6 +14,7 @@ import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTime;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
@@ -50,7 +50,7 @@ final class NotificationTranslator {
             String topic,
             String deadLetterTopic,
             List<Pattern> excluded,
-            Duration maxClockSkew,
+            EventTimeRule times,
             int maxRecordBytes,
             long maxNotificationBytes) {}
 
@@ -58,6 +58,7 @@ final class NotificationTranslator {
     private final Ledger ledger;
     private final Consumer<String> arrived;
     private final ClockReport clocks = new ClockReport();
+    private final UndatedReport undated = new UndatedReport();
 
     NotificationTranslator(Settings settings, Ledger ledger) {
         this(settings, ledger, subscription -> {});
@@ -153,7 +154,7 @@ final class NotificationTranslator {
             return deletion(entity, source, received);
         }
         EntityEvent event =
-                EntityEvent.of(entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
+                EntityEvent.of(entity, received.scope(), received.at(), settings.times(), Origin.NOTIFICATION);
         OutgoingRecord record = new OutgoingRecord(
                 settings.topic(),
                 entity.id(),
@@ -170,12 +171,16 @@ final class NotificationTranslator {
             ledger.clockAhead.increment();
             clocks.note(event);
         }
+        if (entity.value(Entity.MODIFIED).isEmpty()) {
+            ledger.undated.increment();
+            undated.note(source);
+        }
         return record;
     }
 
     private OutgoingRecord deletion(Entity entity, String source, ReceivedNotification received) {
         EntityDeletion deletion = EntityDeletion.of(
-                entity, received.scope(), received.at(), settings.maxClockSkew(), Origin.NOTIFICATION);
+                entity, received.scope(), received.at(), settings.times().maxSkew(), Origin.NOTIFICATION);
         return new OutgoingRecord(
                 settings.topic(),
                 entity.id(),

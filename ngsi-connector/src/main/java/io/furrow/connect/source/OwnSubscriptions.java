@@ -1,6 +1,7 @@
 package io.furrow.connect.source;
 
 import java.io.IOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
@@ -87,10 +88,15 @@ final class OwnSubscriptions implements AutoCloseable {
 
     private void restore(SourceRecord record) {
         Header id = record.headers().lastWithName(HeaderNames.CE_ID);
-        if (id != null && record.key() != null) {
+        if (id != null
+                && record.key() != null
+                && record.topic().equals(config.topics().topic())) {
             FiwareScope scope =
                     new FiwareScope(text(record, HeaderNames.SERVICE), text(record, HeaderNames.SERVICE_PATH));
-            String identity = scope.identity(record.key().toString());
+            String entity = record.key() instanceof byte[] utf8
+                    ? new String(utf8, StandardCharsets.UTF_8)
+                    : record.key().toString();
+            String identity = scope.identity(entity);
             live.restore(new EntityRecord(
                     identity, Optional.empty(), id.value().toString(), Optional.empty(), record.value() == null));
         }

@@ -98,7 +98,7 @@ record RepairOptions(AbstractConfig config) {
                 new Reading(
                         config.getLong(PAGE_SIZE).intValue(),
                         pageMaxBytes(),
-                        entities.maxClockSkew(),
+                        entities.eventTimes(),
                         entities.excludedTypes()),
                 new Deletions(config.getLong(KNOWN_MAX_BYTES), Duration.ofMillis(config.getLong(DELETIONS_INTERVAL))));
     }

@@ -31,6 +31,7 @@ import io.furrow.connect.subscription.Target;
 import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.connect.subscription.WantedSubscription.Name;
 import io.furrow.connect.subscription.WantedSubscription.Pace;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.simulators.fiware.FiwareSettings;
 
@@ -232,7 +233,11 @@ class CaretakersTest {
                 folder,
                 Duration.ofSeconds(1),
                 mode,
-                new RepairSettings.Reading(4, 1 << 20, Duration.ofMinutes(5), List.of(Pattern.compile("Analytics:.*"))),
+                new RepairSettings.Reading(
+                        4,
+                        1 << 20,
+                        EventTimeRule.within(Duration.ofMinutes(5)),
+                        List.of(Pattern.compile("Analytics:.*"))),
                 new RepairSettings.Deletions(1 << 20, Duration.ofMinutes(10)));
         BrokerClient client = new BrokerClient(BrokerSettings.of(broker.uri(), Duration.ofSeconds(5)));
         try {

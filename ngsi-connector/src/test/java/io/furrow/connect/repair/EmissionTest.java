@@ -15,6 +15,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -147,6 +148,6 @@ class EmissionTest {
 
     private static EntityEvent event(String id, String value) {
         Entity entity = Entity.builder(id, "Probe").text("state", value).build();
-        return EntityEvent.of(entity, FiwareScope.DEFAULT, T, Duration.ZERO, Origin.REPAIR);
+        return EntityEvent.of(entity, FiwareScope.DEFAULT, T, EventTimeRule.within(Duration.ZERO), Origin.REPAIR);
     }
 }

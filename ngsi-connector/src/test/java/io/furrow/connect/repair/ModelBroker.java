@@ -144,7 +144,8 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     @Override
     public Outcome apply(BrokerRequest request) {
         meanwhile.run();
-        Outcome outcome = isAway ? new Outcome.Away("it is away", java.util.Optional.empty(), null) : answer(request);
+        Outcome outcome =
+                isAway ? new Outcome.Away("it is away", java.util.Optional.empty(), null, 0) : answer(request);
         meanwhile.run();
         return outcome;
     }

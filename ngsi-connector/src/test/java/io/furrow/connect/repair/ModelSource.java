@@ -24,6 +24,7 @@ import io.furrow.connect.subscription.Target;
 import io.furrow.connect.subscription.WantedSubscription;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -33,7 +34,7 @@ import io.furrow.model.ngsi.UnreadableException;
 final class ModelSource implements RepairOutput, AutoCloseable {
     static final FiwareScope PLACE = new FiwareScope("agri", "/");
 
-    private static final Duration MAX_SKEW = Duration.ofMinutes(5);
+    private static final EventTimeRule TIMES = EventTimeRule.within(Duration.ofMinutes(5));
     private static final WantedSubscription WANTED = new WantedSubscription(
             new WantedSubscription.Name("furrow farm", IdShare.ALL, "/#"),
             Subject.ANY,
@@ -79,7 +80,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
                 folder,
                 Duration.ofSeconds(2),
                 RepairSettings.Mode.INITIAL,
-                new Reading(bounds.page(), bounds.pageBytes(), MAX_SKEW, List.of()),
+                new Reading(bounds.page(), bounds.pageBytes(), TIMES, List.of()),
                 new Deletions(1 << 20, bounds.deletions()));
         Caretaker.Charge charge =
                 Caretaker.Charge.of(broker, new FiwareScope("agri", "/#"), WANTED, bounds.pageBytes());
@@ -117,9 +118,9 @@ final class ModelSource implements RepairOutput, AutoCloseable {
             Entity entity = Entity.of(told.entity().json(told.gone()));
             Instant now = Instant.now();
             String eventId = told.gone()
-                    ? EntityDeletion.of(entity, PLACE, now, MAX_SKEW, Origin.NOTIFICATION)
+                    ? EntityDeletion.of(entity, PLACE, now, TIMES.maxSkew(), Origin.NOTIFICATION)
                             .id()
-                    : EntityEvent.of(entity, PLACE, now, MAX_SKEW, Origin.NOTIFICATION)
+                    : EntityEvent.of(entity, PLACE, now, TIMES, Origin.NOTIFICATION)
                             .id();
             EntityVersion version = EntityVersion.of(entity);
             String identity = PLACE.identity(entity.id());

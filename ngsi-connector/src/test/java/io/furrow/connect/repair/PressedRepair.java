@@ -30,6 +30,7 @@ import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.connect.subscription.Target;
 import io.furrow.connect.subscription.WantedSubscription;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 
 /** A process of its own that repairs from a context broker with large entities, and is sent many ids, on a small heap. */
@@ -80,7 +81,7 @@ final class PressedRepair {
                 Path.of(args[0]),
                 Duration.ofSeconds(1),
                 Mode.INITIAL,
-                new Reading(500, 16L * MIB, Duration.ofDays(10_000), List.of()),
+                new Reading(500, 16L * MIB, EventTimeRule.within(Duration.ofDays(10_000)), List.of()),
                 new Deletions(BOUND, Duration.ofHours(1)));
         try (Caretaker caretaker = Caretaker.open(
                 Caretaker.Charge.of(client::send, EVERYWHERE, wanted, 16L * MIB),

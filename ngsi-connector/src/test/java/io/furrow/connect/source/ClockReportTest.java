@@ -15,6 +15,7 @@ import org.apache.logging.log4j.core.config.Property;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.event.EntityEvent;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
@@ -72,6 +73,7 @@ class ClockReportTest {
         Entity entity = Entity.builder(id, "T")
                 .integer("Time", NOW.plusSeconds(secondsAhead).toEpochMilli())
                 .build();
-        return EntityEvent.of(entity, FiwareScope.DEFAULT, NOW, Duration.ofMinutes(5), Origin.NOTIFICATION);
+        return EntityEvent.of(
+                entity, FiwareScope.DEFAULT, NOW, EventTimeRule.within(Duration.ofMinutes(5)), Origin.NOTIFICATION);
     }
 }

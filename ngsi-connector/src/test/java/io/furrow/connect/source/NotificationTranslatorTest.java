@@ -11,6 +11,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Reason;
@@ -29,10 +30,20 @@ class NotificationTranslatorTest {
                     "raw",
                     "raw.dead",
                     List.of(Pattern.compile("Analytics:.*"), Pattern.compile("Domain")),
-                    Duration.ofMinutes(5),
+                    EventTimeRule.within(Duration.ofMinutes(5)),
                     RECORD_LIMIT,
                     NOTIFICATION_LIMIT),
             ledger);
+
+    @Test
+    void countsEntitiesWithoutDateModified() {
+        translate("""
+                {"subscriptionId": "5f1", "data": [{"id": "a", "type": "T", "x": 1}, {"id": "b", "type": "T", "x": 2}]}""");
+        translate("""
+                {"subscriptionId": "5f1", "data": [{"id": "a", "dateModified": "2026-11-21T01:59:00Z"}]}""");
+        assertThat(ledger.undated.sum()).isEqualTo(2);
+        assertThat(ledger.accepted.sum()).isEqualTo(3);
+    }
 
     @Test
     void makesOneRecordPerEntityUnderItsIdAtItsEventTime() {

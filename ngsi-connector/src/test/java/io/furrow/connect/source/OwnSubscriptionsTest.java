@@ -4,9 +4,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
 import java.util.Map;
-import java.util.Optional;
 import java.util.OptionalLong;
-import java.util.concurrent.CompletableFuture;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterEach;
@@ -14,6 +12,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
+import io.furrow.connect.journal.Journal;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Broker;
 import io.furrow.simulators.fiware.FiwareSettings;
@@ -88,9 +87,12 @@ class OwnSubscriptionsTest {
     }
 
     private JsonNode targetOf(Map<String, String> options) {
-        Intake nothing = records -> Optional.of(CompletableFuture.completedFuture(null));
-        try (OwnSubscriptions own = OwnSubscriptions.of(config(options), new Ledger())) {
-            own.start(8091, nothing);
+        NgsiSourceConfig config = config(options);
+        Ledger ledger = new Ledger();
+        try (Journal journal = Journal.open(directory.resolve("own"), config.journalSettings())
+                        .orElseThrow();
+                OwnSubscriptions own = OwnSubscriptions.of(config, ledger)) {
+            own.start(8091, new JournaledIntake(journal, ledger));
             await().until(() -> broker.subscriptions().size() == 1);
         }
         return broker.subscriptions().get(0).at("/notification/httpCustom");
