@@ -1,5 +1,7 @@
 package io.furrow.connect.source;
 
+import java.io.IOException;
+import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.HashMap;
@@ -32,7 +34,7 @@ class OwnSubscriptionsTest {
     }
 
     @Test
-    void carryTheSecretAndTheHttpsAddressOfTheListener() {
+    void carryTheSecretAndTheHttpsAddressOfTheListener() throws Exception {
         JsonNode target = targetOf(Map.of(
                 "secret", "known-to-both",
                 "secret.header", "X-Farm",
@@ -44,7 +46,7 @@ class OwnSubscriptionsTest {
     }
 
     @Test
-    void carryThePublicAddressWhereThereIsOne() {
+    void carryThePublicAddressWhereThereIsOne() throws Exception {
         JsonNode target = targetOf(Map.of(
                 "secret", "known-to-both",
                 "public.url", "https://farm.example/in",
@@ -86,10 +88,10 @@ class OwnSubscriptionsTest {
                         "DELETE", "/v2/subscriptions/" + each.path("id").asText(), "/#", ""));
     }
 
-    private JsonNode targetOf(Map<String, String> options) {
+    private JsonNode targetOf(Map<String, String> options) throws IOException {
         NgsiSourceConfig config = config(options);
         Ledger ledger = new Ledger();
-        try (Journal journal = Journal.open(directory.resolve("own"), config.journalSettings())
+        try (Journal journal = Journal.open(Files.createDirectory(directory.resolve("own")), config.journalSettings())
                         .orElseThrow();
                 OwnSubscriptions own = OwnSubscriptions.of(config, ledger)) {
             own.start(8091, new JournaledIntake(journal, ledger));
