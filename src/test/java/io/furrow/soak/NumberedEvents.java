@@ -74,7 +74,8 @@ public final class NumberedEvents {
     private static ProducerRecord<String, byte[]> record(long number, long time) {
         Entity entity = Farm.report(number, time);
         Instant now = Instant.ofEpochMilli(time);
-        EntityEvent event = EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
+        EntityEvent event =
+                EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);
         var record = new ProducerRecord<>(Topics.RAW, null, time, entity.id(), entity.toBytes());
         event.headers("/soak")
                 .forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));

@@ -105,7 +105,7 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
             open = true;
             return line;
         } catch (MqttException e) {
-            throw new IOException(refusal(access, plan.login(), e), e);
+            throw new IOException(access.refusal(plan.login(), e), e);
         } finally {
             if (!open && line != null) {
                 line.close();
@@ -275,22 +275,6 @@ public final class Line implements MqttCallbackExtended, AutoCloseable {
         options.setMaxInflight(2 * INFLIGHT);
         options.setSocketFactory(access.isEncrypted() ? access.encryptedSockets() : new NoDelaySockets());
         return options;
-    }
-
-    private static String refusal(MqttAccess access, MqttAccess.Login login, MqttException e) {
-        return switch (e.getReasonCode()) {
-            case MqttException.REASON_CODE_FAILED_AUTHENTICATION, MqttException.REASON_CODE_NOT_AUTHORIZED ->
-                "the MQTT broker %s refuses user '%s': check user name and password"
-                        .formatted(access.broker(), login.user());
-            case MqttException.REASON_CODE_CLIENT_TIMEOUT ->
-                "the MQTT broker %s does not answer user '%s'".formatted(access.broker(), login.user());
-            default ->
-                "no connection to the MQTT broker %s as user '%s': is it running%s?"
-                        .formatted(
-                                access.broker(),
-                                login.user(),
-                                access.isEncrypted() ? ", and is its certificate trusted" : "");
-        };
     }
 
     /** Of one message; a message that fails is sent again when the connection stands again. */

@@ -13,6 +13,8 @@ import javax.net.ssl.SSLContext;
 import javax.net.ssl.SSLSocketFactory;
 import javax.net.ssl.TrustManagerFactory;
 
+import org.eclipse.paho.client.mqttv3.MqttException;
+
 /**
  * An MQTT broker and how to speak to it.
  *
@@ -57,6 +59,19 @@ public record MqttAccess(URI broker, Path trusted, int qos) {
         } catch (GeneralSecurityException e) {
             throw new IOException(trusted + " holds no certificates in PEM that TLS could trust", e);
         }
+    }
+
+    /** Why a connection was not opened: names broker and user, and what to look at. */
+    String refusal(Login login, MqttException e) {
+        return switch (e.getReasonCode()) {
+            case MqttException.REASON_CODE_FAILED_AUTHENTICATION, MqttException.REASON_CODE_NOT_AUTHORIZED ->
+                "the MQTT broker %s refuses user '%s': check user name and password".formatted(broker, login.user());
+            case MqttException.REASON_CODE_CLIENT_TIMEOUT ->
+                "the MQTT broker %s does not answer user '%s'".formatted(broker, login.user());
+            default ->
+                "no connection to the MQTT broker %s as user '%s': is it running%s?"
+                        .formatted(broker, login.user(), isEncrypted() ? ", and is its certificate trusted" : "");
+        };
     }
 
     private TrustManagerFactory trust() throws GeneralSecurityException, IOException {
