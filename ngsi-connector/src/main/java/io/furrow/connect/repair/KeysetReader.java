@@ -13,7 +13,8 @@ import io.furrow.connect.broker.BrokerException;
  * Reads all entities from a time on, in the order of that time, page by page. The next page begins at the time of the last
  * entity seen, not behind a number of entities: an entity that changes meanwhile moves to the end and would push another one
  * over the edge of a numbered page. Only where one millisecond fills a page are entities counted, within it; they are counted
- * anew when the last entity of a page is not found again as the first of the next, and until a count finds nothing new.
+ * anew when the last entity of a page is not found again as the first of the next, and until a count finds nothing new that was begun
+ * when the millisecond was over: before, one may come in where another has gone, and shift nothing.
  */
 final class KeysetReader {
     /** One question to the context broker, oldest first. */
@@ -27,8 +28,10 @@ final class KeysetReader {
      * @param isFull whether there may be more
      */
     record Page(List<EntityState> states, int asked, boolean isFull) {
-        boolean beginsWith(String key) {
-            return !states.isEmpty() && states.get(0).key().equals(key);
+        boolean beginsWith(EntityState last) {
+            return !states.isEmpty()
+                    && states.get(0).key().equals(last.key())
+                    && states.get(0).time().equals(last.time());
         }
     }
 
@@ -45,11 +48,15 @@ final class KeysetReader {
     private Instant from;
     private int offset;
     /** The last of the page before, where the same millisecond goes on. */
-    private String expected;
+    private EntityState expected;
     /** What was given of the millisecond {@code from}. */
     private final Set<String> given = new HashSet<>();
 
     private boolean isNewFound;
+    /** Whether the context broker's clock was seen beyond {@code from}, and was so when this count began: nothing comes in any more. */
+    private boolean isPast;
+
+    private boolean beganPast;
     private int recounts;
 
     /** @param limit at least 2 */
@@ -70,10 +77,11 @@ final class KeysetReader {
             List<EntityState> later = new ArrayList<>(page.states());
             later.removeIf(state -> !state.time().isAfter(from));
             read(page.states().subList(0, page.states().size() - later.size()), reader);
+            isPast |= !later.isEmpty();
             boolean atItsEnd = !page.isFull() || !later.isEmpty();
             if (!atItsEnd) {
                 goOnWithin(page);
-            } else if (offset > 0 && isNewFound && recounts < MOST_RECOUNTS) {
+            } else if (offset > 0 && (isNewFound || isPast && !beganPast) && recounts < MOST_RECOUNTS) {
                 countAnew();
             } else {
                 if (!later.isEmpty()) {
@@ -110,7 +118,7 @@ final class KeysetReader {
     private void goOnWithin(Page page) {
         int count = page.states().size();
         offset += page.asked() - 1;
-        expected = count == page.asked() ? page.states().get(count - 1).key() : null;
+        expected = count == page.asked() ? page.states().get(count - 1) : null;
     }
 
     /** A context broker that orders one millisecond differently each time is not asked for ever. */
@@ -123,10 +131,12 @@ final class KeysetReader {
         offset = 0;
         expected = null;
         isNewFound = false;
+        beganPast = isPast;
     }
 
     private void moveTo(Instant time) {
         from = time;
+        isPast = false;
         countAnew();
         recounts = 0;
         given.clear();
