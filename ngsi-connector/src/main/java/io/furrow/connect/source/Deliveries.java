@@ -63,9 +63,18 @@ final class Deliveries implements AutoCloseable {
                         deadline - System.nanoTime() + TimeUnit.MILLISECONDS.toNanos(3 * RETRY_MS),
                         TimeUnit.NANOSECONDS)
                 .exceptionally(failure -> {
-                    Throwable seen = failure instanceof TimeoutException ? OverloadException.late() : failure;
+                    Throwable seen = failure instanceof TimeoutException ? expired(delivery) : failure;
                     throw seen instanceof CompletionException wrapped ? wrapped : new CompletionException(seen);
                 });
+    }
+
+    /** Why it is not durable: one that still waits is turned away, whether or not retry() came to it. */
+    private synchronized OverloadException expired(Delivery delivery) {
+        if (waiting.removeIf(each -> each == delivery)) {
+            turnAway(delivery, OverloadException.noRoom());
+            return OverloadException.noRoom();
+        }
+        return OverloadException.late();
     }
 
     /** Whether the delivery need not wait: the intake had room, or failed. */
