@@ -12,7 +12,7 @@ import io.furrow.model.control.Response;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The answers of the managers by the id of their request: those that somebody waits for, and the newest {@value #REMEMBERED},
+ * The answers of the managers by the id of their request: those that somebody waits for, and the newest {@value #REMEMBERED} of each manager,
  * because a manager does not answer a repeated request again. An answer belongs to the request with its fingerprint.
  */
 final class Answers {
@@ -20,14 +20,17 @@ final class Answers {
 
     private final Map<Key, Awaited> awaited = new ConcurrentHashMap<>();
     private final Map<Kind, LongAdder> counts = new ConcurrentHashMap<>();
-    private final Map<Key, Remembered> remembered = new LinkedHashMap<>() {
+    /** By topic: at the start one is read before the other, and the answers of a busy one would push those of the rest out. */
+    private final Map<String, Map<Key, Remembered>> remembered = new ConcurrentHashMap<>();
+
+    private static final class Newest extends LinkedHashMap<Key, Remembered> {
         private static final long serialVersionUID = 1L;
 
         @Override
         protected boolean removeEldestEntry(Map.Entry<Key, Remembered> eldest) {
             return size() > REMEMBERED;
         }
-    };
+    }
 
     /** @param topic of the manager @param status of the answer */
     record Kind(String topic, String status) {}
@@ -67,8 +70,9 @@ final class Answers {
      */
     Optional<Response> known(Key key, String fingerprint) {
         Remembered known;
-        synchronized (remembered) {
-            known = remembered.get(key);
+        Map<Key, Remembered> newest = newest(key);
+        synchronized (newest) {
+            known = newest.get(key);
         }
         if (known == null) {
             return Optional.empty();
@@ -89,10 +93,15 @@ final class Answers {
         boolean isLasting =
                 !error.equals(ErrorCode.REQUEST_ID_REUSED.code()) && !error.equals(ErrorCode.OVERLOADED.code());
         if (isLasting) {
-            synchronized (remembered) {
-                remembered.put(key, new Remembered(fingerprint, value));
+            Map<Key, Remembered> newest = newest(key);
+            synchronized (newest) {
+                newest.put(key, new Remembered(fingerprint, value));
             }
         }
+    }
+
+    private Map<Key, Remembered> newest(Key key) {
+        return remembered.computeIfAbsent(key.topic(), any -> new Newest());
     }
 
     /** An answer that was read, of whomever. */
