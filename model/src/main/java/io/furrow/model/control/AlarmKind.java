@@ -18,7 +18,9 @@ public enum AlarmKind {
     /** Two devices are on courses that bring them too close; the subject is the pair; of more, their mission's entity. */
     PREDICTED_ENCOUNTER,
     /** A sensor shows what those around it do not; the subject is its entity; of more, that of the field's results. */
-    SUSPECT_SENSOR;
+    SUSPECT_SENSOR,
+    /** A device's positions come too late to count; the subject is its entity; of more, their mission's entity. */
+    CLOCK_BEHIND;
 
     /** The name in lower case with hyphens, for instance {@code silent-device}. */
     @JsonValue

@@ -22,8 +22,10 @@ public record DeadLetter(Reason reason, String message, String stage, String sou
     public static final String MESSAGE = "dead-message";
     public static final String STAGE = "dead-stage";
     public static final String SOURCE = "dead-source";
+    /** Time of the original record, epoch ms, where the letter has another. */
+    public static final String TIME = "dead-time";
     /** All headers of a dead letter that the original did not have. */
-    public static final Set<String> HEADERS = Set.of(REASON, MESSAGE, STAGE, SOURCE);
+    public static final Set<String> HEADERS = Set.of(REASON, MESSAGE, STAGE, SOURCE, TIME);
 
     public DeadLetter {
         String sentence = message == null ? reason.code() : message;

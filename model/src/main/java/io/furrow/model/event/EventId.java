@@ -26,6 +26,7 @@ import io.furrow.model.ngsi.Instants;
 public final class EventId {
     private static final int BYTES = 16;
     private static final int TYPICAL_LENGTH = 1024;
+    private static final MessageDigest SHA_256 = newSha256();
 
     private EventId() {}
 
@@ -124,7 +125,16 @@ public final class EventId {
         }
     }
 
+    /** A copy costs a fraction of the search for the algorithm's provider. */
     private static MessageDigest sha256() {
+        try {
+            return (MessageDigest) SHA_256.clone();
+        } catch (CloneNotSupportedException e) {
+            throw new IllegalStateException("the platform's SHA-256 can be copied", e);
+        }
+    }
+
+    private static MessageDigest newSha256() {
         try {
             return MessageDigest.getInstance("SHA-256");
         } catch (NoSuchAlgorithmException e) {

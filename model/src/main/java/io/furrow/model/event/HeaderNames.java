@@ -21,6 +21,13 @@ public final class HeaderNames {
     /** When ingest passed the event on. */
     public static final String TS_INGEST = "ts-ingest";
 
+    /** Of a replay's record: 0, then one more with each start over, see {@code Epochs}. */
+    public static final String REPLAY_EPOCH = "replay-epoch";
+    /** Of a replay's record: {@code event}, {@code prime} or {@code end}. */
+    public static final String REPLAY_KIND = "replay-kind";
+    /** Of a replay's record: ms that its timestamp is ahead of the original event time. */
+    public static final String REPLAY_OFFSET = "replay-offset";
+
     public static final String SPECVERSION = "1.0";
     public static final String TYPE_CHANGED = "ngsi.entity.changed";
     public static final String TYPE_DELETED = "ngsi.entity.deleted";

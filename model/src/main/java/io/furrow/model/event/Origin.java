@@ -13,7 +13,9 @@ public enum Origin {
     /** Played back from a stored mission. */
     REPLAY;
 
+    private final String code = name().toLowerCase(Locale.ROOT);
+
     public String code() {
-        return name().toLowerCase(Locale.ROOT);
+        return code;
     }
 }

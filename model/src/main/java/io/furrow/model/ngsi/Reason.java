@@ -18,6 +18,8 @@ public enum Reason {
     NOT_AN_EVENT,
     /** An image attribute that holds no base64, or neither PNG nor JPEG, or only a part of one. */
     NOT_AN_IMAGE,
+    /** Of a time so long after it was received that a clock must be wrong. */
+    FROM_THE_FUTURE,
     /** Written, but refused by the server it was written to. */
     REFUSED,
     /** The reader failed at it: a fault of the program, which the log describes. */

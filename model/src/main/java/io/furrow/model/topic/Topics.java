@@ -1,6 +1,7 @@
 package io.furrow.model.topic;
 
 import java.util.Optional;
+import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /** The topics that the parts of Furrow meet in. */
@@ -65,6 +66,9 @@ public final class Topics {
     public static final String PRESENCE = "data.presence";
     public static final String PRESENCE_LATE = "data.presence.late";
 
+    /** What jobs say of the clocks of devices. */
+    public static final String CLOCKS = "data.clocks";
+
     /** Where each stored image is. */
     public static final String IMAGES = "data.images";
 
@@ -75,7 +79,7 @@ public final class Topics {
 
     private static final String DATA = "data";
     /** What is played back: {@code data.<mission>.replay.<first eight digits of an id>}. */
-    private static final Pattern REPLAY = Pattern.compile("data\\.[^.]+\\.replay\\.[0-9a-f]{8}");
+    private static final Pattern REPLAY = Pattern.compile("data\\.([^.]+)\\.replay\\.([0-9a-f]{8})");
 
     private Topics() {}
 
@@ -94,6 +98,22 @@ public final class Topics {
         return "data." + TopicName.of(mission) + ".replay." + id8;
     }
 
+    /** Whether the topic is that of a replay. */
+    public static boolean isReplay(String topic) {
+        return topic.contains(".replay.") && REPLAY.matcher(topic).matches();
+    }
+
+    /** Whether the topic is that of a replay, or of what was found in one. */
+    public static boolean isOfReplay(String topic) {
+        return topic.contains(".replay.") && REPLAY.matcher(topic).lookingAt();
+    }
+
+    /** The replay whose topic it is, {@code <mission>.<id8>}; empty of any other topic. */
+    public static Optional<String> replayOf(String topic) {
+        Matcher replay = REPLAY.matcher(topic);
+        return replay.matches() ? Optional.of(replay.group(1) + "." + replay.group(2)) : Optional.empty();
+    }
+
     /**
      * Where a result goes: to the output, but what is found in a replay to a topic of that replay's own, for instance
      * {@code data.collision.late} of {@code data.hoeing.replay.0a1b2c3d} to {@code data.hoeing.replay.0a1b2c3d.collision.late}.
@@ -102,7 +122,7 @@ public final class Topics {
      * @param output where the same result goes for other topics
      */
     public static String resultOf(String input, String output) {
-        if (!REPLAY.matcher(input).matches()) {
+        if (!isReplay(input)) {
             return output;
         }
         return output.startsWith(DATA + ".") ? input + output.substring(DATA.length()) : input + "." + output;
