@@ -43,10 +43,16 @@ public final class EmbeddedKafka implements AutoCloseable {
      * @param port 0 for a free one
      */
     public static EmbeddedKafka start(Path directory, int port) {
+        return start(directory, port, Map.of());
+    }
+
+    /** The same with settings of the broker's own names, which go before what is set here. */
+    public static EmbeddedKafka start(Path directory, int port, Map<String, String> more) {
         int brokerPort = FreePort.orFree(port);
-        Map<String, Object> settings = settings(directory, brokerPort, FreePort.otherThan(brokerPort));
+        Properties settings = asProperties(settings(directory, brokerPort, FreePort.otherThan(brokerPort)));
+        settings.putAll(more);
         format(directory);
-        KafkaRaftServer server = new KafkaRaftServer(new KafkaConfig(asProperties(settings)), Time.SYSTEM);
+        KafkaRaftServer server = new KafkaRaftServer(new KafkaConfig(settings), Time.SYSTEM);
         server.startup();
         return new EmbeddedKafka(server, brokerPort);
     }

@@ -1,11 +1,13 @@
 package io.furrow.http;
 
+import java.net.InetAddress;
 import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
 import java.util.stream.Collectors;
 import java.util.stream.Stream;
 
@@ -18,11 +20,17 @@ import java.util.stream.Stream;
 public final class AccessRule {
     private static final Set<String> OTHER_SITES = Set.of("cross-site", "same-site");
     private static final String PREFLIGHT_SECONDS = "600";
+    private static final int MOST_NAMES = 64;
 
     private final Set<String> hosts;
     private final Set<Origin> origins;
     private final Set<String> probes;
     private final OptionNames options;
+    /** Nearly all requests come under the same few names: those that were found to be this server's. */
+    private final Set<Name> own = ConcurrentHashMap.newKeySet();
+
+    /** A host as a request names it, and the server's end of its connection. */
+    private record Name(String host, InetAddress local) {}
 
     private AccessRule(Set<String> hosts, Set<Origin> origins, Set<String> probes, OptionNames options) {
         this.hosts = hosts;
@@ -98,18 +106,27 @@ public final class AccessRule {
             return Optional.of(new Decision.Refused(
                     "foreign-host", "a request names its host in one Host header; this one has " + named.size()));
         }
-        return Stream.concat(named.stream(), HttpCall.authorityOf(call.target()).stream())
-                .filter(host -> !isOwn(host, call))
-                .findFirst()
+        if (!isOwn(new Name(named.get(0), call.local()))) {
+            return Optional.of(foreignHost(named.get(0)));
+        }
+        return HttpCall.authorityOf(call.target())
+                .filter(host -> !isOwn(new Name(host, call.local())))
                 .map(this::foreignHost);
     }
 
-    private boolean isOwn(String host, HttpCall call) {
-        return Authority.parse(host)
+    private boolean isOwn(Name name) {
+        if (own.contains(name)) {
+            return true;
+        }
+        boolean isOwn = Authority.parse(name.host())
                 .filter(authority -> authority.isLoopback()
                         || hosts.contains(authority.host())
-                        || call.local() != null && authority.isLiterally(call.local()))
+                        || name.local() != null && authority.isLiterally(name.local()))
                 .isPresent();
+        if (isOwn && own.size() < MOST_NAMES) {
+            own.add(name);
+        }
+        return isOwn;
     }
 
     /** That of a page that this server itself has sent: the browser reached it under the same name. */

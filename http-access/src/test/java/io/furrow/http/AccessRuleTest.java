@@ -131,6 +131,18 @@ class AccessRuleTest {
         assertThat(RULE.decide(unknown)).isInstanceOf(Decision.Refused.class);
     }
 
+    @Test
+    void decidesAlikeForMoreNamesThanItRemembers() {
+        for (int time = 0; time < 2; time++) {
+            for (int port = 1; port <= 200; port++) {
+                assertThat(decide("POST /notify", "Host: source.example.org:" + port))
+                        .isInstanceOf(Decision.Granted.class);
+                assertThat(decide("POST /notify", "Host: other.example.org:" + port))
+                        .isInstanceOf(Decision.Refused.class);
+            }
+        }
+    }
+
     @ParameterizedTest
     @ValueSource(strings = {"", "http://a", "a:80", "a:", "a b", "*", "a/b", "[::1", "1:2:3"})
     void refusesAnAllowedHostThatIsNone(String host) {
