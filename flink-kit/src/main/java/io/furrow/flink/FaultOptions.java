@@ -15,6 +15,19 @@ public final class FaultOptions {
     }
 
     @Option(
+            names = "--checkpoint-interval",
+            paramLabel = "DURATION",
+            description = "Time between checkpoints. Shorter: less to repeat after a failure, sooner visible with "
+                    + "exactly-once. Default: as the cluster says, else 10s.")
+    private Duration checkpointInterval;
+
+    @Option(
+            names = "--checkpoint-dir",
+            paramLabel = "URI",
+            description = "Where checkpoints are kept, on any Flink file system. Default: as the cluster says.")
+    private String checkpointDir;
+
+    @Option(
             names = "--unaligned-checkpoints",
             description = "Let checkpoints overtake records that wait between operators: they stay short under "
                     + "back-pressure, and grow by what waits.")
@@ -25,34 +38,33 @@ public final class FaultOptions {
             paramLabel = "NAME",
             description =
                     "hashmap: state in memory, fastest; rocksdb: on the task manager's disk, for state that memory "
-                            + "does not hold, checkpoints take only what changed. Both are in Flink's distribution. Default: as the "
-                            + "cluster says.")
+                            + "does not hold, checkpoints take only what changed. With both, collision holds in memory what its"
+                            + " devices, cells and pairs are at and what waits for event time; rocksdb has only the copy that"
+                            + " checkpoints are made of. Both are in Flink's distribution. Default: as the cluster says.")
     private String stateBackend;
 
     @Option(
             names = "--restart-strategy",
             paramLabel = "NAME",
-            defaultValue = "exponential-delay",
             description =
                     "After a failure: exponential-delay, again and again, at first after --restart-delay, then after "
                             + "ever longer up to --restart-delay-max; fixed-delay, --restart-attempts times; none. Default: "
-                            + "${DEFAULT-VALUE}.")
+                            + "as the cluster says, else exponential-delay; exponential-delay where another --restart "
+                            + "option is given.")
     private Restart restart;
 
     @Option(
             names = "--restart-delay",
             paramLabel = "DURATION",
-            defaultValue = "1s",
-            description = "Time from a failure to the restart. Default: ${DEFAULT-VALUE}.")
+            description = "Time from a failure to the restart. Default: 1s.")
     private Duration restartDelay;
 
     @Option(
             names = "--restart-delay-max",
             paramLabel = "DURATION",
-            defaultValue = "1min",
             description =
                     "The longest time to a restart. Shorter: sooner back after a long outage, more attempts during "
-                            + "it. Default: ${DEFAULT-VALUE}.")
+                            + "it. Default: 1min.")
     private Duration restartDelayMax;
 
     @Option(
@@ -60,6 +72,15 @@ public final class FaultOptions {
             paramLabel = "N",
             description = "After so many failures in a row the job fails for good. Default: never.")
     private Integer restartAttempts;
+
+    /** Empty where the cluster decides. */
+    Optional<Duration> checkpointInterval() {
+        return Optional.ofNullable(checkpointInterval);
+    }
+
+    Optional<String> checkpointDir() {
+        return Optional.ofNullable(checkpointDir);
+    }
 
     public boolean unalignedCheckpoints() {
         return unalignedCheckpoints;
@@ -69,16 +90,21 @@ public final class FaultOptions {
         return Optional.ofNullable(stateBackend);
     }
 
+    /** Whether any of the options of restarts was given: then they, and not the cluster, say all of it. */
+    public boolean setRestarts() {
+        return restart != null || restartDelay != null || restartDelayMax != null || restartAttempts != null;
+    }
+
     public Restart restart() {
-        return restart;
+        return restart == null ? Restart.EXPONENTIAL_DELAY : restart;
     }
 
     public Duration restartDelay() {
-        return restartDelay;
+        return restartDelay == null ? Duration.ofSeconds(1) : restartDelay;
     }
 
     public Duration restartDelayMax() {
-        return restartDelayMax;
+        return restartDelayMax == null ? Duration.ofMinutes(1) : restartDelayMax;
     }
 
     public Optional<Integer> restartAttempts() {

@@ -29,6 +29,7 @@ public final class JobCommandLine {
                 .setUsageHelpLongOptionsMaxWidth(36)
                 .registerConverter(Duration.class, new DurationConverter())
                 .registerConverter(Delivery.class, JobCommandLine::delivery)
+                .registerConverter(StartPosition.class, StartPosition::of)
                 .registerConverter(FaultOptions.Restart.class, JobCommandLine::restart)
                 .setParameterExceptionHandler(JobCommandLine::explain)
                 .setExecutionExceptionHandler((failure, refusing, parsed) -> {

@@ -20,6 +20,8 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
+import io.furrow.model.topic.Topics;
+
 /**
  * The options that every job has, read from the command line by picocli. Holds no Flink type, so that {@code --help} works
  * without Flink on the class path.
@@ -28,8 +30,19 @@ public abstract class JobOptions {
     /** User and password of a URI. */
     private static final Pattern CREDENTIALS = Pattern.compile("://[^/@]*@");
 
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9._-]{1,100}");
+
     @Spec
     private CommandSpec spec;
+
+    @Option(
+            names = "--name",
+            paramLabel = "NAME",
+            description =
+                    "Name of this instance in the web UI, in its consumer group furrow-NAME and in its transactional"
+                            + " ids. Instances beside each other need different ones, and topics of their own to write to where"
+                            + " their results differ. Default: the name of the job.")
+    private String name;
 
     @Option(
             names = "--bootstrap-servers",
@@ -50,10 +63,22 @@ public abstract class JobOptions {
             split = ",",
             hideParamSyntax = true,
             defaultValue = "data.raw",
-            description = "Topics to read, or regular expressions for whole names, for instance"
-                    + " 'data[.]hoeing[.]replay[.].*': then also topics that come later, but none that a job writes. What"
-                    + " is found in a replay's topic goes to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Topics to read, or regular expressions for whole names, for instance"
+                            + " 'data[.]north[.]realtime[.].*': then also topics that come later, but none that a job writes. A"
+                            + " replay's topic stands alone and is named in full: each replay has an instance of its own, called"
+                            + " <job>-<replay> without --name, whose results go to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
     private List<String> input;
+
+    @Option(
+            names = "--from",
+            paramLabel = "POSITION",
+            defaultValue = "committed",
+            description =
+                    "Where to read from without a savepoint or checkpoint: committed, where the consumer group left"
+                            + " off, else the beginning; earliest; latest; or a time as in 2026-05-01T06:00:00Z. Default:"
+                            + " ${DEFAULT-VALUE}.")
+    private StartPosition from;
 
     @Option(
             names = "--delivery",
@@ -84,23 +109,9 @@ public abstract class JobOptions {
             names = "--idle-advance",
             description =
                     "Let event time go on with the wall clock where no record has come for --idle-timeout, so that"
-                            + " what is open ends without further traffic. What comes after that can be late: the one"
-                            + " switch with which the same input does not always give the same result.")
+                            + " what is open ends without further traffic, also after a restart. What comes after that"
+                            + " can be late: the one switch with which the same input does not always give the same result.")
     private boolean idleAdvance;
-
-    @Option(
-            names = "--checkpoint-interval",
-            paramLabel = "DURATION",
-            defaultValue = "10s",
-            description = "Time between checkpoints. Shorter: less to repeat after a failure, sooner visible with "
-                    + "exactly-once. Default: ${DEFAULT-VALUE}.")
-    private Duration checkpointInterval;
-
-    @Option(
-            names = "--checkpoint-dir",
-            paramLabel = "URI",
-            description = "Where checkpoints are kept, on any Flink file system. Default: as the cluster says.")
-    private String checkpointDir;
 
     @Option(
             names = "--parallelism",
@@ -111,15 +122,48 @@ public abstract class JobOptions {
     @Mixin
     private final FaultOptions faults = new FaultOptions();
 
+    @Mixin
+    private final ClockOptions clocks = new ClockOptions();
+
     @Option(
             names = {"-h", "--help"},
             usageHelp = true,
             description = "Show this text.")
     private boolean help;
 
-    /** The name of the subcommand, which names the job, its consumer group and its transactions. */
+    /**
+     * The name of this instance of the job, which its consumer group and its transactions bear.
+     *
+     * @throws ParameterException if no client of Kafka could bear it
+     */
     public String jobName() {
+        if (name == null) {
+            String ofReplay = inputTopics()
+                    .replay()
+                    .flatMap(Topics::replayOf)
+                    .map(replay -> "-" + replay)
+                    .orElse("");
+            return defaultName() + ofReplay;
+        }
+        if (!NAME.matcher(name).matches()) {
+            throw refused("--name '" + name + "' is not 1 to 100 of A-Z a-z 0-9 . _ -", null);
+        }
+        return name;
+    }
+
+    /** The name of an instance that is given none. */
+    protected String defaultName() {
         return spec.name();
+    }
+
+    /** Whether this instance was given a name. */
+    boolean isNamed() {
+        return name != null;
+    }
+
+    /** The consumer group of the job's input. */
+    public String groupId() {
+        return "furrow-" + jobName();
     }
 
     public String bootstrapServers() {
@@ -149,15 +193,22 @@ public abstract class JobOptions {
         return List.copyOf(input);
     }
 
-    /** The same as topics or a pattern; a name that is neither is refused. */
+    /** The same as topics or a pattern; a name that is neither is refused, and so are topics that share no event time. */
     public InputTopics inputTopics() {
         InputTopics topics = new InputTopics(input);
         try {
             topics.pattern();
+            topics.refusal(spec.name()).ifPresent(why -> {
+                throw refused("--input " + String.join(",", input) + ": " + why, null);
+            });
             return topics;
         } catch (PatternSyntaxException e) {
             throw refused("--input is neither a topic nor a regular expression: " + e.getMessage(), e);
         }
+    }
+
+    public StartPosition from() {
+        return from;
     }
 
     public Delivery delivery() {
@@ -173,15 +224,24 @@ public abstract class JobOptions {
     }
 
     public boolean idleAdvance() {
+        if (idleAdvance && inputTopics().replay().isPresent()) {
+            throw refused("--idle-advance goes by the wall clock, and a replay does not; leave it out", null);
+        }
         return idleAdvance;
     }
 
-    /** At least 10 ms, Flink's own limit. */
-    public Duration checkpointInterval() {
-        if (checkpointInterval.toMillis() < 10) {
+    /** At least 10 ms, Flink's own limit; empty where the cluster decides. */
+    public Optional<Duration> checkpointInterval() {
+        Optional<Duration> interval = faults.checkpointInterval();
+        if (interval.filter(time -> time.toMillis() < 10).isPresent()) {
             throw refused("--checkpoint-interval is below 10ms; write for instance 1s", null);
         }
-        return checkpointInterval;
+        return interval;
+    }
+
+    /** How far clocks are believed. */
+    public ClockOptions clocks() {
+        return clocks;
     }
 
     /** How checkpoints are taken and what follows a failure. */
@@ -190,7 +250,7 @@ public abstract class JobOptions {
     }
 
     public Optional<String> checkpointDir() {
-        return Optional.ofNullable(checkpointDir);
+        return faults.checkpointDir();
     }
 
     /** Between 1 and 720, the number of key groups. */
@@ -213,11 +273,16 @@ public abstract class JobOptions {
                 List<String> given = option.originalStringValues();
                 String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
                 if (text != null) { // null: an option that may be repeated and was not given
-                    values.put(option.longestName(), CREDENTIALS.matcher(text).replaceAll("://***@"));
+                    values.put(option.longestName(), masked(text));
                 }
             }
         }
         return values;
+    }
+
+    /** Less passwords in addresses. */
+    static String masked(String text) {
+        return CREDENTIALS.matcher(text).replaceAll("://***@");
     }
 
     /** A wrong setting: the message names the option and the remedy. */

@@ -1,6 +1,7 @@
 package io.furrow.flink;
 
 import java.time.Duration;
+import java.util.Optional;
 import java.util.Properties;
 import java.util.regex.Pattern;
 
@@ -8,8 +9,8 @@ import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.connector.base.DeliveryGuarantee;
-import org.apache.flink.connector.kafka.sink.KafkaRecordSerializationSchema;
 import org.apache.flink.connector.kafka.sink.KafkaSink;
+import org.apache.flink.connector.kafka.sink.TransactionNamingStrategy;
 import org.apache.flink.connector.kafka.source.KafkaSource;
 import org.apache.flink.connector.kafka.source.KafkaSourceBuilder;
 import org.apache.flink.connector.kafka.source.enumerator.initializer.OffsetsInitializer;
@@ -25,26 +26,33 @@ public final class KafkaEnds {
     private KafkaEnds() {}
 
     /**
-     * Reads the job's input from where the group {@code furrow-<job>} left off, else from the beginning; only committed
-     * records. Record timestamps are the event times.
+     * Reads the job's input from where the job's options say; only committed records. Record timestamps are the event times.
      */
     public static KafkaSource<TopicRecord> source(JobOptions options) {
         return source(options, new TopicRecordFormat());
     }
 
     /** The same for records in another form. */
-    @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
     public static <T> KafkaSource<T> source(JobOptions options, KafkaRecordDeserializationSchema<T> form) {
         InputTopics topics = options.inputTopics();
-        KafkaSourceBuilder<T> source = source(options, form, "furrow-" + options.jobName());
+        KafkaSourceBuilder<T> source = source(options, form, options.groupId());
         topics.pattern().ifPresentOrElse(source::setTopicPattern, () -> source.setTopics(topics.names()));
-        return source.setStartingOffsets(OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST))
-                .build();
+        return source.setStartingOffsets(offsets(options.from())).build();
+    }
+
+    @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
+    private static OffsetsInitializer offsets(StartPosition from) {
+        return switch (from.kind()) {
+            case COMMITTED -> OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST);
+            case EARLIEST -> OffsetsInitializer.earliest();
+            case LATEST -> OffsetsInitializer.latest();
+            case TIME -> OffsetsInitializer.timestamp(from.time().orElseThrow().toEpochMilli());
+        };
     }
 
     /** Reads a topic from its beginning and all that comes; a topic that is not there yet is awaited. */
     public static KafkaSource<TopicRecord> wholeTopic(JobOptions options, String topic) {
-        return source(options, new TopicRecordFormat(), "furrow-" + options.jobName() + "-" + topic)
+        return source(options, new TopicRecordFormat(), options.groupId() + "-" + topic)
                 .setTopicPattern(Pattern.compile(Pattern.quote(topic)))
                 .setStartingOffsets(OffsetsInitializer.earliest())
                 .build();
@@ -65,7 +73,7 @@ public final class KafkaEnds {
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
     public static KafkaSink<TopicRecord> sink(JobOptions options) {
-        return sinkOf(options, new TopicRecordFormat(), "furrow-" + options.jobName(), guarantee(options));
+        return sink(options, "topics");
     }
 
     /** The same for one of several sinks of a job, told apart by name: their transactions are. */
@@ -74,13 +82,13 @@ public final class KafkaEnds {
     }
 
     /** The same for records in another form. */
-    public static <T> KafkaSink<T> sink(JobOptions options, String name, KafkaRecordSerializationSchema<T> form) {
-        return sinkOf(options, form, "furrow-" + options.jobName() + "-" + name, guarantee(options));
+    public static <T> KafkaSink<T> sink(JobOptions options, String name, AnyTopicSerializer<T> form) {
+        return sinkOf(options, form, name, guarantee(options));
     }
 
     /** The same without transactions: a writer of it can work inside another sink's. */
     static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
-        return sinkOf(options, new TopicRecordFormat(), "furrow-" + options.jobName(), DeliveryGuarantee.AT_LEAST_ONCE);
+        return sinkOf(options, new TopicRecordFormat(), "dead-letters", DeliveryGuarantee.AT_LEAST_ONCE);
     }
 
     private static DeliveryGuarantee guarantee(JobOptions options) {
@@ -90,16 +98,18 @@ public final class KafkaEnds {
         };
     }
 
+    /**
+     * Transactional ids are used again once their transactions have ended: a handful for each subtask. A sink aborts what its
+     * prefix begins, so none is the beginning of another: {@code furrow-<job>:<sink>:}.
+     */
     private static <T> KafkaSink<T> sinkOf(
-            JobOptions options,
-            KafkaRecordSerializationSchema<T> form,
-            String transactions,
-            DeliveryGuarantee guarantee) {
+            JobOptions options, AnyTopicSerializer<T> form, String name, DeliveryGuarantee guarantee) {
         return KafkaSink.<T>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setKafkaProducerConfig(producerProperties(options))
                 .setDeliveryGuarantee(guarantee)
-                .setTransactionalIdPrefix(transactions)
+                .setTransactionalIdPrefix("furrow-" + options.jobName() + ":" + name + ":")
+                .setTransactionNamingStrategy(TransactionNamingStrategy.POOLING)
                 .setRecordSerializer(form)
                 .build();
     }
@@ -109,6 +119,7 @@ public final class KafkaEnds {
         Properties properties = options.kafkaProperties();
         properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
         properties.putIfAbsent("batch.size", "131072");
+        properties.putIfAbsent("compression.type", "lz4");
         properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
         // A mission's topic may have been made just now. Were two requests under way, the broker could refuse the first
         // (the partition is not there yet) and take the second, and would refuse the first for ever: two minutes
@@ -118,11 +129,26 @@ public final class KafkaEnds {
         return properties;
     }
 
-    /** Event time = record timestamp, behind by the job's out-of-orderness; see {@link ReceiptBoundWatermarks}. */
+    /**
+     * Event time = record timestamp, behind by the job's out-of-orderness; see {@link ReceiptBoundWatermarks}. That of a replay, which
+     * one subtask must read, is told by its records alone; see {@link Epochs}.
+     */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
-        return WatermarkStrategy.forGenerator(new ReceiptBoundWatermarks.Supplier(
-                options.outOfOrderness(),
-                new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance())));
+        ReceiptBoundWatermarks.Quiet quiet =
+                new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance());
+        return options.inputTopics().replay().isPresent()
+                ? ReplayWatermarks.strategy(options.outOfOrderness(), quiet.after())
+                : WatermarkStrategy.forGenerator(
+                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), quiet));
+    }
+
+    /**
+     * The same for a job that keeps what is ahead of event time: a partition that is ahead of the slowest by more than the drift is
+     * not read on until the slowest has come closer.
+     */
+    public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options, Optional<Duration> maxDrift) {
+        return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift))
+                .orElseGet(() -> watermarks(options));
     }
 
     /**

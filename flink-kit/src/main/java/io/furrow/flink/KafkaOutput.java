@@ -7,6 +7,16 @@ public interface KafkaOutput {
     /** @param name of the stream, in kebab-case; {@code write-<name>} is the sink's uid */
     void write(String name, DataStream<TopicRecord> records);
 
+    /** All that a job writes, through one sink of the uid {@code write-topics}; else as {@link #of}. */
+    static void writeAll(DataStream<TopicRecord> records, JobOptions options, TopicOptions.Settings topics) {
+        records.map(new EnsureTopics(options, topics))
+                .uid("ensure-topics")
+                .name("Ensure topics")
+                .sinkTo(KafkaEnds.sink(options))
+                .uid("write-topics")
+                .name("Write topics");
+    }
+
     /** Kafka under the job's delivery guarantee; topics are made when needed. */
     static KafkaOutput of(JobOptions options, TopicOptions.Settings topics) {
         return (name, records) -> records.map(new EnsureTopics(options, topics))

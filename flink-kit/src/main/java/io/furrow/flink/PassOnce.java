@@ -19,10 +19,10 @@ import org.apache.flink.util.Collector;
  * Lets an event id pass once within a time of its first appearance; keyed by entity, so that order is kept.
  *
  * <p>State: ids seen and when each is forgotten, per entity. Cleared: by event-time timers, a tenth of the time apart.
- * Late: an event behind the watermark is remembered from the watermark on. Emits: first appearances, in order; the rest are
+ * Late: an event behind the watermark, of this run or an earlier one, is remembered from there on. Emits: first appearances, in order; the rest are
  * counted as {@code repeated}.
  */
-public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
+public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> implements JudgesLateness {
     private static final long serialVersionUID = 1L;
     private static final int TIMERS_PER_WINDOW = 10;
 
@@ -39,6 +39,7 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
     private transient MapState<String, Long> forgetAt;
     private transient Counter repeated;
     private transient PerMission<Counter> repeatedPerMission;
+    private transient EventTimeReached reached;
 
     public PassOnce(Duration window, IdOf<T> idOf) {
         this(window, idOf, null, null);
@@ -50,6 +51,11 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
         this.windowMillis = window.toMillis();
         this.domainOf = domainOf;
         this.missionOf = missionOf;
+    }
+
+    @Override
+    public void judgeBy(EventTimeReached reached) {
+        this.reached = reached;
     }
 
     @Override
@@ -67,7 +73,7 @@ public final class PassOnce<T> extends KeyedProcessFunction<String, T, T> {
             count(event);
             return;
         }
-        long from = Math.max(context.timestamp(), context.timerService().currentWatermark());
+        long from = Math.max(context.timestamp(), reached.of(context.getCurrentKey()));
         long step = Math.max(1, windowMillis / TIMERS_PER_WINDOW);
         long until = Math.floorDiv(from + windowMillis, step) * step + step;
         forgetAt.put(id, until);

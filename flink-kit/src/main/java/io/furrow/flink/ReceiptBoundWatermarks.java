@@ -10,19 +10,18 @@ import org.apache.flink.api.common.eventtime.WatermarkGeneratorSupplier;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.metrics.Counter;
 
-import io.furrow.model.event.HeaderNames;
-import io.furrow.model.event.Origin;
-
 /**
- * Event time of one partition: its newest timestamp, behind by the out-of-orderness. A record counts as of its receipt at the
+ * Event time of one partition: its newest timestamp, behind by the out-of-orderness. A record counts as of its {@link Receipt} at the
  * latest, so that a device whose clock is ahead makes no other late; its own events wait until event time has come to
- * them. The receipt is what the source stamped, {@code ts-source}, else the wall clock; with the stamp the same input gives
- * the same event time. What is replayed has no receipt. A quiet partition holds up nothing; with the idle advance its event
+ * them. Nor does a source whose clock is ahead: where its stamps are later than the wall clock and the skew, and there alone, event time
+ * depends on the wall clock; it comes to be ahead by the skew at most, and so little is lost when the clock is right again.
+ * What is replayed has no receipt. A quiet partition holds up nothing; with the idle advance its event
  * time goes on with the wall clock instead.
  */
 final class ReceiptBoundWatermarks implements WatermarkGenerator<TopicRecord> {
     private static final long NOTHING_YET = Long.MIN_VALUE;
 
+    private final Receipt receipt;
     private final long bound;
     private final Quiet quiet;
     private final Clocks clocks;
@@ -49,7 +48,8 @@ final class ReceiptBoundWatermarks implements WatermarkGenerator<TopicRecord> {
     /**
      * @param ahead counts the records stamped later than their receipt by more than the out-of-orderness
      */
-    ReceiptBoundWatermarks(Duration outOfOrderness, Quiet quiet, Clocks clocks, Counter ahead) {
+    ReceiptBoundWatermarks(Receipt receipt, Duration outOfOrderness, Quiet quiet, Clocks clocks, Counter ahead) {
+        this.receipt = receipt;
         this.bound = outOfOrderness.toMillis();
         this.quiet = quiet;
         this.clocks = clocks;
@@ -60,9 +60,9 @@ final class ReceiptBoundWatermarks implements WatermarkGenerator<TopicRecord> {
     @Override
     public void onEvent(TopicRecord record, long timestamp, WatermarkOutput output) {
         newestSeen = clocks.activity.getAsLong();
-        long receipt = receipt(record);
-        newest = Math.max(newest, Math.min(timestamp, receipt));
-        if (timestamp - bound > receipt) {
+        long received = receipt.of(record, timestamp, clocks.wall.getAsLong());
+        newest = Math.max(newest, Math.min(timestamp, received));
+        if (timestamp - bound > received) {
             ahead.inc();
         }
     }
@@ -79,27 +79,17 @@ final class ReceiptBoundWatermarks implements WatermarkGenerator<TopicRecord> {
         }
     }
 
-    private long receipt(TopicRecord record) {
-        if (Origin.REPLAY.code().equals(record.headers().get(HeaderNames.ORIGIN))) {
-            return Long.MAX_VALUE;
-        }
-        String stamp = record.headers().get(HeaderNames.TS_SOURCE);
-        try {
-            return stamp == null ? clocks.wall.getAsLong() : Long.parseLong(stamp);
-        } catch (NumberFormatException e) { // a stranger's header
-            return clocks.wall.getAsLong();
-        }
-    }
-
     /** One for each partition; those of a subtask count together as {@code records.ahead}. */
     static final class Supplier implements WatermarkGeneratorSupplier<TopicRecord> {
         private static final long serialVersionUID = 1L;
 
+        private final Receipt receipt;
         private final Duration outOfOrderness;
         private final Quiet quiet;
         private transient Counter ahead;
 
-        Supplier(Duration outOfOrderness, Quiet quiet) {
+        Supplier(Receipt receipt, Duration outOfOrderness, Quiet quiet) {
+            this.receipt = receipt;
             this.outOfOrderness = outOfOrderness;
             this.quiet = quiet;
         }
@@ -110,7 +100,7 @@ final class ReceiptBoundWatermarks implements WatermarkGenerator<TopicRecord> {
                 ahead = context.getMetricGroup().counter("records.ahead");
             }
             Clocks clocks = new Clocks(System::currentTimeMillis, context.getInputActivityClock()::relativeTimeMillis);
-            return new ReceiptBoundWatermarks(outOfOrderness, quiet, clocks, ahead);
+            return new ReceiptBoundWatermarks(receipt, outOfOrderness, quiet, clocks, ahead);
         }
     }
 }

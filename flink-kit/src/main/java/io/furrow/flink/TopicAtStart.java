@@ -15,4 +15,16 @@ public interface TopicAtStart extends Serializable {
 
     /** In the order of the topic, as far as it has one: by offset within each partition. */
     List<TopicRecord> read() throws IOException;
+
+    /** Takes one record after the other. */
+    interface Taker<E extends Exception> {
+        void take(TopicRecord record) throws E;
+    }
+
+    /** The same one by one, for a topic that need not fit into memory. */
+    default <E extends Exception> void forEach(Taker<E> taker) throws IOException, E {
+        for (TopicRecord record : read()) {
+            taker.take(record);
+        }
+    }
 }

@@ -41,6 +41,11 @@ public record TopicRecord(
         return new TopicRecord(topic, partition, offset, timestamp, key, other, headers);
     }
 
+    /** The same record with another event time. */
+    public TopicRecord at(long time) {
+        return new TopicRecord(topic, partition, offset, time, key, value, headers);
+    }
+
     /** The same record with one header more. */
     public TopicRecord with(String header, String text) {
         return with(Map.of(header, text));

@@ -1,7 +1,6 @@
 package io.furrow.flink;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.connector.kafka.sink.KafkaRecordSerializationSchema;
 import org.apache.flink.connector.kafka.source.reader.deserializer.KafkaRecordDeserializationSchema;
 import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -9,7 +8,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 
 /** Between Kafka's records and {@link TopicRecord}; no byte of key or value is looked at. */
 final class TopicRecordFormat
-        implements KafkaRecordDeserializationSchema<TopicRecord>, KafkaRecordSerializationSchema<TopicRecord> {
+        implements KafkaRecordDeserializationSchema<TopicRecord>, AnyTopicSerializer<TopicRecord> {
     private static final long serialVersionUID = 1L;
 
     @Override

@@ -7,6 +7,7 @@ import java.util.Map;
 
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.event.Original;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.topic.Topics;
 
@@ -105,7 +106,7 @@ final class WritableRecords implements AutoCloseable {
 
     private static Map<String, String> reasons(TopicRecord letter) {
         Map<String, String> reasons = new HashMap<>(letter.headers());
-        reasons.keySet().retainAll(DeadLetter.HEADERS);
+        reasons.keySet().removeIf(name -> !DeadLetter.HEADERS.contains(name) && !Original.HEADERS.contains(name));
         return reasons;
     }
 

@@ -10,6 +10,8 @@ import java.util.TreeMap;
 
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.TransactionListing;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.clients.producer.KafkaProducer;
@@ -18,6 +20,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -78,6 +81,81 @@ class KafkaEndsIT {
             assertThat(received)
                     .filteredOn(copy -> "robot:1".equals(copy.key()))
                     .containsExactly(sent.get(0), sent.get(2));
+        } finally {
+            job.cancel().get();
+        }
+    }
+
+    @Test
+    void useTransactionalIdsAgain() throws Exception {
+        int rounds = 8;
+        JobClient job = submit("counted", "copy", "--name", "few", "--input", "numbers", "--delivery", "exactly-once");
+        try (KafkaConsumer<byte[], byte[]> consumer = committedOf("counted");
+                Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
+            for (int round = 0; round < rounds; round++) {
+                write("numbers", List.of(new Copied("n", Integer.toString(round), round, Map.of())));
+                await().atMost(Duration.ofSeconds(90))
+                        .until(() -> !consumer.poll(Duration.ofMillis(200)).isEmpty());
+            }
+            List<String> ids = admin.listTransactions().all().get().stream()
+                    .map(TransactionListing::transactionalId)
+                    .filter(id -> id.startsWith("furrow-few:topics:"))
+                    .toList();
+            assertThat(ids).hasSizeBetween(1, rounds / 2);
+            assertThat(admin.listConsumerGroupOffsets("furrow-few")
+                            .partitionsToOffsetAndMetadata()
+                            .get())
+                    .isNotEmpty();
+        } finally {
+            job.cancel().get();
+        }
+    }
+
+    @Test
+    void abortWhatAnAttemptBeforeLeftOpen() throws Exception {
+        String left = "furrow-again:topics:-0-0";
+        try (KafkaProducer<byte[], byte[]> lost = new KafkaProducer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "transactional.id", left),
+                new ByteArraySerializer(),
+                new ByteArraySerializer())) {
+            lost.initTransactions();
+            lost.beginTransaction();
+            lost.send(new ProducerRecord<>("finished", utf8("k"), utf8("never committed")))
+                    .get();
+
+            write("unfinished", List.of(new Copied("k", "committed", 1, Map.of())));
+            JobClient job = submit(
+                    "finished", "copy", "--name", "again", "--input", "unfinished", "--delivery", "exactly-once");
+            try (KafkaConsumer<byte[], byte[]> consumer = committedOf("finished")) {
+                List<String> values = new ArrayList<>();
+                await().atMost(Duration.ofSeconds(90)).until(() -> {
+                    consumer.poll(Duration.ofMillis(200)).forEach(record -> values.add(text(record.value())));
+                    return !values.isEmpty();
+                });
+                assertThat(values).containsExactly("committed");
+            } finally {
+                job.cancel().get();
+            }
+        }
+    }
+
+    @Test
+    void beginAtATime() throws Exception {
+        write(
+                "timed",
+                List.of(
+                        new Copied("n", "before", 1_000, Map.of()),
+                        new Copied("n", "at", 2_000, Map.of()),
+                        new Copied("n", "after", 3_000, Map.of())));
+        JobClient job =
+                submit("from-then", "copy", "--name", "then", "--input", "timed", "--from", "1970-01-01T00:00:02Z");
+        try (KafkaConsumer<byte[], byte[]> consumer = committedOf("from-then")) {
+            List<String> values = new ArrayList<>();
+            await().atMost(Duration.ofSeconds(90)).until(() -> {
+                consumer.poll(Duration.ofMillis(200)).forEach(record -> values.add(text(record.value())));
+                return values.size() >= 2;
+            });
+            assertThat(values).containsExactly("at", "after");
         } finally {
             job.cancel().get();
         }

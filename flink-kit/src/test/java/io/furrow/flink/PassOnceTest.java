@@ -11,7 +11,6 @@ import org.apache.flink.runtime.metrics.groups.InternalOperatorMetricGroup;
 import org.apache.flink.runtime.metrics.groups.UnregisteredMetricGroups.UnregisteredTaskMetricGroup;
 import org.apache.flink.runtime.metrics.util.InterceptingOperatorMetricGroup;
 import org.apache.flink.runtime.operators.testutils.MockEnvironmentBuilder;
-import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -84,6 +83,21 @@ class PassOnceTest {
     }
 
     @Test
+    void remembersALateEventFromTheWatermarkOfAnEarlierRunOn() throws Exception {
+        operator.processWatermark(1_000_000);
+        OperatorSubtaskState snapshot = operator.snapshot(1, 1);
+        operator.close();
+        create();
+        operator.initializeState(snapshot);
+        operator.open();
+        operator.processElement("robot:1", 0);
+        operator.processWatermark(1_000_000 + WINDOW.toMillis());
+        operator.processElement("robot:1", 0);
+
+        assertThat(operator.extractOutputValues()).containsExactly("robot:1");
+    }
+
+    @Test
     void leavesNoStateAndNoTimers() throws Exception {
         for (int i = 0; i < 1000; i++) {
             operator.processElement((i % 7) + ":" + i, i * 10L);
@@ -121,7 +135,7 @@ class PassOnceTest {
     private void create() throws Exception {
         metrics = new OperatorMetrics();
         operator = new KeyedOneInputStreamOperatorTestHarness<>(
-                new KeyedProcessOperator<>(new PassOnce<String>(WINDOW, event -> event.split(":")[1])),
+                new KeyedLatenessOperator<>(new PassOnce<String>(WINDOW, event -> event.split(":")[1])),
                 event -> event.split(":")[0],
                 Types.STRING,
                 new MockEnvironmentBuilder().setMetricGroup(metrics).build());

@@ -14,10 +14,11 @@ import io.furrow.model.event.HeaderNames;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Out-of-orderness 2 s, idle after 10 s; the wall clock stands at 1,000 s. */
+/** Out-of-orderness 2 s, idle after 10 s, skew 10 s; the wall clock stands at 1,000 s. */
 class ReceiptBoundWatermarksTest {
     private static final long NOW = 1_000_000;
     private static final long BOUND = 2_000;
+    private static final long SKEW = 10_000;
 
     private final SimpleCounter ahead = new SimpleCounter();
     private final List<Long> emitted = new ArrayList<>();
@@ -53,9 +54,28 @@ class ReceiptBoundWatermarksTest {
 
     @Test
     void takeReplayedRecordsAtTheirWord() {
-        TopicRecord replayed = record(4_000_000, "500000").with(HeaderNames.ORIGIN, "replay");
+        TopicRecord replayed =
+                record(4_000_000, "500000").with(HeaderNames.ORIGIN, "replay").to("data.hoeing.replay.0a1b2c3d");
         assertThat(after(replayed)).isEqualTo(4_000_000 - BOUND - 1);
         assertThat(ahead.getCount()).isZero();
+    }
+
+    @Test
+    void believeNoOriginOfReplaysOnOtherTopics() {
+        assertThat(after(record(4_000_000, "500000").with(HeaderNames.ORIGIN, "replay")))
+                .isEqualTo(500_000 - BOUND - 1);
+        assertThat(ahead.getCount()).isEqualTo(1);
+    }
+
+    @Test
+    void areAheadOfTheWallClockByTheSkewAtMostWhateverTheSourceStamped() {
+        assertThat(after(record(NOW + SKEW, Long.toString(NOW + SKEW))))
+                .as("a clock may be wrong by that")
+                .isEqualTo(NOW + SKEW - BOUND - 1);
+        long wrong = NOW + 50 * 60_000;
+        assertThat(after(record(wrong, Long.toString(wrong)))).isEqualTo(NOW + SKEW - BOUND - 1);
+        assertThat(ahead.getCount()).isEqualTo(1);
+        assertThat(after(record(wrong, Long.toString(Long.MAX_VALUE)))).isEqualTo(NOW + SKEW - BOUND - 1);
     }
 
     @Test
@@ -82,6 +102,7 @@ class ReceiptBoundWatermarksTest {
 
     private ReceiptBoundWatermarks watermarks(boolean idleAdvance) {
         return new ReceiptBoundWatermarks(
+                new Receipt(Duration.ofMillis(SKEW)),
                 Duration.ofMillis(BOUND),
                 new ReceiptBoundWatermarks.Quiet(Duration.ofSeconds(10), idleAdvance),
                 new ReceiptBoundWatermarks.Clocks(() -> NOW, () -> activity),

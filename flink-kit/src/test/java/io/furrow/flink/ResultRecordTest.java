@@ -41,6 +41,24 @@ class ResultRecordTest {
         assertThat(result(18.5, 60_001).headers().get(HeaderNames.CE_ID)).isNotEqualTo(id);
     }
 
+    @Test
+    void tellsTheOriginalTimeAndTheEpochOfAReplay() {
+        EntityBuilder entity = Entity.builder("a", "Answer").number("answer", 1);
+        String topic = "data.hoeing.replay.0a1b2c3d.answers";
+        TopicRecord first = ResultRecord.of(topic, "a", entity, SCOPE, 60_000, "/s");
+        TopicRecord second = ResultRecord.of(topic, "a", entity, SCOPE, 2 * Epochs.SPAN + 60_000, "/s");
+
+        assertThat(first.headers()).containsEntry(HeaderNames.REPLAY_EPOCH, "0");
+        assertThat(second.headers())
+                .containsEntry(HeaderNames.REPLAY_EPOCH, "2")
+                .containsEntry(HeaderNames.TS_DEVICE, "60000")
+                .containsEntry(HeaderNames.CE_TIME, "1970-01-01T00:01:00Z");
+        assertThat(second.timestamp()).isEqualTo(60_000);
+        assertThat(second.headers().get(HeaderNames.CE_ID))
+                .isNotEqualTo(first.headers().get(HeaderNames.CE_ID));
+        assertThat(result(1, 1).headers()).doesNotContainKey(HeaderNames.REPLAY_EPOCH);
+    }
+
     private static TopicRecord result(double answer, long timestamp) {
         EntityBuilder entity =
                 Entity.builder("Analytics:Answer:1", "Analytics:Answer").number("answer", answer);

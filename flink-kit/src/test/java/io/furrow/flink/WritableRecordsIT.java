@@ -134,7 +134,8 @@ class WritableRecordsIT {
         try (WritableRecords records = writable(new Properties())) {
             TopicRecord left = records.of(letter);
 
-            assertThat(left.headers().keySet()).isEqualTo(DeadLetter.HEADERS);
+            assertThat(left.headers())
+                    .containsOnlyKeys(DeadLetter.REASON, DeadLetter.MESSAGE, DeadLetter.STAGE, DeadLetter.SOURCE);
             assertThat(left.headers()).containsEntry(DeadLetter.MESSAGE, "why (truncated to 0 of 10 bytes)");
             assertThat(left.value()).isEmpty();
             assertThat(left.key()).isNull();

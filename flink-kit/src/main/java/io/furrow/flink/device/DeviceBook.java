@@ -3,15 +3,16 @@ package io.furrow.flink.device;
 import java.io.IOException;
 import java.io.Serializable;
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.HashMap;
-import java.util.List;
+import java.util.HashSet;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 
 import org.apache.flink.api.common.state.BroadcastState;
 import org.apache.flink.api.common.state.ReadOnlyBroadcastState;
 
+import io.furrow.flink.Epochs;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
@@ -30,7 +31,8 @@ public final class DeviceBook<H> implements Serializable {
     private final TopicAtStart topic;
     private final long keptMillis;
     private final Form<H> form;
-    private transient Map<String, List<DeviceChange>> atStart;
+    private transient ChangesAtStart atStart;
+    private transient boolean compared;
     private transient int changesUntilSweep;
 
     /** How the state holds the versions of a device. */
@@ -52,11 +54,11 @@ public final class DeviceBook<H> implements Serializable {
 
     /** Reads what is known of devices; to be called before the first event, also after each restart. */
     public void open() throws IOException {
-        atStart = new HashMap<>();
+        atStart = new ChangesAtStart();
+        compared = false;
         for (TopicRecord record : topic.read()) {
             try {
-                DeviceChange change = ReadDevices.read(record);
-                atStart.computeIfAbsent(change.key(), key -> new ArrayList<>()).add(change);
+                atStart.add(ReadDevices.read(record));
             } catch (UnreadableException e) { // becomes a dead letter where the stream of devices is read
                 continue;
             }
@@ -66,17 +68,41 @@ public final class DeviceBook<H> implements Serializable {
     /** The version that held at an event time. What was read at the start may be newer than a restored state. */
     public Optional<DeviceVersion> at(String identity, long time, ReadOnlyBroadcastState<String, H> state)
             throws Exception {
+        if (!compared) {
+            forgetWhatIsRestored(state);
+        }
+        return current(identity, state).at(Epochs.original(time));
+    }
+
+    private DeviceVersions current(String identity, ReadOnlyBroadcastState<String, H> state) throws Exception {
         DeviceVersions known = known(state.get(identity));
-        for (DeviceChange change : atStart.getOrDefault(identity, List.of())) {
+        for (DeviceChange change : atStart.of(identity)) {
             known = known.with(change);
         }
-        return known.at(time);
+        return known;
+    }
+
+    /** The stream of a restored job begins behind what its state holds: it will not pass that again. */
+    private void forgetWhatIsRestored(ReadOnlyBroadcastState<String, H> state) throws Exception {
+        Set<String> restored = new HashSet<>();
+        for (Map.Entry<String, H> each : state.immutableEntries()) {
+            if (current(each.getKey(), state).equals(form.read(each.getValue()))) {
+                restored.add(each.getKey());
+            }
+        }
+        atStart.forget(restored::contains);
+        compared = true;
+    }
+
+    /** How many changes are held beside the state. */
+    int heldBesideState() {
+        return atStart.size();
     }
 
     /** Takes a change into the state; forgets versions that ended longer ago than they are kept. */
     public void note(DeviceChange change, BroadcastState<String, H> state) throws Exception {
         state.put(change.key(), form.held(known(state.get(change.key())).with(change)));
-        atStart.computeIfPresent(change.key(), (key, changes) -> later(changes, change.offset()));
+        atStart.passed(change);
         if (--changesUntilSweep <= 0) {
             changesUntilSweep = sweep(state, change.time() - keptMillis);
         }
@@ -84,13 +110,6 @@ public final class DeviceBook<H> implements Serializable {
 
     private DeviceVersions known(H held) {
         return held == null ? DeviceVersions.EMPTY : form.read(held);
-    }
-
-    /** Null where none is left, which takes the entry from the map. */
-    private static List<DeviceChange> later(List<DeviceChange> changes, long offset) {
-        List<DeviceChange> later =
-                changes.stream().filter(change -> change.offset() > offset).toList();
-        return later.isEmpty() ? null : later;
     }
 
     /** As many changes as there are devices lie between two sweeps, so that their cost does not grow with the devices. */

@@ -6,8 +6,9 @@ import io.furrow.model.device.DeviceVersion;
  * A record of {@code service.devices}.
  *
  * @param key of the record: the identity of the device
- * @param offset of the record; larger for what was written later under one key
+ * @param partition of the record
+ * @param offset of the record; larger for what was written later in its partition
  * @param time record timestamp, epoch ms
  * @param version null where the device was deleted
  */
-public record DeviceChange(String key, long offset, long time, DeviceVersion version) {}
+public record DeviceChange(String key, int partition, long offset, long time, DeviceVersion version) {}

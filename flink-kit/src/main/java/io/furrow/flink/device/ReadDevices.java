@@ -36,12 +36,16 @@ public final class ReadDevices extends ProcessFunction<TopicRecord, DeviceChange
     static DeviceChange read(TopicRecord record) throws UnreadableException {
         if (record.value() != null) {
             DeviceVersion version = DeviceVersion.read(record.value());
-            return new DeviceChange(version.key(), record.offset(), record.timestamp(), version);
+            return new DeviceChange(version.key(), record.partition(), record.offset(), record.timestamp(), version);
         }
         if (record.key() == null) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has neither a value nor a key");
         }
         return new DeviceChange(
-                new String(record.key(), StandardCharsets.UTF_8), record.offset(), record.timestamp(), null);
+                new String(record.key(), StandardCharsets.UTF_8),
+                record.partition(),
+                record.offset(),
+                record.timestamp(),
+                null);
     }
 }

@@ -22,7 +22,7 @@ class DeviceVersionsTest {
     void knowsNoMissionBetweenAnEndAndTheNextBeginning() {
         DeviceVersion ending = new DeviceVersion("r", "", "/", "d", "a", 100, 150L, 1, null);
         DeviceVersions history = DeviceVersions.EMPTY
-                .with(new DeviceChange("|/|r", 0, 0, ending))
+                .with(new DeviceChange("|/|r", 0, 0, 0, ending))
                 .with(change("b", 200, 2));
 
         assertThat(missionAt(history, 149)).isEqualTo("a");
@@ -53,7 +53,7 @@ class DeviceVersionsTest {
     @Test
     void endsWithTheDeletionAndKeepsWhatWasBeforeIt() {
         DeviceVersions history =
-                DeviceVersions.EMPTY.with(change("a", 100, 1)).with(new DeviceChange("|/|r", 0, 300, null));
+                DeviceVersions.EMPTY.with(change("a", 100, 1)).with(new DeviceChange("|/|r", 0, 0, 300, null));
 
         assertThat(missionAt(history, 299)).isEqualTo("a");
         assertThat(history.at(300)).isEmpty();
@@ -66,7 +66,7 @@ class DeviceVersionsTest {
         assertThat(history.since(199)).isSameAs(history);
         assertThat(history.since(200).versions()).hasSize(1);
         assertThat(missionAt(history.since(200), 200)).isEqualTo("b");
-        assertThat(history.with(new DeviceChange("|/|r", 0, 300, null))
+        assertThat(history.with(new DeviceChange("|/|r", 0, 0, 300, null))
                         .since(300)
                         .isEmpty())
                 .isTrue();
@@ -78,6 +78,6 @@ class DeviceVersionsTest {
 
     private static DeviceChange change(String mission, long from, long sequence) {
         return new DeviceChange(
-                "|/|r", sequence, from, new DeviceVersion("r", "", "/", "d", mission, from, null, sequence, null));
+                "|/|r", 0, sequence, from, new DeviceVersion("r", "", "/", "d", mission, from, null, sequence, null));
     }
 }

@@ -1,0 +1,50 @@
+package io.furrow.flink.restart;
+
+import java.util.List;
+import java.util.Set;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicRecord;
+
+/** A job over a random input, for {@link Restarts}. */
+public interface JobCase {
+    /** In the order of arrival. */
+    List<Arrival> arrivals();
+
+    /** How much later than a newer record an older one may come, ms. */
+    long bound();
+
+    /** With {@code --parallelism}. */
+    JobOptions options(int parallelism);
+
+    /** The pipeline of these options; every operator has a uid. */
+    DataStream<TopicRecord> define(StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options)
+            throws Exception;
+
+    /** To which an undisturbed run must write, else it shows little. */
+    Set<String> topics();
+
+    /** Names of the operators that treat what is late in another way. */
+    List<String> judges();
+
+    /** Of records with the same identity the last counts; by default only equal ones have it. */
+    default String identity(TopicRecord record) {
+        return content(record);
+    }
+
+    /** What a record says; nothing that differs from run to run. */
+    default String content(TopicRecord record) {
+        return Restarts.text(record);
+    }
+
+    /**
+     * A record that arrives.
+     *
+     * @param afterAll whether it arrives only when all judges have the watermark of the records before it; else which of them
+     *     has it already depends on chance
+     */
+    record Arrival(TopicRecord record, boolean afterAll) {}
+}
