@@ -2,7 +2,14 @@ package io.furrow.connect;
 
 /** Makes texts from outside fit for a log, in which each line has one author. */
 public final class LogText {
+    private static final int LONGEST = 1000;
+
     private LogText() {}
+
+    /** The beginning of the text on one line. */
+    public static String beginning(String text) {
+        return oneLine(text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text);
+    }
 
     /** The text with each control character, and each other line break, as {@code \} and four digits, as in JSON. */
     public static String oneLine(String text) {

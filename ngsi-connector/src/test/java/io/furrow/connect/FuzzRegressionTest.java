@@ -15,7 +15,10 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.journal.FuzzJournal;
+import io.furrow.connect.repair.FuzzPages;
+import io.furrow.connect.sink.FuzzAnswers;
 import io.furrow.connect.source.FuzzBodies;
+import io.furrow.connect.source.FuzzGzip;
 import io.furrow.connect.source.FuzzRecords;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -26,6 +29,8 @@ import static org.assertj.core.api.Assertions.assertThat;
  */
 class FuzzRegressionTest {
     private static final Path FUZZ = Path.of("src/test/resources/fuzz");
+    private static final List<String> LOGGERS =
+            List.of("io.furrow.connect.journal", "io.furrow.connect.repair", "io.furrow.connect.sink");
 
     private interface Target {
         void accept(byte[] input) throws Exception;
@@ -46,14 +51,31 @@ class FuzzRegressionTest {
         run("journal", FuzzJournal::fuzzerTestOneInput, 50);
     }
 
+    @Test
+    void readsAnyPageOfARepair() throws Exception {
+        run("pages", FuzzPages::fuzzerTestOneInput, 100);
+    }
+
+    @Test
+    void readsAnyAnswerToTheSink() throws Exception {
+        run("answers", FuzzAnswers::fuzzerTestOneInput, 300);
+    }
+
+    @Test
+    void inflatesAnyBody() throws Exception {
+        run("gzip", FuzzGzip::fuzzerTestOneInput, 100);
+    }
+
+    /** What is wrong with the inputs is no news. */
     @BeforeAll
     static void logNoDamage() {
-        Configurator.setLevel("io.furrow.connect.journal", Level.OFF);
+        LOGGERS.forEach(logger -> Configurator.setLevel(logger, Level.OFF));
     }
 
     @AfterAll
     static void logAgain() {
-        Configurator.setLevel("io.furrow.connect.journal", Level.INFO);
+        LOGGERS.forEach(logger -> Configurator.setLevel(logger, Level.INFO));
+        FuzzGzip.close();
     }
 
     private static void run(String corpus, Target target, int changes) throws Exception {

@@ -27,19 +27,29 @@ import io.furrow.connect.LogText;
  * may share one.
  */
 public final class BrokerClient {
-    private static final int LONGEST_WORDS = 1000;
+    /** Bytes of an answer that are read for its words. */
+    private static final int MOST_READ = 4000;
 
     private final HttpClient client;
     private final BrokerSettings settings;
 
     public BrokerClient(BrokerSettings settings) {
+        this(http(settings), settings);
+    }
+
+    /** @param client that follows no redirects */
+    BrokerClient(HttpClient client, BrokerSettings settings) {
+        this.client = client;
+        this.settings = settings;
+    }
+
+    private static HttpClient http(BrokerSettings settings) {
         HttpClient.Builder builder = HttpClient.newBuilder()
                 .version(HttpClient.Version.HTTP_1_1)
                 .followRedirects(HttpClient.Redirect.NEVER)
                 .connectTimeout(settings.timeout());
         settings.tls().ifPresent(builder::sslContext);
-        this.client = builder.build();
-        this.settings = settings;
+        return builder.build();
     }
 
     /** Waits for the answer; an interrupt while it waits stays set and counts as {@link Outcome.Away}. */
@@ -123,8 +133,7 @@ public final class BrokerClient {
     }
 
     private static String text(byte[] body) {
-        String text = new String(body, 0, Math.min(body.length, 4 * LONGEST_WORDS), StandardCharsets.UTF_8);
-        return LogText.oneLine(text.length() > LONGEST_WORDS ? text.substring(0, LONGEST_WORDS) + "…" : text);
+        return LogText.beginning(new String(body, 0, Math.min(body.length, MOST_READ), StandardCharsets.UTF_8));
     }
 
     private static Outcome away(String reason, Throwable cause) {

@@ -41,10 +41,10 @@ public final class BrokerException extends Exception {
         throw new BrokerException("cannot " + what + ": the context broker answered " + words, null, Optional.empty());
     }
 
-    /** The body of a success as JSON. */
-    public static JsonNode json(String what, Outcome.Done done) throws BrokerException {
+    /** The body of a success as a list. */
+    public static JsonNode list(String what, Outcome.Done done) throws BrokerException {
         try {
-            return done.json();
+            return done.list();
         } catch (UnreadableException e) {
             throw new BrokerException(
                     "cannot " + what + ": the answer cannot be read: " + e.getMessage(), e, Optional.empty());

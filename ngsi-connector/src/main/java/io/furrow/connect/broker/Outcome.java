@@ -7,6 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** What became of a request to a context broker. */
@@ -25,6 +26,19 @@ public sealed interface Outcome {
          */
         public JsonNode json() throws UnreadableException {
             return body.length == 0 ? MissingNode.getInstance() : NgsiJson.read(body);
+        }
+
+        /**
+         * The body as a JSON array.
+         *
+         * @throws UnreadableException if it is none
+         */
+        public JsonNode list() throws UnreadableException {
+            JsonNode list = json();
+            if (!list.isArray()) {
+                throw new UnreadableException(Reason.NOT_JSON, "the body of the answer is no list");
+            }
+            return list;
         }
     }
 

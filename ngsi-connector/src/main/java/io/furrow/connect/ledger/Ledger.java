@@ -55,8 +55,9 @@ public final class Ledger implements Numbers {
     public final Counter corrupt = counter("corrupt", "Places in the journal that could not be read and were skipped");
     public final Counter repaired =
             counter("repaired", "Durable records of entities that the repair read from the context broker");
-    public final Counter repeated =
-            counter("repeated", "Entities that the repair read and passed over, because their event was seen before");
+    public final Counter repeated = counter(
+            "repeated",
+            "Entities that the repair read and passed over, because the last record of each tells the same state or a newer one");
     public final Counter gaps = counter("gaps", "Times that notifications were or may have been missed");
     public final Counter oversized = counter(
             "oversized", "Durable records that became dead letters, because the topic takes no record so large");
@@ -64,7 +65,7 @@ public final class Ledger implements Numbers {
             counter("clockAhead", "Accepted entities whose own time is too far in the future");
     public final Counter undated = counter(
             "undated",
-            "Accepted entities without dateModified, of which a change back to an earlier value cannot be told from a repeat");
+            "Accepted entities without dateModified, of which a change back to an earlier value cannot be told from a duplicate");
     public final Counter unauthorized = counter("unauthorized", "Requests answered 401: a wrong secret, or none");
     public final Counter foreignTenant =
             counter("foreignTenant", "Requests answered 403: a tenant that is not allowed");

@@ -1,8 +1,6 @@
 package io.furrow.connect.repair;
 
-import java.time.DateTimeException;
 import java.time.Instant;
-import java.time.OffsetDateTime;
 import java.time.temporal.ChronoUnit;
 import java.util.ArrayList;
 import java.util.Comparator;
@@ -11,6 +9,7 @@ import java.util.List;
 import java.util.Optional;
 import java.util.Set;
 import java.util.function.Function;
+import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -22,11 +21,14 @@ import io.furrow.connect.broker.BrokerException;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.repair.EntityRequests.Range;
+import io.furrow.connect.repair.EntityRequests.Told;
 import io.furrow.connect.repair.KeysetReader.Page;
+import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.Subject;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Instants;
+import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -45,56 +47,59 @@ final class BrokerEntities {
     private static final int TREE_TO_BODY = 4;
 
     private static final int PAIR = 2;
+    /** What a header can carry. */
+    private static final Pattern PATH = Pattern.compile("/[!-~]*");
 
     private final Function<BrokerRequest, Outcome> broker;
     private final FiwareScope scope;
     private final Subject subject;
-    private final Set<String> attrs;
+    private final Told told;
     private final boolean isPathTold;
     private final long maxBytes;
     private int fitting = Integer.MAX_VALUE;
 
     /**
      * @param scope the tenant, and the service path of the subscription, {@code /#} for all
-     * @param attrs of the subscription: what is read must make the same event as its notification
+     * @param content of the subscription: what is read must make the same event as its notification
      * @param maxBytes of a page's body
      */
     BrokerEntities(
             Function<BrokerRequest, Outcome> broker,
             FiwareScope scope,
             Subject subject,
-            List<String> attrs,
+            Content content,
             long maxBytes) {
         this.broker = broker;
         this.scope = scope;
         this.subject = subject;
         this.maxBytes = maxBytes;
-        isPathTold = attrs.contains(SERVICE_PATH);
-        this.attrs = new LinkedHashSet<>(attrs.isEmpty() ? List.of("*") : attrs);
-        this.attrs.remove("alterationType");
-        this.attrs.addAll(List.of(MODIFIED, SERVICE_PATH));
+        isPathTold = content.attrs().contains(SERVICE_PATH);
+        Set<String> attrs = new LinkedHashSet<>(content.attrs().isEmpty() ? List.of("*") : content.attrs());
+        attrs.remove("alterationType");
+        attrs.addAll(List.of(MODIFIED, SERVICE_PATH));
+        told = new Told(attrs, content.metadata());
     }
 
     /** What was modified at or after a time, oldest first. */
     Page modifiedFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
-        return page(new Range(MODIFIED, from, offset, limit), attrs);
+        return page(new Range(MODIFIED, from, offset, limit), told);
     }
 
     /** What was created at or after a time, oldest first; of the attributes only the built-in ones. */
     Page createdFrom(Instant from, int offset, int limit) throws BrokerException, InterruptedException {
-        return page(new Range(CREATED, from, offset, limit), Set.of(CREATED, SERVICE_PATH));
+        return page(new Range(CREATED, from, offset, limit), builtIns(CREATED));
     }
 
     /** The entities that an id has now, in the order of their times; empty where it is gone. */
     List<EntityState> ofId(FiwareScope place, String id) throws BrokerException, InterruptedException {
-        Optional<JsonNode> answer = ask(place, EntityRequests.ofId(id, attrs), TREE_TO_BODY * maxBytes);
+        Optional<JsonNode> answer = ask(place, EntityRequests.ofId(id, told), TREE_TO_BODY * maxBytes);
         if (answer.isPresent()) {
-            List<EntityState> states = states(answer.get(), MODIFIED);
+            List<EntityState> states = states(answer.get(), MODIFIED, Instant.EPOCH);
             states.sort(Comparator.comparing(EntityState::time));
             return states;
         }
         List<EntityState> states = new ArrayList<>();
-        for (EntityState stub : states(stubs(place, EntityRequests.ofId(id, stubAttrs(MODIFIED))), MODIFIED)) {
+        for (EntityState stub : stubsOfId(place, id, MODIFIED)) {
             whole(stub).ifPresent(states::add);
         }
         return states;
@@ -102,7 +107,12 @@ final class BrokerEntities {
 
     /** The same, without their attributes. */
     List<EntityState> stubsOfId(FiwareScope place, String id) throws BrokerException, InterruptedException {
-        return states(stubs(place, EntityRequests.ofId(id, stubAttrs(CREATED))), CREATED);
+        return stubsOfId(place, id, CREATED);
+    }
+
+    private List<EntityState> stubsOfId(FiwareScope place, String id, String order)
+            throws BrokerException, InterruptedException {
+        return states(stubs(place, EntityRequests.ofId(id, builtIns(order))), order, Instant.EPOCH);
     }
 
     /** Whether an entity is one of the subscription's. */
@@ -110,14 +120,16 @@ final class BrokerEntities {
         return subject.covers(state.entity().id(), state.entity().type());
     }
 
-    private Page page(Range range, Set<String> wanted) throws BrokerException, InterruptedException {
+    private Page page(Range range, Told wanted) throws BrokerException, InterruptedException {
         int limit = Math.min(range.limit(), fitting);
         while (true) {
             Optional<JsonNode> answer =
                     ask(scope, EntityRequests.page(range.first(limit), subject, wanted), TREE_TO_BODY * maxBytes);
             if (answer.isPresent()) {
                 return new Page(
-                        states(answer.get(), range.order()), limit, answer.get().size() >= limit);
+                        states(answer.get(), range.order(), range.from()),
+                        limit,
+                        answer.get().size() >= limit);
             }
             if (limit == PAIR) {
                 return pair(range.first(PAIR));
@@ -129,74 +141,72 @@ final class BrokerEntities {
 
     /** The two entities that the context broker has next, each read by itself. */
     private Page pair(Range range) throws BrokerException, InterruptedException {
-        JsonNode stubs = stubs(scope, EntityRequests.page(range, subject, stubAttrs(range.order())));
+        JsonNode stubs = stubs(scope, EntityRequests.page(range, subject, builtIns(range.order())));
         List<EntityState> states = new ArrayList<>();
-        for (EntityState stub : states(stubs, range.order())) {
-            (range.order().equals(MODIFIED) ? whole(stub) : Optional.of(stub)).ifPresent(states::add);
+        for (EntityState stub : states(stubs, range.order(), range.from())) {
+            boolean isWhole = range.order().equals(CREATED) || stub.problem().isPresent();
+            (isWhole ? Optional.of(stub) : whole(stub)).ifPresent(states::add);
         }
         return new Page(states, PAIR, stubs.size() == PAIR);
     }
 
-    private static Set<String> stubAttrs(String order) {
-        return new LinkedHashSet<>(List.of(order, SERVICE_PATH));
+    private static Told builtIns(String order) {
+        return new Told(new LinkedHashSet<>(List.of(order, SERVICE_PATH)), List.of());
     }
 
     /** The entity with all attributes, as of the time of its stub, behind which others may follow; empty where it went. */
     private Optional<EntityState> whole(EntityState stub) throws BrokerException, InterruptedException {
-        String path = EntityRequests.ofType(stub.entity().id(), stub.entity().type(), attrs);
+        String path = EntityRequests.ofType(stub.entity().id(), stub.entity().type(), told);
         Optional<JsonNode> answer = ask(stub.scope(), path, TREE_TO_BODY * maxBytes / PAIR);
         if (answer.isEmpty()) {
             String problem = "it is larger than " + maxBytes
                     + " bytes, or holds a text, number or nesting beyond what is read; see repair.page.max.bytes";
             return Optional.of(new EntityState(stub.entity(), stub.scope(), stub.time(), Optional.of(problem)));
         }
-        return states(answer.get(), MODIFIED).stream()
+        return states(answer.get(), MODIFIED, stub.time()).stream()
                 .findFirst()
                 .map(state -> new EntityState(state.entity(), state.scope(), stub.time(), state.problem()));
     }
 
-    private List<EntityState> states(JsonNode entities, String order) {
+    /** One without a time of its own has that of the one before it, or the least. */
+    private List<EntityState> states(JsonNode entities, String order, Instant least) {
         List<EntityState> states = new ArrayList<>();
+        Instant time = least;
         for (JsonNode json : entities) {
-            state(json, order).ifPresent(states::add);
+            time = Instants.of(json.path(order).path("value"))
+                    .map(own -> own.truncatedTo(ChronoUnit.MILLIS))
+                    .orElse(time);
+            states.add(state(json, order, time));
         }
         return states;
     }
 
-    private Optional<EntityState> state(JsonNode json, String order) {
+    private EntityState state(JsonNode json, String order, Instant time) {
         String path = json.path(SERVICE_PATH).path("value").asText("/");
-        FiwareScope place = new FiwareScope(scope.service(), path);
-        Instant time;
+        boolean isPath = PATH.matcher(path).matches();
+        FiwareScope place = new FiwareScope(scope.service(), isPath ? path : "/");
         try {
-            time = OffsetDateTime.parse(json.path(order).path("value").asText())
-                    .toInstant()
-                    .truncatedTo(ChronoUnit.MILLIS);
-        } catch (DateTimeException e) {
-            LOG.warn(
-                    "entity {} at {} has no {} and is left out",
-                    LogText.oneLine(json.path("id").asText()),
-                    place,
-                    order);
-            return Optional.empty();
-        }
-        try {
+            if (!isPath) {
+                throw new UnreadableException(
+                        Reason.NOT_AN_ENTITY, "its servicePath is none: " + LogText.beginning(path));
+            }
             Entity entity = Entity.of(json);
             if (order.equals(MODIFIED) && !isPathTold) {
                 entity.json().remove(SERVICE_PATH);
             }
-            return Optional.of(new EntityState(entity, place, time));
+            return new EntityState(entity, place, time);
         } catch (UnreadableException e) {
             Entity stub = new Entity(JsonNodeFactory.instance
                     .objectNode()
                     .put("id", json.path("id").asText())
                     .put("type", json.path("type").asText()));
-            return Optional.of(new EntityState(stub, place, time, Optional.of(e.getMessage())));
+            return new EntityState(stub, place, time, Optional.of(e.getMessage()));
         }
     }
 
     private JsonNode stubs(FiwareScope place, String path) throws BrokerException, InterruptedException {
         String what = "read entities of tenant '" + scope.service() + "'";
-        return BrokerException.json(what, BrokerException.success(what, answer(BrokerRequest.get(place, path))));
+        return BrokerException.list(what, BrokerException.success(what, answer(BrokerRequest.get(place, path))));
     }
 
     /** Empty where the answer takes too much, or cannot be read. */
@@ -206,9 +216,9 @@ final class BrokerEntities {
         if (outcome instanceof Outcome.Refused refused && refused.isTooLarge()) {
             return Optional.empty();
         }
-        byte[] body = BrokerException.success("read entities of tenant '" + scope.service() + "'", outcome)
-                .body();
-        long heap = HeapEstimate.of(body);
+        Outcome.Done done = BrokerException.success("read entities of tenant '" + scope.service() + "'", outcome);
+        byte[] body = done.body();
+        long heap = TreeEstimate.of(body);
         if (body.length > maxBytes || heap > maxHeap) {
             return Optional.empty();
         }
@@ -216,7 +226,7 @@ final class BrokerEntities {
             fitting *= 2;
         }
         try {
-            return Optional.of(NgsiJson.read(body));
+            return Optional.of(done.list());
         } catch (UnreadableException e) {
             LOG.debug("an answer cannot be read and is asked for in parts", e);
             return Optional.empty();

@@ -54,8 +54,7 @@ public final class Caretaker implements AutoCloseable {
                 Function<BrokerRequest, Outcome> broker, FiwareScope scope, WantedSubscription wanted, long maxBytes) {
             return new Charge(
                     new SubscriptionKeeper(broker, scope, wanted),
-                    new BrokerEntities(
-                            broker, scope, wanted.subject(), wanted.content().attrs(), maxBytes),
+                    new BrokerEntities(broker, scope, wanted.subject(), wanted.content(), maxBytes),
                     new BrokerUptime(broker, scope));
         }
     }

@@ -4,6 +4,7 @@ import java.net.URLEncoder;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
+import java.util.List;
 import java.util.Set;
 
 import io.furrow.connect.subscription.Subject;
@@ -17,6 +18,14 @@ final class EntityRequests {
 
     private EntityRequests() {}
 
+    /** Which attributes are told, and which of their metadata; no names of metadata for all of their own. */
+    record Told(Set<String> attrs, List<String> metadata) {
+        private String query() {
+            return "&attrs=" + encoded(String.join(",", attrs))
+                    + (metadata.isEmpty() ? "" : "&metadata=" + encoded(String.join(",", metadata)));
+        }
+    }
+
     /**
      * @param order {@code dateModified} or {@code dateCreated}
      * @param from the least value of it
@@ -28,7 +37,7 @@ final class EntityRequests {
     }
 
     /** A page of a subject's entities, oldest first. */
-    static String page(Range range, Subject subject, Set<String> attrs) {
+    static String page(Range range, Subject subject, Told told) {
         StringBuilder path = new StringBuilder(START)
                 .append("&orderBy=")
                 .append(range.order())
@@ -36,8 +45,7 @@ final class EntityRequests {
                 .append(encoded(range.order() + ">=" + range.from().truncatedTo(ChronoUnit.MILLIS)))
                 .append("&limit=")
                 .append(range.limit())
-                .append("&attrs=")
-                .append(encoded(String.join(",", attrs)));
+                .append(told.query());
         if (range.offset() > 0) {
             path.append("&offset=").append(range.offset());
         }
@@ -52,15 +60,15 @@ final class EntityRequests {
     }
 
     /** The entities of an id, whatever their types. */
-    static String ofId(String id, Set<String> attrs) {
+    static String ofId(String id, Told told) {
         // In a list of ids the comma parts them.
         String which = id.contains(",") ? "&idPattern=" + encoded("^" + literal(id) + "$") : "&id=" + encoded(id);
-        return START + which + "&limit=100&attrs=" + encoded(String.join(",", attrs));
+        return START + which + "&limit=100" + told.query();
     }
 
     /** An entity of an id and a type. */
-    static String ofType(String id, String type, Set<String> attrs) {
-        return ofId(id, attrs) + "&type=" + encoded(type);
+    static String ofType(String id, String type, Told told) {
+        return ofId(id, told) + "&type=" + encoded(type);
     }
 
     private static String literal(String text) {

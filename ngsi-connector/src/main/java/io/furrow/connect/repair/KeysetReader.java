@@ -2,10 +2,11 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.time.Instant;
-import java.util.ArrayList;
 import java.util.HashSet;
 import java.util.List;
+import java.util.Map;
 import java.util.Set;
+import java.util.stream.Collectors;
 
 import io.furrow.connect.broker.BrokerException;
 
@@ -74,9 +75,10 @@ final class KeysetReader {
                 countAnew();
                 continue;
             }
-            List<EntityState> later = new ArrayList<>(page.states());
-            later.removeIf(state -> !state.time().isAfter(from));
-            read(page.states().subList(0, page.states().size() - later.size()), reader);
+            Map<Boolean, List<EntityState>> states = page.states().stream()
+                    .collect(Collectors.partitioningBy(state -> state.time().isAfter(from)));
+            List<EntityState> later = states.get(true);
+            read(states.get(false), reader);
             isPast |= !later.isEmpty();
             boolean atItsEnd = !page.isFull() || !later.isEmpty();
             if (!atItsEnd) {

@@ -13,6 +13,7 @@ import java.nio.file.StandardOpenOption;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Consumer;
+import java.util.regex.Pattern;
 
 /**
  * What is known of entities as a file of lines: {@code +identity}, {@code -identity}, {@code !} where there are too many;
@@ -20,6 +21,11 @@ import java.util.function.Consumer;
  * percent-encoded. A line that was not finished is left out. Locks are the caller's.
  */
 final class KnownFile implements AutoCloseable {
+    /** Half a surrogate pair, which JSON can hold and UTF-8 cannot. */
+    private static final Pattern HALF = Pattern.compile("[\\x{D800}-\\x{DFFF}]");
+
+    private static final Pattern HALF_WRITTEN = Pattern.compile("%u([0-9A-F]{4})");
+
     private static final long SMALL = 1024 * 1024;
 
     /** A line. */
@@ -55,7 +61,10 @@ final class KnownFile implements AutoCloseable {
         }
 
         private String line() {
-            return kind.sign + identity.replace("%", "%25").replace("\n", "%0A").replace("\r", "%0D") + "\n";
+            String text = identity.replace("%", "%25").replace("\n", "%0A").replace("\r", "%0D");
+            return kind.sign
+                    + HALF.matcher(text)
+                            .replaceAll(half -> "%%u%04X".formatted(half.group().codePointAt(0))) + "\n";
         }
 
         private static boolean isOne(String line) {
@@ -63,8 +72,12 @@ final class KnownFile implements AutoCloseable {
         }
 
         private static Change of(String line) {
-            String identity =
-                    line.substring(1).replace("%0A", "\n").replace("%0D", "\r").replace("%25", "%");
+            String identity = HALF_WRITTEN
+                    .matcher(line.substring(1))
+                    .replaceAll(half -> Character.toString(Integer.parseInt(half.group(1), 16)))
+                    .replace("%0A", "\n")
+                    .replace("%0D", "\r")
+                    .replace("%25", "%");
             return switch (line.charAt(0)) {
                 case '+' -> added(identity);
                 case '-' -> removed(identity);

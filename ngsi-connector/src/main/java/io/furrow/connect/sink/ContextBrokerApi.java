@@ -24,11 +24,12 @@ interface ContextBrokerApi {
     BrokerRequest write(FiwareScope scope, List<byte[]> elements);
 
     /**
-     * What an answer 2xx to {@link #write} refuses all the same: ids of the context broker, and its words.
+     * What an answer 2xx to {@link #write}, or to a batch of deletions, refuses all the same: ids of the context broker, and its words.
      *
+     * @param ids that the request named
      * @throws UnreadableException if that cannot be told
      */
-    Map<String, String> refused(Outcome.Done answer) throws UnreadableException;
+    Map<String, String> refused(Outcome.Done answer, Collection<String> ids) throws UnreadableException;
 
     /** Deletes an entity. */
     BrokerRequest delete(EntityKey key);

@@ -2,8 +2,10 @@ package io.furrow.connect.sink;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.Set;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.sink.Batches.Rendered;
@@ -63,7 +65,7 @@ final class EntityDeleter {
         }
         Outcome outcome = client.send(api.delete(
                 batch.get(0).scope(), batch.stream().map(Rendered::json).toList()));
-        if (outcome instanceof Outcome.Done done && isWhole(done)) {
+        if (outcome instanceof Outcome.Done done && isWhole(done, batch)) {
             batch.forEach(one -> result.deleted().add(one.of()));
         } else if (outcome instanceof Outcome.Away away && !(apart && FailingChange.isMeant(away))) {
             throw new BrokerAwayException(away);
@@ -74,9 +76,11 @@ final class EntityDeleter {
         }
     }
 
-    private boolean isWhole(Outcome.Done done) {
+    private boolean isWhole(Outcome.Done done, List<Rendered<Change>> batch) {
         try {
-            return api.refused(done).isEmpty();
+            return api.refused(
+                            done, batch.stream().map(one -> one.of().key().id()).toList())
+                    .isEmpty();
         } catch (UnreadableException e) {
             return false; // what is left will show
         }
@@ -106,8 +110,11 @@ final class EntityDeleter {
     private void delete(Change deletion, boolean apart, Result result)
             throws BrokerAwayException, WrongSettingException {
         Outcome outcome = client.send(api.delete(deletion.key()));
-        if (outcome instanceof Outcome.Done) {
-            result.deleted().add(deletion);
+        if (outcome instanceof Outcome.Done done) {
+            refusal(done, deletion)
+                    .ifPresentOrElse(
+                            words -> result.refused().add(new RefusedChange(deletion, words)),
+                            () -> result.deleted().add(deletion));
         } else if (outcome instanceof Outcome.Absent) {
             result.absent().add(deletion);
         } else if (outcome instanceof Outcome.Refused refusal) {
@@ -119,6 +126,16 @@ final class EntityDeleter {
                 throw new BrokerAwayException(away);
             }
             result.failing().add(new FailingChange(deletion, away));
+        }
+    }
+    /** An NGSI-LD broker of several sources answers 207 where one of them did not delete its part. */
+    private Optional<String> refusal(Outcome.Done done, Change deletion) {
+        String id = deletion.key().id();
+        try {
+            return Optional.ofNullable(api.refused(done, List.of(id)).get(id));
+        } catch (UnreadableException e) {
+            return Optional.of(
+                    done.status() + " with a body that cannot be used: " + LogText.beginning(e.getMessage()));
         }
     }
 }

@@ -8,6 +8,7 @@ import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.Future;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.sink.Batches.Rendered;
@@ -128,7 +129,8 @@ final class EntityWriter implements AutoCloseable {
 
     private Result taken(List<Rendered<Update>> batch, Outcome.Done done, boolean apart, Result soFar) {
         try {
-            Map<String, String> refused = api.refused(done);
+            Map<String, String> refused = api.refused(
+                    done, batch.stream().map(one -> api.idOf(one.of())).toList());
             for (Rendered<Update> one : batch) {
                 String words = refused.get(api.idOf(one.of()));
                 if (words == null) {
@@ -139,7 +141,8 @@ final class EntityWriter implements AutoCloseable {
             }
             return soFar;
         } catch (UnreadableException e) {
-            return refused(batch, done.status() + " with a body that is no JSON: " + e.getMessage(), apart, soFar);
+            String words = done.status() + " with a body that cannot be used: " + LogText.beginning(e.getMessage());
+            return refused(batch, words, apart, soFar);
         }
     }
 

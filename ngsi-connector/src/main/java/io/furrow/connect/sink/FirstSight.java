@@ -12,6 +12,7 @@ import java.util.Set;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.model.event.FiwareScope;
@@ -94,7 +95,8 @@ final class FirstSight {
         try {
             api.times(ids, done).forEach((id, times) -> found.put(new EntityKey(scope, id), times));
         } catch (UnreadableException e) {
-            throw new WrongSettingException("what should be a context broker answers a query with no entities: " + e);
+            throw new WrongSettingException("what should be a context broker answers a query with no entities: "
+                    + LogText.beginning(e.toString()));
         }
     }
 

@@ -11,10 +11,12 @@ import java.util.stream.Collectors;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
+import io.furrow.connect.LogText;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.Outcome;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -28,6 +30,8 @@ record NgsiLd(String context) implements ContextBrokerApi {
     private static final byte[] END = {']'};
     /** They are in the URL. */
     private static final int IDS_PER_READ = 40;
+
+    private static final int MULTI_STATUS = 207;
 
     private static final Set<String> NO_ATTRIBUTES =
             Set.of("id", "type", "@context", "scope", "createdAt", "modifiedAt", "deletedAt", "expiresAt");
@@ -55,16 +59,24 @@ record NgsiLd(String context) implements ContextBrokerApi {
         return scoped(BrokerRequest.post(scope, "/ngsi-ld/v1/entityOperations/upsert?options=update", body));
     }
 
-    /** An answer 207 names each entity that was not written, and why. */
+    /** An answer 207 names each entity that was not written, and why; some context brokers name those that were written, too. */
     @Override
-    public Map<String, String> refused(Outcome.Done answer) throws UnreadableException {
+    public Map<String, String> refused(Outcome.Done answer, Collection<String> ids) throws UnreadableException {
+        if (answer.status() != MULTI_STATUS) {
+            return Map.of();
+        }
+        JsonNode body = answer.json();
         Map<String, String> refused = new HashMap<>();
-        if (answer.status() == 207) {
-            for (JsonNode error : answer.json().path("errors")) {
-                JsonNode id = error.path("entityId");
-                String words = error.has("error") ? error.get("error").toString() : error.toString();
-                refused.put(id.isArray() ? id.path(0).asText() : id.asText(), words);
-            }
+        for (JsonNode error : body.path("errors")) {
+            JsonNode id = error.path("entityId");
+            String words = error.has("error") ? error.get("error").toString() : error.toString();
+            refused.put(id.isArray() ? id.path(0).asText() : id.asText(), LogText.beginning(words));
+        }
+        Set<String> told = new HashSet<>(refused.keySet());
+        body.path("success").forEach(success -> told.add(success.asText()));
+        boolean areAllErrorsOurs = !refused.isEmpty() && ids.containsAll(refused.keySet());
+        if (!areAllErrorsOurs && !told.containsAll(ids)) {
+            throw new UnreadableException(Reason.NOT_AN_ENTITY, "it does not tell which entities were refused");
         }
         return refused;
     }
@@ -122,7 +134,7 @@ record NgsiLd(String context) implements ContextBrokerApi {
     @Override
     public Map<String, EntityTimes> times(Collection<String> asked, Outcome.Done answer) throws UnreadableException {
         Map<String, EntityTimes> found = new HashMap<>();
-        for (JsonNode entity : answer.json()) {
+        for (JsonNode entity : answer.list()) {
             String type = entity.path("type").asText();
             String id = entity.path("id").asText();
             for (String key : asked) {

@@ -89,7 +89,7 @@ record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     }
 
     @Override
-    public Map<String, String> refused(Outcome.Done answer) {
+    public Map<String, String> refused(Outcome.Done answer, Collection<String> ids) {
         return Map.of();
     }
 
@@ -137,7 +137,7 @@ record NgsiV2(String timeMetadata) implements ContextBrokerApi {
     @Override
     public Map<String, EntityTimes> times(Collection<String> asked, Outcome.Done answer) throws UnreadableException {
         Map<String, EntityTimes> times = new HashMap<>();
-        for (JsonNode reported : answer.json()) {
+        for (JsonNode reported : answer.list()) {
             Entity entity = Entity.of(reported);
             addTimes(entity, times.computeIfAbsent(entity.id(), id -> new EntityTimes()));
         }

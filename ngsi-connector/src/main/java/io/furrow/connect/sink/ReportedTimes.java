@@ -11,10 +11,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 final class ReportedTimes {
     private ReportedTimes() {}
 
-    /** Epoch milliseconds of an ISO 8601 date and time with offset, or of a number of them. */
+    /** Epoch milliseconds of an ISO 8601 date and time with offset, or of a number of them; empty where a long cannot hold them. */
     static OptionalLong millis(JsonNode time) {
         if (time.isNumber()) {
-            return OptionalLong.of(time.longValue());
+            return time.canConvertToLong() ? OptionalLong.of(time.longValue()) : OptionalLong.empty();
         }
         try {
             return time.isTextual()
@@ -22,7 +22,7 @@ final class ReportedTimes {
                             .toInstant()
                             .toEpochMilli())
                     : OptionalLong.empty();
-        } catch (DateTimeException e) {
+        } catch (DateTimeException | ArithmeticException e) {
             return OptionalLong.empty();
         }
     }

@@ -67,6 +67,9 @@ final class ByteBudget {
 
     private synchronized List<Runnable> served(long bytes) {
         left += bytes;
+        if (waiting.isEmpty()) {
+            return List.of();
+        }
         List<Runnable> served = new ArrayList<>();
         Iterator<Map.Entry<Runnable, Long>> next = waiting.entrySet().iterator();
         while (next.hasNext()) {

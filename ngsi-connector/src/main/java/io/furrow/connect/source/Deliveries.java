@@ -2,6 +2,7 @@ package io.furrow.connect.source;
 
 import java.util.ArrayDeque;
 import java.util.Deque;
+import java.util.Iterator;
 import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
@@ -9,7 +10,6 @@ import java.util.concurrent.CompletionException;
 import java.util.concurrent.Executors;
 import java.util.concurrent.ScheduledExecutorService;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.TimeoutException;
 
 import io.furrow.connect.ledger.Ledger;
 
@@ -29,6 +29,7 @@ final class Deliveries implements AutoCloseable {
     private final Intake intake;
     private final Ledger ledger;
     private final Deque<Delivery> waiting = new ArrayDeque<>();
+    private final Deadlines deadlines = new Deadlines();
     private final ScheduledExecutorService retries;
     private volatile boolean someWait;
     private boolean closed;
@@ -56,23 +57,22 @@ final class Deliveries implements AutoCloseable {
         if (delivery.durable.isDone()) {
             return delivery.durable;
         }
+        CompletableFuture<Void> durable = delivery.durable; // alone: the records must not stay until the next tick
+        CompletableFuture<Void> answer = durable.copy();
         // Who waits is told by retry(); this is for what was taken and is not durable, and a little later.
-        return delivery.durable
-                .copy()
-                .orTimeout(
-                        deadline - System.nanoTime() + TimeUnit.MILLISECONDS.toNanos(3 * RETRY_MS),
-                        TimeUnit.NANOSECONDS)
-                .exceptionally(failure -> {
-                    Throwable seen = failure instanceof TimeoutException ? expired(delivery) : failure;
-                    throw seen instanceof CompletionException wrapped ? wrapped : new CompletionException(seen);
-                });
+        deadlines.watch(answer, deadline + TimeUnit.MILLISECONDS.toNanos(3 * RETRY_MS), () -> expired(durable));
+        return answer;
     }
 
     /** Why it is not durable: one that still waits is turned away, whether or not retry() came to it. */
-    private synchronized OverloadException expired(Delivery delivery) {
-        if (waiting.removeIf(each -> each == delivery)) {
-            turnAway(delivery, OverloadException.noRoom());
-            return OverloadException.noRoom();
+    private synchronized OverloadException expired(CompletableFuture<Void> durable) {
+        for (Iterator<Delivery> each = waiting.iterator(); each.hasNext(); ) {
+            Delivery delivery = each.next();
+            if (delivery.durable == durable) {
+                each.remove();
+                turnAway(delivery, OverloadException.noRoom());
+                return OverloadException.noRoom();
+            }
         }
         return OverloadException.late();
     }

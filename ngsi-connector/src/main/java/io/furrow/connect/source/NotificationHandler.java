@@ -47,45 +47,51 @@ final class NotificationHandler extends Handler.Abstract.NonBlocking {
 
     @Override
     public boolean handle(Request request, Response response, Callback callback) {
-        take(request, response, callback);
-        return true;
-    }
-
-    private void take(Request request, Response response, Callback callback) {
-        BodyReader reader = new BodyReader(request, limits.maxBody(), limits.bodies(), limits.holdNanos());
-        reader.start()
+        Memory memory = new Memory(new BodyReader(request, limits.maxBody(), limits.bodies(), limits.holdNanos()));
+        memory.reader
+                .start()
                 .thenCompose(body -> {
                     if (!body.readToEnd()) {
                         response.getHeaders().put(HttpHeader.CONNECTION, "close");
                     }
-                    return deliver(received(request, body), System.nanoTime() + limits.holdNanos() - body.heldNanos());
+                    long deadline = System.nanoTime() + limits.holdNanos() - body.heldNanos();
+                    return translate(received(request, body), memory, deadline)
+                            .thenCompose(translation -> deliver(translation, deadline));
                 })
                 // On a thread of the server: what completes the delivery is the one thread that writes to the disk.
                 .whenCompleteAsync(
                         (answer, failure) -> {
-                            reader.release();
+                            memory.release();
                             answer(request, response, answer, failure, callback);
                         },
                         getServer().getThreadPool());
+        return true;
     }
 
-    private CompletableFuture<Answer> deliver(ReceivedNotification received, long deadline) {
-        ByteBudget memory = limits.translations();
+    /** What a request holds of the budgets until it is answered. */
+    private final class Memory {
+        private final BodyReader reader;
+        private long translation;
+
+        Memory(BodyReader reader) {
+            this.reader = reader;
+        }
+
+        void release() {
+            limits.translations().giveBack(translation);
+            reader.release();
+        }
+    }
+
+    private CompletableFuture<Translation> translate(ReceivedNotification received, Memory memory, long deadline) {
+        ByteBudget budget = limits.translations();
         long estimate = HeapEstimate.of(received.body());
-        boolean fits = estimate <= memory.size() || !received.complete();
-        long taken = fits ? Math.min(estimate, memory.size()) : asDeadLetter(received);
-        CompletableFuture<Void> room = memory.take(taken, deadline - System.nanoTime());
-        return room.thenCompose(nothing -> {
-                    Translation translation = fits
-                            ? translator.translate(received)
-                            : translator.refuse(received, tooMuch(estimate, memory));
-                    return deliver(translation, deadline);
-                })
-                .whenComplete((answer, failure) -> {
-                    if (!room.isCompletedExceptionally()) {
-                        memory.giveBack(taken);
-                    }
-                });
+        boolean fits = estimate <= budget.size() || !received.complete();
+        long wanted = fits ? Math.min(estimate, budget.size()) : asDeadLetter(received);
+        return budget.take(wanted, deadline - System.nanoTime()).thenApply(taken -> {
+            memory.translation = wanted;
+            return fits ? translator.translate(received) : translator.refuse(received, tooMuch(estimate, budget));
+        });
     }
 
     private long asDeadLetter(ReceivedNotification received) {

@@ -145,8 +145,12 @@ final class NotificationTranslator {
     }
 
     private boolean isExcluded(Entity entity) {
-        return settings.excluded().stream()
-                .anyMatch(type -> type.matcher(entity.type()).matches());
+        for (Pattern type : settings.excluded()) {
+            if (type.matcher(entity.type()).matches()) {
+                return true;
+            }
+        }
+        return false;
     }
 
     private OutgoingRecord translate(Entity entity, String source, ReceivedNotification received) {

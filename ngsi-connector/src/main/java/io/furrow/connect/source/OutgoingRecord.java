@@ -1,8 +1,9 @@
 package io.furrow.connect.source;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.Map;
+
+import org.apache.kafka.common.utils.Utils;
 
 import io.furrow.connect.repair.EntityVersion;
 
@@ -25,14 +26,10 @@ record OutgoingRecord(
 
     /** The size that counts against a producer's {@code max.request.size}, at least. */
     long bytes() {
-        long bytes = RECORD_OVERHEAD + (value == null ? 0 : value.length) + (key == null ? 0 : utf8(key));
+        long bytes = RECORD_OVERHEAD + (value == null ? 0 : value.length) + (key == null ? 0 : Utils.utf8Length(key));
         for (Map.Entry<String, String> header : headers.entrySet()) {
-            bytes += HEADER_OVERHEAD + utf8(header.getKey()) + utf8(header.getValue());
+            bytes += HEADER_OVERHEAD + Utils.utf8Length(header.getKey()) + Utils.utf8Length(header.getValue());
         }
         return bytes;
-    }
-
-    private static int utf8(String text) {
-        return text.getBytes(StandardCharsets.UTF_8).length;
     }
 }

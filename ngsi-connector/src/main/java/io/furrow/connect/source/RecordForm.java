@@ -1,13 +1,12 @@
 package io.furrow.connect.source;
 
 import java.io.ByteArrayInputStream;
-import java.io.ByteArrayOutputStream;
 import java.io.DataInputStream;
-import java.io.DataOutputStream;
 import java.io.IOException;
-import java.io.UncheckedIOException;
+import java.nio.ByteBuffer;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
+import java.util.Arrays;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
@@ -18,27 +17,24 @@ import java.util.Map;
  */
 final class RecordForm {
     private static final int VERSION = 1;
+    /** With the overhead that counts in {@link OutgoingRecord#bytes}, more than version, time and the lengths of the rest take. */
     private static final int ROOM_FOR_LENGTHS = 128;
 
     private RecordForm() {}
 
     static byte[] write(OutgoingRecord record) {
-        ByteArrayOutputStream bytes = new ByteArrayOutputStream((int) record.bytes() + ROOM_FOR_LENGTHS);
-        try (DataOutputStream out = new DataOutputStream(bytes)) {
-            out.writeByte(VERSION);
-            out.writeLong(record.time().toEpochMilli());
-            write(record.topic(), out);
-            write(record.key(), out);
-            out.writeInt(record.headers().size());
-            for (Map.Entry<String, String> header : record.headers().entrySet()) {
-                write(header.getKey(), out);
-                write(header.getValue(), out);
-            }
-            write(record.value(), out);
-        } catch (IOException e) {
-            throw new UncheckedIOException("memory cannot fail", e);
+        ByteBuffer out =
+                ByteBuffer.allocate((int) record.bytes() + record.topic().length() + ROOM_FOR_LENGTHS);
+        out.put((byte) VERSION).putLong(record.time().toEpochMilli());
+        write(record.topic(), out);
+        write(record.key(), out);
+        out.putInt(record.headers().size());
+        for (Map.Entry<String, String> header : record.headers().entrySet()) {
+            write(header.getKey(), out);
+            write(header.getValue(), out);
         }
-        return bytes.toByteArray();
+        write(record.value(), out);
+        return Arrays.copyOf(out.array(), out.position());
     }
 
     /** @throws IllegalArgumentException if another version wrote it, or none */
@@ -65,14 +61,14 @@ final class RecordForm {
         }
     }
 
-    private static void write(String text, DataOutputStream out) throws IOException {
+    private static void write(String text, ByteBuffer out) {
         write(text == null ? null : text.getBytes(StandardCharsets.UTF_8), out);
     }
 
-    private static void write(byte[] bytes, DataOutputStream out) throws IOException {
-        out.writeInt(bytes == null ? -1 : bytes.length);
+    private static void write(byte[] bytes, ByteBuffer out) {
+        out.putInt(bytes == null ? -1 : bytes.length);
         if (bytes != null) {
-            out.write(bytes);
+            out.put(bytes);
         }
     }
 

@@ -16,6 +16,7 @@ final class RequestHandler extends Handler.Wrapper {
     private static final int INFLATE_BUFFER = 16 * 1024;
 
     private final Gatekeeper gatekeeper;
+    private final Handler notifications;
     private final PageHandler pages;
     private final int maxBody;
 
@@ -23,6 +24,7 @@ final class RequestHandler extends Handler.Wrapper {
     RequestHandler(Gatekeeper gatekeeper, Handler notifications, PageHandler pages, int maxBody) {
         super(inflating(notifications));
         this.gatekeeper = gatekeeper;
+        this.notifications = notifications;
         this.pages = pages;
         this.maxBody = maxBody;
     }
@@ -45,11 +47,17 @@ final class RequestHandler extends Handler.Wrapper {
             refuse(request, response, refused.get(), callback);
             return true;
         }
-        return super.handle(request, response, callback);
+        return encoding(request) == null
+                ? notifications.handle(request, response, callback)
+                : super.handle(request, response, callback);
+    }
+
+    private static String encoding(Request request) {
+        return request.getHeaders().get(HttpHeader.CONTENT_ENCODING);
     }
 
     private static Optional<Answer> unknownEncoding(Request request) {
-        String encoding = request.getHeaders().get(HttpHeader.CONTENT_ENCODING);
+        String encoding = encoding(request);
         return encoding == null || encoding.equalsIgnoreCase("gzip")
                 ? Optional.empty()
                 : Optional.of(Answer.unknownEncoding());

@@ -29,6 +29,7 @@ record SubscriptionOptions(AbstractConfig config) {
     static final String TYPE_PATTERN = "subscription.type.pattern";
     static final String ID_PATTERN = "subscription.id.pattern";
     static final String ATTRS = "subscription.attrs";
+    static final String METADATA = "subscription.metadata";
     static final String ATTRS_FORMAT = "subscription.attrs.format";
     static final String ONLY_CHANGED = "subscription.only.changed.attrs";
     static final String ALTERATION_TYPES = "subscription.alteration.types";
@@ -44,11 +45,20 @@ record SubscriptionOptions(AbstractConfig config) {
             List.of("normalized", "keyValues", "simplifiedNormalized", "simplifiedKeyValues");
     private static final List<String> ALTERATIONS = List.of("entityCreate", "entityChange", "entityUpdate", DELETED);
     private static final String ANY_ID = ".*";
+    private static final Pattern METADATA_NAME = Pattern.compile("[!-~&&[^<>\"'=;()&?/#,]]{1,256}");
 
     /** Checks what concerns more than one option. */
     SubscriptionOptions {
         if (!config.getList(TYPES).isEmpty() && !config.getString(TYPE_PATTERN).isEmpty()) {
             throw new ConfigException(TYPE_PATTERN, config.getString(TYPE_PATTERN), "excludes " + TYPES);
+        }
+        String format = config.getString(ATTRS_FORMAT);
+        if (!config.getList(METADATA).isEmpty()
+                && format.toLowerCase(Locale.ROOT).endsWith("keyvalues")) {
+            throw new ConfigException(
+                    METADATA,
+                    config.getList(METADATA),
+                    format + " carries no metadata; set " + ATTRS_FORMAT + "=normalized or leave this empty");
         }
     }
 
@@ -135,6 +145,15 @@ record SubscriptionOptions(AbstractConfig config) {
                 "Attributes in a notification; * for all of the entity's own. " + ALTERATION
                         + " is added where deletions are"
                         + " told. Keep dateModified, it is the time of an event whose entity has none.");
+        declare.list(
+                METADATA,
+                "",
+                Validators.names(METADATA_NAME, "metadata, of visible ASCII without < > \" ' = ; ( ) & ? / #"),
+                "Metadata",
+                "Metadata of the attributes in a notification, and in what is repaired; empty for all of their own, such as"
+                        + " TimeInstant. With names only these are told, * again for all of their own: *,dateModified adds the"
+                        + " time at which the context broker stored each attribute. previousValue and actionType are of"
+                        + " notifications only.");
         declare.choice(ATTRS_FORMAT, FORMATS, "Format", "Form of the entities in a notification.");
         declare.flag(
                 ONLY_CHANGED,
@@ -235,7 +254,8 @@ record SubscriptionOptions(AbstractConfig config) {
             }
             attrs.add(ALTERATION);
         }
-        return new Content(attrs, config.getString(ATTRS_FORMAT), config.getBoolean(ONLY_CHANGED));
+        return new Content(
+                attrs, config.getList(METADATA), config.getString(ATTRS_FORMAT), config.getBoolean(ONLY_CHANGED));
     }
 
     Pace pace() {

@@ -8,12 +8,19 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * What a notification carries.
  *
  * @param attrs in this order, {@code *} and built-in ones among them
+ * @param metadata of each attribute, {@code *} for all of its own and built-in ones among them; empty for all of its own
  * @param format {@code normalized}, {@code keyValues}, {@code simplifiedNormalized} or {@code simplifiedKeyValues}
  * @param onlyChanged only the attributes that changed
  */
-public record Content(List<String> attrs, String format, boolean onlyChanged) {
+public record Content(List<String> attrs, List<String> metadata, String format, boolean onlyChanged) {
     public Content {
         attrs = List.copyOf(attrs);
+        metadata = List.copyOf(metadata);
+    }
+
+    /** With all metadata of the attributes' own. */
+    public Content(List<String> attrs, String format, boolean onlyChanged) {
+        this(attrs, List.of(), format, onlyChanged);
     }
 
     /** Whether a notification says which subscription it is of. */
@@ -23,6 +30,9 @@ public record Content(List<String> attrs, String format, boolean onlyChanged) {
 
     void writeTo(ObjectNode notification) {
         attrs.forEach(notification.putArray("attrs")::add);
+        if (!metadata.isEmpty()) {
+            metadata.forEach(notification.putArray("metadata")::add);
+        }
         notification.put("attrsFormat", format).put("onlyChangedAttrs", onlyChanged);
     }
 }

@@ -96,7 +96,7 @@ public final class SubscriptionKeeper {
             Outcome.Done done = BrokerException.success(
                     what, broker.apply(BrokerRequest.get(scope, PATH + "?limit=" + PAGE + "&offset=" + offset)));
             at = offset == 0 ? date(done).orElse(now.truncatedTo(ChronoUnit.SECONDS)) : at;
-            JsonNode page = BrokerException.json(what, done);
+            JsonNode page = BrokerException.list(what, done);
             page.forEach(all::add);
             found = page.size();
         }

@@ -129,7 +129,6 @@ class JournalDamageTest {
     @Test
     void losesNothingElseAndSaysSoWhicheverBitFlips() throws Exception {
         long seed = System.nanoTime();
-        System.out.println("JournalDamageTest seed " + seed);
         Random random = new Random(seed);
         List<Path> segments = segments();
         Map<Path, Integer> ends = new HashMap<>();

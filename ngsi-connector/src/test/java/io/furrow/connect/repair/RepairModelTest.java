@@ -28,11 +28,15 @@ import static org.assertj.core.api.Assertions.assertThat;
  * goes away, and forgets entities and the subscription, at random, also while it is asked; and a source that is restarted and has
  * no room at times. After quiet the newest state of each entity on the topic is that of the context broker.
  *
- * <p>{@code -Dfurrow.repair.runs=N} and {@code -Dfurrow.repair.seed=S} run others; run i has the seed S + i.
+ * <p>{@code -Dfurrow.repair.runs=N} and {@code -Dfurrow.repair.seed=S} run others; run i has the seed S + i. {@code
+ * -Dfurrow.repair.report=FILE} writes what was done.
  */
 class RepairModelTest {
     private static final int RUNS = Integer.getInteger("furrow.repair.runs", 300);
     private static final long SEED = Long.getLong("furrow.repair.seed", new Random().nextInt(Integer.MAX_VALUE));
+    /** Where to write what was done; null for nowhere. */
+    private static final String REPORT = System.getProperty("furrow.repair.report");
+
     private static final int LARGE = 5000;
 
     @TempDir
@@ -57,7 +61,11 @@ class RepairModelTest {
                 throw new AssertionError("with -Dfurrow.repair.runs=1 -Dfurrow.repair.seed=" + seed, e);
             }
         }
-        System.out.printf("no difference in %d runs of repairs from seed %d: %s%n", RUNS, SEED, done);
+        if (REPORT != null) {
+            Files.writeString(
+                    Path.of(REPORT),
+                    "no difference in %d runs of repairs from seed %d: %s%n".formatted(RUNS, SEED, done));
+        }
     }
 
     private void run(long seed) throws Exception {

@@ -47,7 +47,6 @@ class RandomUpdatesTest {
     @ParameterizedTest
     @EnumSource(Mishap.class)
     void endInTheNewestValueOfEachAttribute(Mishap mishap) throws Exception {
-        System.out.println("furrow.seed=" + seed);
         Map<String, Map<String, Long>> model = new TreeMap<>();
         List<SinkRecord> records = records(mishap, model);
         Collections.shuffle(records, random);
@@ -66,7 +65,9 @@ class RandomUpdatesTest {
                 from = to;
             }
             task.stop();
-            assertThat(stored()).as("seed " + seed).isEqualTo(model);
+            assertThat(stored()).isEqualTo(model);
+        } catch (Exception | AssertionError e) {
+            throw new AssertionError("with -Dfurrow.seed=" + seed, e);
         } finally {
             standIn.close();
         }

@@ -71,21 +71,17 @@ class NgsiRepairIT {
             await().atMost(PATIENCE).until(() -> latest(reader.atLeast(1)).equals(state));
             await().atMost(PATIENCE).until(() -> broker.standIn().counters().notificationsQueued() == 0);
             rig.stop(NAME);
-            changeWhileDown(state);
+            long seed = changeWhileDown(state);
             assertThat(subscription().path("status").asText()).isEqualTo("inactive");
 
-            long begin = System.nanoTime();
             rig.resume(NAME);
 
             List<ConsumerRecord<String, byte[]>> seen = new ArrayList<>();
             await().atMost(PATIENCE).untilAsserted(() -> {
                 seen.clear();
                 seen.addAll(reader.atLeast(1));
-                assertThat(latest(seen)).isEqualTo(state);
+                assertThat(latest(seen)).as("changes of seed %d", seed).isEqualTo(state);
             });
-            System.out.printf(
-                    "the latest state of %d entities was on the topic %d ms after the source was told to resume%n",
-                    ENTITIES, Duration.ofNanos(System.nanoTime() - begin).toMillis());
             Map<String, ConsumerRecord<String, byte[]>> last = new HashMap<>();
             seen.forEach(record -> last.put(record.key(), record));
             assertThat(last).hasSize(ENTITIES);
@@ -149,10 +145,10 @@ class NgsiRepairIT {
         await().atMost(PATIENCE).until(() -> !broker.subscriptions().isEmpty());
     }
 
-    private void changeWhileDown(Map<String, Integer> state) {
+    /** Answers the seed of the changes. */
+    private long changeWhileDown(Map<String, Integer> state) {
         long seed = System.nanoTime();
         Random random = new Random(seed);
-        System.out.println("changes of seed " + seed);
         for (int done = 0; done < UPDATES; done += BATCH) {
             int value = done;
             List<Integer> some =
@@ -163,6 +159,7 @@ class NgsiRepairIT {
             broker.delete("/", "e" + i);
             state.put("e" + i, null);
         }
+        return seed;
     }
 
     private void update(List<Integer> entities, int value, Map<String, Integer> state) {

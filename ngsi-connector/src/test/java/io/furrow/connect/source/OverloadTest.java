@@ -204,14 +204,14 @@ class OverloadTest {
 
     @Test
     void letsAConnectionBeIdleBetweenRequestsForLongerThanARequestMayTake() throws Exception {
-        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "200", "overload.hold.ms", "100");
+        try (ReceptionRig rig = new ReceptionRig("listen.request.timeout.ms", "5000", "overload.hold.ms", "100");
                 Socket kept = new Socket("127.0.0.1", rig.port())) {
             byte[] request =
                     "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}".getBytes();
             kept.getOutputStream().write(request);
             await().until(() -> rig.intake.taken.size() == 1);
 
-            await().pollDelay(Duration.ofMillis(700)).until(() -> true);
+            await().pollDelay(Duration.ofMillis(5500)).until(() -> true);
             kept.getOutputStream().write(request);
 
             await().until(() -> rig.intake.taken.size() == 2);

@@ -4,7 +4,9 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.OptionalLong;
 
@@ -15,8 +17,11 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.journal.Journal;
+import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Broker;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.fiware.FiwareSettings;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -80,6 +85,43 @@ class OwnSubscriptionsTest {
         } finally {
             resumed.close();
         }
+    }
+
+    @Test
+    void tellAndRepairTheMetadataThatAreWanted() throws Exception {
+        create("before");
+        NgsiSourceConfig config =
+                config(Map.of("subscription.metadata", "TimeInstant,dateModified", "repair.mode", "initial"));
+        Ledger ledger = new Ledger();
+        try (ReceptionRig rig = new ReceptionRig();
+                Journal journal = Journal.open(
+                                Files.createDirectory(directory.resolve("own")), config.journalSettings())
+                        .orElseThrow();
+                OwnSubscriptions own = OwnSubscriptions.of(config, ledger)) {
+            own.start(rig.port(), new JournaledIntake(journal, ledger));
+            await().until(() -> ledger.repaired.sum() == 1);
+            create("after");
+            await().until(() -> !rig.intake.taken.isEmpty());
+
+            try (JournalReader reader = journal.reader(0)) {
+                byte[] repaired = reader.read(1, 1 << 20, Duration.ZERO).get(0).payload();
+                assertThat(metadata(RecordForm.read(repaired))).containsExactly("TimeInstant", "dateModified");
+            }
+            assertThat(metadata(rig.intake.taken.remove().get(0))).containsExactly("TimeInstant", "dateModified");
+        }
+    }
+
+    private void create(String id) {
+        broker.send("POST", "/v2/entities", "/", """
+                {"id": "%s", "type": "T", "t": {"type": "Number", "value": 1, "metadata": {
+                  "accuracy": {"type": "Number", "value": 1},
+                  "TimeInstant": {"type": "DateTime", "value": "2026-01-01T00:00:00.000Z"}}}}""".formatted(id));
+    }
+
+    private static List<String> metadata(OutgoingRecord record) throws UnreadableException {
+        List<String> names = new ArrayList<>();
+        Entity.parse(record.value()).json().at("/t/metadata").fieldNames().forEachRemaining(names::add);
+        return names;
     }
 
     private void removeAll() {

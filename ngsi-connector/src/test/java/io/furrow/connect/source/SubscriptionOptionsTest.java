@@ -39,6 +39,8 @@ class SubscriptionOptionsTest {
                 "subscription.tenants=a-b | subscription.tenants | expected tenants",
                 "subscription.servicepaths=farm | subscription.servicepaths | expected absolute service paths",
                 "subscription.alteration.types=entityGone | subscription.alteration.types | entityCreate, entityChange",
+                "subscription.metadata=a;b | subscription.metadata | expected metadata",
+                "subscription.metadata=* subscription.attrs.format=keyValues | subscription.metadata | carries no metadata",
                 "public.url=orion | public.url | expected empty, http://HOST:PORT/PATH",
             })
     void refusesWhatCannotWorkAndSaysWhy(String options, String option, String words) {

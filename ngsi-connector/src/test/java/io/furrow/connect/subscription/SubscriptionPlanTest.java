@@ -43,6 +43,20 @@ class SubscriptionPlanTest {
     }
 
     @Test
+    void changesOneThatTellsOtherMetadata() {
+        Content content = new Content(List.of("*", "dateModified"), List.of("*", "dateModified"), "normalized", false);
+        WantedSubscription wanted =
+                new WantedSubscription(WANTED.name(), WANTED.subject(), content, TARGET, Pace.EVERY_CHANGE);
+
+        assertThat(SubscriptionPlan.of(wanted, List.of(ours()), NOW).steps())
+                .singleElement()
+                .isInstanceOfSatisfying(Step.Change.class, change -> {
+                    assertThat(change.members()).containsExactly("metadata");
+                    assertThat(change.json().at("/notification/metadata")).hasToString("[\"*\",\"dateModified\"]");
+                });
+    }
+
+    @Test
     void leavesAloneWhatIsAsItShouldBe() {
         assertThat(SubscriptionPlan.of(WANTED, List.of(ours()), NOW).steps()).isEmpty();
     }

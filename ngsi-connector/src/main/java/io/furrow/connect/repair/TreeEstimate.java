@@ -1,7 +1,7 @@
 package io.furrow.connect.repair;
 
 /** How much heap a JSON document takes when it is read into a tree. */
-final class HeapEstimate {
+final class TreeEstimate {
     /** An object with its map, a list with its array, the entry of a member with its name, an element. */
     private static final int OBJECT = 160;
 
@@ -9,7 +9,7 @@ final class HeapEstimate {
     private static final int MEMBER = 100;
     private static final int ELEMENT = 24;
 
-    private HeapEstimate() {}
+    private TreeEstimate() {}
 
     /** Bytes, rather too many than too few; of what is no JSON any number. */
     static long of(byte[] json) {

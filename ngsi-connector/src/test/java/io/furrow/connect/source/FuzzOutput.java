@@ -1,0 +1,57 @@
+package io.furrow.connect.source;
+
+import java.nio.charset.StandardCharsets;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.concurrent.CompletableFuture;
+
+import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.repair.Finding;
+import io.furrow.connect.repair.RepairOutput;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Makes the records of a repair as the source does, and says of which entities they are. Not safe for threads. */
+public final class FuzzOutput implements RepairOutput {
+    private static final NotificationTranslator.Settings SETTINGS =
+            new NgsiSourceConfig(Map.of("journal.dir", "/tmp/journal", "max.record.bytes", "131072")).translation();
+
+    /** Entities of which there is a record or a dead letter. */
+    public final Set<String> told = new HashSet<>();
+    /** Entities of which there is a record without a value. */
+    public final Set<String> deleted = new HashSet<>();
+
+    private final RepairedRecords records = new RepairedRecords(SETTINGS, null, new Ledger());
+
+    @Override
+    public byte[] serialize(String subscription, Finding finding) {
+        return records.serialize(subscription, finding);
+    }
+
+    @Override
+    public Optional<CompletableFuture<Void>> append(List<byte[]> serialized) {
+        serialized.forEach(bytes -> note(RecordForm.read(bytes)));
+        return Optional.of(CompletableFuture.completedFuture(null));
+    }
+
+    private void note(OutgoingRecord record) {
+        if (record.bytes() > SETTINGS.maxRecordBytes()) {
+            throw new IllegalStateException("a record of " + record.bytes() + " bytes");
+        }
+        if (record.topic().equals(SETTINGS.deadLetterTopic())) {
+            told.add(new String(record.value(), StandardCharsets.UTF_8));
+        } else if (record.value() == null) {
+            deleted.add(record.key());
+        } else {
+            try {
+                Entity.parse(record.value());
+            } catch (UnreadableException e) {
+                throw new IllegalStateException("a record that no reader can read", e);
+            }
+            told.add(record.key());
+        }
+    }
+}
