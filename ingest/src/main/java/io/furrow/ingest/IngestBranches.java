@@ -4,6 +4,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
 
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
@@ -12,11 +13,13 @@ import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import io.furrow.flink.DeadLetterSink;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicOptions;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
+import io.furrow.ingest.latest.MergeLatestOperator;
 import io.furrow.ingest.mission.MissionEvent;
 import io.furrow.ingest.mission.MissionStage;
 import io.furrow.ingest.route.ReportedEvent;
@@ -37,26 +40,34 @@ final class IngestBranches {
     }
 
     void route(DataStream<ReportedEvent> events) {
-        SingleOutputStreamOperator<TopicRecord> routed = events.process(new RouteEvents(options.writesRoutes()))
-                .uid("route-events")
-                .name("Route by domain and mission");
+        if (options.does(Part.ROUTES)) {
+            SingleOutputStreamOperator<TopicRecord> routed = events.process(new RouteEvents(options.writesRoutes()))
+                    .uid("route-events")
+                    .name("Route by domain and mission");
 
-        kafka.write("routes", routed);
+            kafka.write("routes", routed);
+        }
     }
 
-    void keepLatest(DataStream<ReportedEvent> events) {
+    void keepLatest(DataStream<ReportedEvent> events, TopicAtStart latestAtStart) {
         if (options.writesLatest()) {
             SingleOutputStreamOperator<TopicRecord> latest = keyed(events)
-                    .process(new MergeLatest(options.repeatWindow(), options.latestKey()))
-                    .uid("merge-latest")
-                    .name("Merge the newest of each entity");
+                    .transform(
+                            "Merge the newest of each entity",
+                            TypeInformation.of(TopicRecord.class),
+                            new MergeLatestOperator(
+                                    new MergeLatest(options.deletionMemory(), options.latestKey()),
+                                    options.latestKey(),
+                                    latestAtStart,
+                                    options.clocks().maxAhead()))
+                    .uid("merge-latest");
 
             kafka.write("latest", latest);
         }
     }
 
     void listImages(SingleOutputStreamOperator<ReportedEvent> moved) {
-        if (options.images().areMoved()) {
+        if (options.does(Part.IMAGES) && options.images().areMoved()) {
             kafka.write("images", moved.getSideOutput(ImageStage.MANIFEST));
         }
     }
@@ -69,7 +80,7 @@ final class IngestBranches {
     }
 
     void keepMissions(DataStream<ReportedEvent> events) {
-        if (options.missions().isOn()) {
+        if (options.does(Part.MISSIONS) && options.missions().isOn()) {
             DataStream<MissionEvent> ofMissions = events.map(
                             event -> new MissionEvent(event.domain(), event.mission(), event.record()))
                     .returns(MissionEvent.class)
@@ -81,12 +92,18 @@ final class IngestBranches {
         }
     }
 
-    /** The dead letters of these stages, and of missions where they are kept already. */
-    void setAside(SingleOutputStreamOperator<?>... stages) {
-        for (SingleOutputStreamOperator<?> stage : stages) {
-            dead.add(stage.getSideOutput(DeadLetters.TAG));
+    /** The dead letters of these stages, where this instance does the part that they belong to; see {@link #writeDead}. */
+    void setAside(Part part, SingleOutputStreamOperator<?>... stages) {
+        if (options.does(part)) {
+            for (SingleOutputStreamOperator<?> stage : stages) {
+                dead.add(stage.getSideOutput(DeadLetters.TAG));
+            }
         }
-        kafka.write("dead-letters", dead.stream().reduce(DataStream::union).orElseThrow());
+    }
+
+    /** The dead letters of all that was set aside, and of missions. */
+    void writeDead() {
+        dead.stream().reduce(DataStream::union).ifPresent(letters -> kafka.write("dead-letters", letters));
     }
 
     /** They are at the subtask of their key already: nothing is sent again. */

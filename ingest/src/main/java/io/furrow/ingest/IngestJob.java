@@ -2,11 +2,14 @@ package io.furrow.ingest;
 
 import java.util.Set;
 
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.flink.AheadLimit;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.KeyedLatenessOperator;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.ReadDevices;
@@ -17,7 +20,10 @@ import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.ingest.route.StampIngest;
 import io.furrow.model.topic.Topics;
 
-/** Brings each event once to everything that is made of events; what is no event becomes a dead letter. */
+/**
+ * Brings each event once to everything that is made of events, or to the {@link Part parts} of it that this instance does; what is
+ * no event becomes a dead letter.
+ */
 public final class IngestJob {
     private IngestJob() {}
 
@@ -36,7 +42,7 @@ public final class IngestJob {
     /** The pipeline; what goes to Kafka names its topic, other branches have sinks of their own. */
     static void define(IngestInputs in, KafkaOutput kafka, IngestOptions options) {
         SingleOutputStreamOperator<ReportedEvent> recognized = in.records()
-                .process(new RecognizeEvents())
+                .process(new RecognizeEvents(AheadLimit.of(options)))
                 .uid("recognize-events")
                 .name("Recognize events");
 
@@ -54,13 +60,18 @@ public final class IngestJob {
                 .name("Assign domain and mission");
 
         SingleOutputStreamOperator<ReportedEvent> once = IngestBranches.keyed(assigned)
-                .process(new PassOnce<>(
-                        options.repeatWindow(), ReportedEvent::id, ReportedEvent::domain, ReportedEvent::mission))
-                .returns(ReportedEvent.class)
-                .uid("pass-once")
-                .name("Pass each event once");
+                .transform(
+                        "Pass each event once",
+                        TypeInformation.of(ReportedEvent.class),
+                        new KeyedLatenessOperator<>(new PassOnce<ReportedEvent>(
+                                options.repeatWindow(),
+                                ReportedEvent::id,
+                                ReportedEvent::domain,
+                                ReportedEvent::mission)))
+                .uid("pass-once");
 
-        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(IngestBranches.keyed(once), options.images())
+        SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(
+                        IngestBranches.keyed(once), options.images(), options.storing())
                 .uid("move-images")
                 .name("Move images to files");
 
@@ -69,10 +80,12 @@ public final class IngestJob {
 
         IngestBranches branches = new IngestBranches(kafka, options);
         branches.route(events);
-        branches.keepLatest(events);
+        branches.keepLatest(events, in.latestAtStart());
         branches.listImages(moved);
         branches.keepCatalog(events);
         branches.keepMissions(events);
-        branches.setAside(recognized, devices, moved);
+        branches.setAside(Part.ROUTES, recognized, devices);
+        branches.setAside(Part.IMAGES, moved);
+        branches.writeDead();
     }
 }

@@ -2,15 +2,20 @@ package io.furrow.ingest;
 
 import java.time.Duration;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.Callable;
+import java.util.stream.Collectors;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
 
+import io.furrow.flink.InputTopics;
 import io.furrow.flink.JobOptions;
 import io.furrow.flink.TopicOptions;
 import io.furrow.ingest.image.ImageOptions;
+import io.furrow.ingest.image.Storing;
 import io.furrow.ingest.latest.LatestKey;
 import io.furrow.ingest.mission.MissionOptions;
 import io.furrow.ingest.route.AssignMission;
@@ -30,6 +35,19 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     @Mixin
     private final MissionOptions missions = new MissionOptions();
+
+    @Option(
+            names = "--parts",
+            paramLabel = "PART,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "routes,latest,catalog,missions,images",
+            description =
+                    "What this instance does of routes, latest, catalog, missions and images; other instances, with the same"
+                            + " options otherwise, do the rest, and a store that is away stops its own part only. An instance of"
+                            + " some parts is called ingest-PART-… where --name does not say otherwise. Default:"
+                            + " ${DEFAULT-VALUE}; missions with --mongo and images with --images only.")
+    private Set<Part> parts;
 
     @Option(
             names = "--default-domain",
@@ -76,6 +94,16 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
     @Option(names = "--no-latest", description = "Do not write to data.latest.")
     private boolean noLatest;
 
+    @Option(
+            names = "--deletion-memory",
+            paramLabel = "DURATION",
+            defaultValue = "24h",
+            description =
+                    "How long, in event time, it is remembered that an entity was deleted: an older event that comes within"
+                            + " it does not bring the entity back to data.latest. At least as long as a gateway without"
+                            + " connection keeps its events. Default: ${DEFAULT-VALUE}.")
+    private Duration deletionMemory;
+
     @Option(names = "--no-catalog", description = "Do not write to data.catalog.")
     private boolean noCatalog;
 
@@ -105,6 +133,64 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
                             + "${DEFAULT-VALUE}.")
     private LatestKey latestKey;
 
+    /**
+     * Whether this instance does this part.
+     *
+     * @throws ParameterException if the options lack what one of its parts needs
+     */
+    boolean does(Part part) {
+        if (isDivided() && parts.contains(Part.MISSIONS) && !missions.isOn()) {
+            throw refused("--parts missions has no server; add --mongo URI", null);
+        }
+        if (isDivided() && parts.contains(Part.IMAGES) && !images.areMoved()) {
+            throw refused("--parts images has no folder; add --images URI, to the other instances too", null);
+        }
+        return parts.contains(part);
+    }
+
+    private boolean isDivided() {
+        return parts.size() < Part.values().length;
+    }
+
+    /** What this instance does about images, where they are moved. */
+    Storing storing() {
+        if (!isDivided()) {
+            return Storing.ALL;
+        }
+        return does(Part.IMAGES) ? Storing.FOR_OTHERS : Storing.BY_OTHERS;
+    }
+
+    /** A replay's values are not news: they would go to {@code data.latest}, live topics and the mission's own collection. */
+    @Override
+    public InputTopics inputTopics() {
+        InputTopics topics = super.inputTopics();
+        if (topics.replay().isPresent()) {
+            throw refused(
+                    "--input " + String.join(",", input())
+                            + " is a replay, which ingest does not take; analytics jobs do",
+                    null);
+        }
+        return topics;
+    }
+
+    /** That of the whole job is for the whole job: a part would go on in its consumer group and end its transactions. */
+    @Override
+    public String jobName() {
+        String name = super.jobName();
+        if (isDivided() && name.equals(super.defaultName())) {
+            throw refused("--name " + name + " is the name of all parts together; leave it out or name another", null);
+        }
+        return name;
+    }
+
+    @Override
+    protected String defaultName() {
+        return isDivided()
+                ? super.defaultName() + "-"
+                        + parts.stream().sorted().map(Part::code).collect(Collectors.joining("-"))
+                : super.defaultName();
+    }
+
     /** How topics are made. */
     public TopicOptions topics() {
         return topics;
@@ -127,6 +213,10 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
         return repeatWindow;
     }
 
+    public Duration deletionMemory() {
+        return deletionMemory;
+    }
+
     public String devices() {
         return devices;
     }
@@ -142,11 +232,11 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
     }
 
     public boolean writesLatest() {
-        return !noLatest;
+        return does(Part.LATEST) && !noLatest;
     }
 
     public boolean writesCatalog() {
-        return !noCatalog;
+        return does(Part.CATALOG) && !noCatalog;
     }
 
     public Duration catalogInterval() {
@@ -167,7 +257,7 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     @Override
     public Integer call() throws Exception {
-        IngestJob.assemble(this).execute(jobName());
+        IngestJob.assemble(this).execute();
         return 0;
     }
 }

@@ -19,10 +19,15 @@ public final class CollectedOutput implements KafkaOutput {
         streams.add(records);
     }
 
-    /** Runs the job to its end. */
+    /** All streams together. */
     @SuppressWarnings({"unchecked", "rawtypes"}) // the array that union takes
-    public List<TopicRecord> run() throws Exception {
+    public DataStream<TopicRecord> all() {
         DataStream<TopicRecord>[] others = streams.subList(1, streams.size()).toArray(DataStream[]::new);
-        return streams.get(0).union(others).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
+        return streams.get(0).union(others);
+    }
+
+    /** Runs the job to its end. */
+    public List<TopicRecord> run() throws Exception {
+        return all().executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
     }
 }

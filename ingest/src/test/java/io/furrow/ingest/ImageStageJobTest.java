@@ -29,6 +29,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -173,7 +174,7 @@ class ImageStageJobTest {
                 .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
 
         DataStream<TopicRecord> noDevices = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
+                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
@@ -181,7 +182,7 @@ class ImageStageJobTest {
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestInputs(source, noDevices, KnownDevices.of()), out, options);
+        IngestJob.define(new IngestInputs(source, noDevices, KnownDevices.of(), TopicAtStart.NONE), out, options);
         return out.run();
     }
 

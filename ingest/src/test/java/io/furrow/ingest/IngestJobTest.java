@@ -4,24 +4,27 @@ import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
-import java.util.stream.Stream;
 
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
-import picocli.CommandLine;
+import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
-import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.topic.Topics;
 
+import static io.furrow.ingest.ReportedRecords.TIME;
+import static io.furrow.ingest.ReportedRecords.at;
+import static io.furrow.ingest.ReportedRecords.deletion;
+import static io.furrow.ingest.ReportedRecords.options;
+import static io.furrow.ingest.ReportedRecords.record;
+import static io.furrow.ingest.ReportedRecords.run;
+import static io.furrow.ingest.ReportedRecords.thermometer;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class IngestJobTest {
     @RegisterExtension
@@ -29,8 +32,6 @@ class IngestJobTest {
             .setNumberTaskManagers(1)
             .setNumberSlotsPerTaskManager(2)
             .build());
-
-    private static final long TIME = 1_700_000_000_000L;
 
     @Test
     void bringsAnEventToItsDomainAndItsMissionUnchanged() throws Exception {
@@ -81,44 +82,6 @@ class IngestJobTest {
     }
 
     @Test
-    void setsAsideWhatIsNoEntityAndRoutesTheRest() throws Exception {
-        TopicRecord garbage = record("x", "k", "{not json");
-        TopicRecord otherSchema = record("y", "k", "{\"schema\":{\"type\":\"int32\"},\"payload\":7}");
-        TopicRecord good = record("a", thermometer("t1", "farm", ""));
-
-        List<TopicRecord> written = run(options(), garbage, otherSchema, good);
-
-        assertThat(written)
-                .filteredOn(record -> record.topic().equals("data.raw.dead"))
-                .extracting(record -> record.headers().get(DeadLetter.REASON))
-                .containsExactlyInAnyOrder("not-json", "not-an-entity");
-        assertThat(written)
-                .filteredOn(record -> record.topic().equals("data.raw.dead"))
-                .filteredOn(record -> "not-json".equals(record.headers().get(DeadLetter.REASON)))
-                .singleElement()
-                .satisfies(dead -> {
-                    assertThat(dead.value()).isEqualTo(garbage.value());
-                    assertThat(dead.headers())
-                            .containsEntry(DeadLetter.SOURCE, "data.raw-0@7")
-                            .containsEntry(DeadLetter.STAGE, "ingest");
-                });
-        assertThat(written).extracting(TopicRecord::topic).contains("data.farm.realtime");
-    }
-
-    @Test
-    void setsAsideWhatOnlyALaterStageWouldFailAt() throws Exception {
-        TopicRecord withoutValue = record("x", "k", "{\"id\":\"k\",\"type\":\"T\",\"n\":{\"type\":\"Number\"}}");
-        TopicRecord endless =
-                record("y", "k", "{\"id\":\"k\",\"type\":\"T\",\"n\":{\"type\":\"Number\",\"value\":1e1001}}");
-        TopicRecord good = record("a", thermometer("t1", "farm", ""));
-
-        assertThat(run(options(), withoutValue, endless, good))
-                .extracting(record -> record.topic() + " " + record.headers().get(DeadLetter.REASON))
-                .containsExactlyInAnyOrder(
-                        "data.raw.dead not-an-entity", "data.raw.dead too-deep", "data.farm.realtime null");
-    }
-
-    @Test
     void usesTheDefaultsWhereAnEntityNamesNoDomainOrMission() throws Exception {
         TopicRecord robot = record("a", Entity.builder("robot", "ROBOT"));
 
@@ -128,6 +91,14 @@ class IngestJobTest {
         assertThat(run(options("--default-domain", "home", "--default-mission", "m"), robot))
                 .extracting(TopicRecord::topic)
                 .containsExactly("data.home.realtime", "data.home.realtime.m");
+    }
+
+    @Test
+    void takesNoReplay() {
+        assertThatThrownBy(
+                        () -> options("--input", "data.hoeing.replay.0a1b2c3d").inputTopics())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("is a replay, which ingest does not take");
     }
 
     @Test
@@ -227,50 +198,5 @@ class IngestJobTest {
                 .extracting(TopicRecord::topic)
                 .containsExactlyInAnyOrder(
                         "data._x-north-2E7.realtime", "data._x-north-2E7.realtime._x-a-2Eb", "data.north.realtime");
-    }
-
-    /** What goes to the topics of domains and missions, and to dead letters. */
-    private static List<TopicRecord> run(IngestOptions options, TopicRecord... records) throws Exception {
-        return IngestRun.of(options, KnownDevices.of(), records).stream()
-                .filter(record -> !record.topic().equals(Topics.LATEST))
-                .toList();
-    }
-
-    private static IngestOptions options(String... args) {
-        IngestOptions options = new IngestOptions();
-        CommandLine line = JobCommandLine.of(options);
-        line.parseArgs(Stream.concat(Stream.of("--no-catalog"), Stream.of(args)).toArray(String[]::new));
-        return options;
-    }
-
-    private static EntityBuilder thermometer(String id, String domain, String mission) {
-        return Entity.builder(id, "Thermometer").text("Domain", domain).text("Mission", mission);
-    }
-
-    private static TopicRecord at(long time, TopicRecord record) {
-        return new TopicRecord(
-                record.topic(), 0, record.offset(), time, record.key(), record.value(), record.headers());
-    }
-
-    private static TopicRecord deletion(String eventId, String key, long time) {
-        Map<String, String> headers = Map.of(HeaderNames.CE_ID, eventId, HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED);
-        return new TopicRecord(
-                "data.raw", 0, 9, time, key.getBytes(StandardCharsets.UTF_8), null, new HashMap<>(headers));
-    }
-
-    private static TopicRecord record(String eventId, EntityBuilder entity) {
-        Entity built = entity.build();
-        return record(eventId, built.id(), new String(built.toBytes(), StandardCharsets.UTF_8));
-    }
-
-    private static TopicRecord record(String eventId, String key, String value) {
-        return new TopicRecord(
-                "data.raw",
-                0,
-                7,
-                TIME,
-                key.getBytes(StandardCharsets.UTF_8),
-                value.getBytes(StandardCharsets.UTF_8),
-                new HashMap<>(Map.of(HeaderNames.CE_ID, eventId)));
     }
 }

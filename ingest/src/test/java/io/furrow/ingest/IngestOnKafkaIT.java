@@ -32,6 +32,10 @@ class IngestOnKafkaIT {
     /** Not long ago: the broker's retention goes by the record timestamp. */
     private static final long TIME = System.currentTimeMillis() - 60_000;
 
+    private static final String WHOLE = "{\"id\":\"whole\",\"type\":\"T\",%s}";
+    private static final String ONE = "{\"type\":\"Number\",\"value\":1,\"metadata\":{}}";
+    private static final String TWO = "{\"type\":\"Number\",\"value\":2,\"metadata\":{}}";
+
     private static KafkaSuite suite;
 
     @BeforeAll
@@ -99,6 +103,35 @@ class IngestOnKafkaIT {
 
         assertThat(suite.awaitRecords("data.d500.realtime", 1)).hasSize(1);
         suite.cancel(job);
+    }
+
+    @Test
+    void beginsWithTheNewestThatIsKnownWhereItHasNoState() throws Exception {
+        suite.makeTopic("in-before", 1);
+        suite.makeTopic("in-after", 1);
+        suite.write(
+                "in-before", null, TIME, "whole", WHOLE.formatted("\"n\":%s,\"m\":%s".formatted(ONE, ONE)), Map.of());
+        JobID job = suite.run(null, "--input", "in-before", "--parallelism", "1");
+        latest("whole", 1);
+        suite.cancel(job);
+
+        suite.write("in-after", null, TIME - 1, "whole", WHOLE.formatted("\"m\":" + TWO), Map.of());
+        suite.write("in-after", null, TIME + 1, "whole", WHOLE.formatted("\"n\":" + TWO), Map.of());
+        job = suite.run(null, "--input", "in-after", "--parallelism", "2");
+        List<String> written = latest("whole", 2);
+        suite.cancel(job);
+
+        assertThat(written.get(1)).isEqualTo(WHOLE.formatted("\"m\":%s,\"n\":%s".formatted(ONE, TWO)));
+    }
+
+    /** What was written of the entity, the newest last. */
+    private static List<String> latest(String id, int atLeast) {
+        return suite
+                .awaitRecords(
+                        "data.latest", record -> new String(record.key(), StandardCharsets.UTF_8).equals(id), atLeast)
+                .stream()
+                .map(record -> new String(record.value(), StandardCharsets.UTF_8))
+                .toList();
     }
 
     @ParameterizedTest

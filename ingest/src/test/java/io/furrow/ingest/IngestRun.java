@@ -11,6 +11,7 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.topic.Topics;
 
@@ -30,7 +31,7 @@ final class IngestRun {
                 .uid("timestamps")
                 .keyBy(record -> new String(record.key(), StandardCharsets.UTF_8)); // as a topic's partitions do
         DataStream<TopicRecord> deviceRecords = env.fromData(List.of(new TopicRecord(
-                        Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
+                        Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
                 .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
@@ -38,7 +39,7 @@ final class IngestRun {
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestInputs(source, deviceRecords, devices), out, options);
+        IngestJob.define(new IngestInputs(source, deviceRecords, devices, TopicAtStart.NONE), out, options);
         return out.run();
     }
 }

@@ -9,8 +9,10 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.TimeUnit;
+import java.util.function.Predicate;
 
 import org.apache.flink.api.common.JobID;
+import org.apache.flink.api.common.JobStatus;
 import org.apache.flink.core.execution.RecoveryClaimMode;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
@@ -25,6 +27,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.awaitility.core.ConditionTimeoutException;
 
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
@@ -82,7 +85,7 @@ final class KafkaSuite implements AutoCloseable {
         producer.send(record);
     }
 
-    /** Starts the job, from a savepoint where one is given. */
+    /** Starts the job, from a savepoint where one is given; a part of it from a savepoint of more. */
     JobID run(String savepoint, String... args) {
         IngestOptions options = new IngestOptions();
         List<String> all = new ArrayList<>(List.of(args));
@@ -91,7 +94,7 @@ final class KafkaSuite implements AutoCloseable {
         StreamGraph graph = IngestJob.assemble(options).getStreamGraph();
         if (savepoint != null) {
             graph.setSavepointRestoreSettings(
-                    SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
+                    SavepointRestoreSettings.forPath(savepoint, all.contains("--parts"), RecoveryClaimMode.NO_CLAIM));
         }
         return flink.submit(graph);
     }
@@ -103,6 +106,10 @@ final class KafkaSuite implements AutoCloseable {
                 .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
     }
 
+    JobStatus status(JobID job) {
+        return flink.status(job);
+    }
+
     void cancel(JobID job) throws Exception {
         flink.cluster().cancelJob(job).get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
         await().atMost(PATIENCE).until(() -> flink.status(job).isGloballyTerminalState());
@@ -110,6 +117,12 @@ final class KafkaSuite implements AutoCloseable {
 
     /** The committed records of a topic, as soon as there are so many. */
     List<ConsumerRecord<byte[], byte[]>> awaitRecords(String topic, int atLeast) {
+        return awaitRecords(topic, record -> true, atLeast);
+    }
+
+    /** The same of the records that count. */
+    List<ConsumerRecord<byte[], byte[]>> awaitRecords(
+            String topic, Predicate<ConsumerRecord<byte[], byte[]>> counts, int atLeast) {
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
         Map<String, Object> settings = Map.of(
                 "bootstrap.servers", kafka.bootstrapServers(),
@@ -117,7 +130,7 @@ final class KafkaSuite implements AutoCloseable {
                 "allow.auto.create.topics", "false",
                 "isolation.level", "read_committed");
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            await().alias(topic).atMost(PATIENCE).until(() -> {
+            await().atMost(PATIENCE).until(() -> {
                 List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
                         .map(info -> new TopicPartition(topic, info.partition()))
                         .toList();
@@ -127,11 +140,24 @@ final class KafkaSuite implements AutoCloseable {
                 if (consumer.assignment().size() != partitions.size()) {
                     consumer.assign(partitions);
                 }
-                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
+                for (ConsumerRecord<byte[], byte[]> record : consumer.poll(Duration.ofMillis(100))) {
+                    if (counts.test(record)) {
+                        records.add(record);
+                    }
+                }
                 return records.size() >= atLeast;
             });
+        } catch (ConditionTimeoutException e) {
+            throw new AssertionError(
+                    "%d of %d records on %s; the jobs: %s".formatted(records.size(), atLeast, topic, jobs()), e);
         }
         return records;
+    }
+
+    private List<String> jobs() {
+        return flink.cluster().listJobs().join().stream()
+                .map(job -> job.getJobName() + " " + job.getJobState())
+                .toList();
     }
 
     static Map<String, String> headers(ConsumerRecord<byte[], byte[]> record) {

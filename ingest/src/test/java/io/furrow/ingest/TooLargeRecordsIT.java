@@ -1,8 +1,10 @@
 package io.furrow.ingest;
 
 import java.nio.file.Path;
+import java.util.HexFormat;
 import java.util.List;
 import java.util.Map;
+import java.util.Random;
 
 import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -77,7 +79,14 @@ class TooLargeRecordsIT {
         String entity = """
                 {"id": "e%d", "type": "T", "Domain": {"type": "String", "value": "%s", "metadata": {}}, \
                 "Mission": {"type": "String", "value": "m", "metadata": {}}, \
-                "Note": {"type": "Text", "value": "%s", "metadata": {}}}""".formatted(number, domain, "x".repeat(size));
+                "Note": {"type": "Text", "value": "%s", "metadata": {}}}""".formatted(number, domain, incompressible(size));
         suite.write(topic, 0, TIME + number, "e" + number, entity, Map.of(HeaderNames.CE_ID, domain + number));
+    }
+
+    /** Else a record would fit when it is compressed. */
+    private static String incompressible(int size) {
+        byte[] random = new byte[size / 2];
+        new Random(size).nextBytes(random);
+        return HexFormat.of().formatHex(random);
     }
 }

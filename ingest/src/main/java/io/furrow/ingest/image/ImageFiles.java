@@ -1,5 +1,6 @@
 package io.furrow.ingest.image;
 
+import java.io.File;
 import java.io.FileNotFoundException;
 import java.io.IOException;
 import java.net.URI;
@@ -12,13 +13,15 @@ import org.apache.flink.core.fs.FileStatus;
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
+import org.apache.flink.core.fs.local.LocalFileSystem;
 
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
  * on object stores put at once. What was written once is not written again; what is there under a name and is another image
- * is left alone, the newcomer gets a name with its hash.
+ * is left alone, the newcomer gets a name with its hash. On the local file system an image is on the disk, and so is its name,
+ * before the call returns: a checkpoint after it may take it for done.
  */
-final class ImageFiles {
+final class ImageFiles implements ImageStore {
     /** Files under way, to be deleted when they are left behind by a process that died. */
     static final String UNFINISHED = ".unfinished-";
 
@@ -28,10 +31,12 @@ final class ImageFiles {
     private final String root;
     private final FileSystem files;
     private final boolean atomicPut;
+    private final boolean local;
 
-    private ImageFiles(String root, FileSystem files) {
+    ImageFiles(String root, FileSystem files) {
         this.root = root;
         this.files = files;
+        this.local = files instanceof LocalFileSystem;
         this.atomicPut = OBJECT_STORES.contains(URI.create(root).getScheme());
     }
 
@@ -40,20 +45,21 @@ final class ImageFiles {
         return new ImageFiles(root, new Path(root).getFileSystem());
     }
 
-    /**
-     * Writes an image unless it is there already.
-     *
-     * @throws IOException if the file system does not take it; it may be tried again
-     */
-    StoredImage store(ImageName name, Image image) throws IOException {
+    /** Writes an image unless it is there already. */
+    @Override
+    public StoredImage store(ImageName name, Image image) throws IOException {
         String first = root + "/" + name.path(image.format());
         String url = switch (found(new Path(first), image)) {
             case NOTHING -> write(first, image);
-            case THE_SAME -> first;
+            case THE_SAME -> named(first);
             case ANOTHER -> storeBeside(name, image);
         };
-        return new StoredImage(
-                url, image.sha256(), image.bytes().length, image.format().contentType());
+        return StoredImage.of(url, image);
+    }
+
+    /** The same under the name with its hash, which no other image can have. */
+    StoredImage storeByHash(ImageName name, Image image) throws IOException {
+        return StoredImage.of(storeBeside(name, image), image);
     }
 
     private String storeBeside(ImageName name, Image image) throws IOException {
@@ -62,7 +68,7 @@ final class ImageFiles {
         if (found == Found.ANOTHER) {
             files.delete(new Path(second), false); // nothing but a damaged file of the same image can have its hash
         }
-        return found == Found.THE_SAME ? second : write(second, image);
+        return found == Found.THE_SAME ? named(second) : write(second, image);
     }
 
     private enum Found {
@@ -100,7 +106,24 @@ final class ImageFiles {
             files.delete(unfinished, false);
             throw new IOException("cannot rename a file to " + url);
         }
+        return named(url);
+    }
+
+    /** A file's name is on the disk when its folder is, that of a new folder when the one above is. */
+    private String named(String url) throws IOException {
+        if (local) {
+            java.nio.file.Path top = folder(new Path(root)).getParent();
+            for (var each = folder(new Path(url).getParent());
+                    each != null && !each.equals(top);
+                    each = each.getParent()) {
+                LocalFolder.sync(each);
+            }
+        }
         return url;
+    }
+
+    private static java.nio.file.Path folder(Path path) {
+        return new File(path.getPath()).toPath().normalize();
     }
 
     private void put(Path path, byte[] bytes, WriteMode mode) throws IOException {
@@ -108,6 +131,9 @@ final class ImageFiles {
         try {
             try (FSDataOutputStream out = files.create(path, mode)) {
                 out.write(bytes);
+                if (local) {
+                    out.sync();
+                }
             }
             written = true;
         } finally {

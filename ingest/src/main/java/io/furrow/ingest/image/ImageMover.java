@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -32,12 +33,12 @@ final class ImageMover {
     private static final byte[] NULL = NgsiJson.write(NullNode.getInstance());
 
     private final ImageSettings settings;
-    private final ImageFiles files;
+    private final ImageStore store;
     private final List<byte[]> quotedNames;
 
-    ImageMover(ImageSettings settings, ImageFiles files) {
+    ImageMover(ImageSettings settings, ImageStore store) {
         this.settings = settings;
-        this.files = files;
+        this.store = store;
         this.quotedNames = ImageSpan.quoted(settings.attributes());
     }
 
@@ -47,20 +48,28 @@ final class ImageMover {
     }
 
     /**
+     * Where another instance writes images, it also announces them and sets broken ones aside.
+     *
      * @throws IOException if the store does not take an image; the same call may be made again
      */
     Moved move(ReportedEvent event) throws IOException {
+        Moved moved = moved(event);
+        return settings.storing() == Storing.BY_OTHERS ? Moved.unannounced(moved.record()) : moved;
+    }
+
+    private Moved moved(ReportedEvent event) throws IOException {
         TopicRecord record = event.record();
         List<ImageSpan> spans;
         try {
             spans = ImageSpan.find(record.value(), settings.attributes());
             if (spans.isEmpty()) {
-                return Moved.unchanged(record);
+                return Moved.unannounced(record);
             }
         } catch (UnreadableException e) {
             return new Moved(record, List.of(), List.of(DeadLetters.of(record, e, STAGE)), e.reason(), 0);
         }
-        ImageName name = ImageName.of(event.domain(), event.mission(), event.entityId(), record.timestamp());
+        ImageName name =
+                ImageName.of(scope(record), event.domain(), event.mission(), event.entityId(), record.timestamp());
         List<byte[]> values = new ArrayList<>();
         List<TopicRecord> manifest = new ArrayList<>();
         UnreadableException broken = null;
@@ -68,7 +77,7 @@ final class ImageMover {
         for (ImageSpan span : spans) {
             try {
                 Image image = Image.of(span.text(record.value()), settings.maxBytes());
-                StoredImage stored = files.store(name, image);
+                StoredImage stored = store.store(name, image);
                 values.add(NgsiJson.write(stored.json()));
                 bytes += stored.bytes();
                 manifest.add(manifest(event, span.attribute(), stored));
@@ -86,6 +95,11 @@ final class ImageMover {
                         List.of(DeadLetters.of(record, broken, STAGE)),
                         broken.reason(),
                         bytes);
+    }
+
+    private static FiwareScope scope(TopicRecord record) {
+        Map<String, String> headers = record.headers();
+        return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
     }
 
     private static TopicRecord manifest(ReportedEvent event, String attribute, StoredImage stored) {

@@ -6,13 +6,16 @@ import java.time.ZoneOffset;
 import java.time.format.DateTimeFormatter;
 import java.util.Locale;
 
+import io.furrow.model.event.FiwareScope;
+
 /**
  * Where an image is kept below the root: {@code <domain>/<mission>/<entity id>/<entity id>_<yyyyMMddHHmmssSSS>.<ext>}, event
- * time in UTC. A part of {@code A-Z a-z 0-9 . _ -} that begins with no dot stands as it is; every other byte of its UTF-8 form
+ * time in UTC. Entities of a tenant or service path that is not the default are below {@code ~tenant-<tenant>/} and {@code
+ * ~path-<service path>/}, so that one id in two of them is two folders. A part of {@code A-Z a-z 0-9 . _ -} that begins with no dot stands as it is; every other byte of its UTF-8 form
  * becomes {@code ~HH}, because HDFS takes no colon and a leading dot hides a file. An absent domain or mission is {@code
  * ~none}; a part that would be longer than {@value #LONGEST} signs is {@code ~h} and its SHA-256. No two parts share a name.
  *
- * @param folder {@code <domain>/<mission>/<entity id>}
+ * @param folder {@code <domain>/<mission>/<entity id>}, below those of the scope
  * @param file without the extension
  */
 record ImageName(String folder, String file) {
@@ -22,11 +25,27 @@ record ImageName(String folder, String file) {
     private static final DateTimeFormatter TIME =
             DateTimeFormatter.ofPattern("uuuuMMddHHmmssSSS", Locale.ROOT).withZone(ZoneOffset.UTC);
 
-    static ImageName of(String domain, String mission, String entityId, long eventTime) {
+    /** The beginnings of folders of a scope: no part begins so. */
+    private static final String TENANT = "~tenant-";
+
+    private static final String SERVICE_PATH = "~path-";
+
+    static ImageName of(FiwareScope scope, String domain, String mission, String entityId, long eventTime) {
         String entity = part(entityId);
         return new ImageName(
-                part(domain) + "/" + part(mission) + "/" + entity,
+                folder(scope) + part(domain) + "/" + part(mission) + "/" + entity,
                 entity + "_" + TIME.format(Instant.ofEpochMilli(eventTime)));
+    }
+
+    private static String folder(FiwareScope scope) {
+        String tenant = scope.service().isEmpty() ? "" : TENANT + part(scope.service()) + "/";
+        boolean isRoot = scope.servicePath().equals(FiwareScope.DEFAULT.servicePath());
+        return isRoot ? tenant : tenant + SERVICE_PATH + part(scope.servicePath()) + "/";
+    }
+
+    /** Whether a folder is that of a tenant or service path, with the folders of domains in it. */
+    static boolean isScope(String folder) {
+        return folder.startsWith(TENANT) || folder.startsWith(SERVICE_PATH);
     }
 
     /** {@code <folder>/<file>.<extension>}. */

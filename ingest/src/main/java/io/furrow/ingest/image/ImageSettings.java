@@ -15,5 +15,11 @@ import java.util.Set;
  * @param patience how long a store that does not take an image is asked again before the job fails
  */
 record ImageSettings(
-        String root, Set<String> attributes, int maxBytes, int threads, long maxInFlightBytes, Duration patience)
+        String root,
+        Set<String> attributes,
+        int maxBytes,
+        int threads,
+        long maxInFlightBytes,
+        Duration patience,
+        Storing storing)
         implements Serializable {}

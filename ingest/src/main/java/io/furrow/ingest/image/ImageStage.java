@@ -1,6 +1,7 @@
 package io.furrow.ingest.image;
 
 import java.io.IOException;
+import java.util.Optional;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
@@ -29,10 +30,10 @@ public final class ImageStage {
 
     /** @param events by {@link CarriesImages#identity()}; the caller gives uid and name */
     public static SingleOutputStreamOperator<ReportedEvent> move(
-            KeyedStream<ReportedEvent, String> events, ImageOptions options) {
-        options.settings().ifPresent(settings -> check(settings, options));
-        return events.transform(
-                "move-images", events.getType(), operator(options.settings().orElse(null), events.getType()));
+            KeyedStream<ReportedEvent, String> events, ImageOptions options, Storing storing) {
+        Optional<ImageSettings> settings = options.settings(storing);
+        settings.ifPresent(given -> check(given, options));
+        return events.transform("move-images", events.getType(), operator(settings.orElse(null), events.getType()));
     }
 
     /** @param settings null where images stay in the events */
@@ -44,7 +45,7 @@ public final class ImageStage {
     /** Here, where a wrong setting can be refused, not when the job runs. */
     private static void check(ImageSettings settings, ImageOptions options) {
         try {
-            ImageFiles.in(settings.root());
+            ImageStore.of(settings);
         } catch (IOException e) {
             throw options.refused(
                     "--images " + settings.root() + ": Flink has no file system for it here (" + e.getMessage() + ")",

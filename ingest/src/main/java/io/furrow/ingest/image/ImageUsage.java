@@ -2,8 +2,9 @@ package io.furrow.ingest.image;
 
 import java.io.FileNotFoundException;
 import java.io.IOException;
-import java.util.ArrayList;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.regex.Pattern;
 
 import org.apache.flink.core.fs.FileStatus;
@@ -11,7 +12,7 @@ import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.Path;
 
 /**
- * The images of one domain and mission that a folder holds at this moment.
+ * The images of one domain and mission, of all tenants, that a folder holds at this moment.
  *
  * @param domain as the folder's name has it; empty for none
  * @param mission as the folder's name has it; empty for none
@@ -34,16 +35,29 @@ public record ImageUsage(String domain, String mission, long entities, long imag
         } catch (FileNotFoundException e) {
             throw new IOException(root + " is not there; name the folder of --images", e);
         }
-        List<ImageUsage> all = new ArrayList<>();
-        for (FileStatus domain : folders(files, root)) {
+        Map<String, ImageUsage> all = new LinkedHashMap<>();
+        add(files, root, all);
+        return List.copyOf(all.values());
+    }
+
+    /** Domains, and what is below the folders of tenants and service paths. */
+    private static void add(FileSystem files, Path folder, Map<String, ImageUsage> all) throws IOException {
+        for (FileStatus domain : folders(files, folder)) {
+            if (ImageName.isScope(domain.getPath().getName())) {
+                add(files, domain.getPath(), all);
+                continue;
+            }
             for (FileStatus mission : folders(files, domain.getPath())) {
                 ImageUsage usage = of(files, domain.getPath(), mission.getPath());
                 if (usage.images() > 0) {
-                    all.add(usage);
+                    all.merge(usage.domain() + "/" + usage.mission(), usage, ImageUsage::plus);
                 }
             }
         }
-        return all;
+    }
+
+    private ImageUsage plus(ImageUsage other) {
+        return new ImageUsage(domain, mission, entities + other.entities, images + other.images, bytes + other.bytes);
     }
 
     private static ImageUsage of(FileSystem files, Path domain, Path mission) throws IOException {

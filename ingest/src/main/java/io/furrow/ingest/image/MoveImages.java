@@ -77,7 +77,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         super.open();
         counts = new ImageCounts(getMetricGroup(), () -> bytes);
         if (settings != null) {
-            mover = new ImageMover(settings, ImageFiles.in(settings.root()));
+            mover = new ImageMover(settings, ImageStore.of(settings));
             threads = Executors.newFixedThreadPool(settings.threads(), MoveImages::thread);
         }
         byEntity = new HashMap<>();
@@ -130,7 +130,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     private void begin(Waiting waiting) {
         ReportedEvent event = waiting.event();
         if (!isConcerned(event)) {
-            mailbox.execute(() -> goOn(waiting, Moved.unchanged(event.record())), "pass an event");
+            mailbox.execute(() -> goOn(waiting, Moved.unannounced(event.record())), "pass an event");
             return;
         }
         long deadline = getProcessingTimeService().getCurrentProcessingTime()

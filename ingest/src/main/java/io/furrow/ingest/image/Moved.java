@@ -15,7 +15,8 @@ import io.furrow.model.ngsi.Reason;
  * @param bytes of the images stored
  */
 record Moved(TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, Reason broken, long bytes) {
-    static Moved unchanged(TopicRecord record) {
+    /** The record and nothing beside it. */
+    static Moved unannounced(TopicRecord record) {
         return new Moved(record, List.of(), List.of(), null, 0);
     }
 

@@ -1,11 +1,12 @@
 package io.furrow.ingest.mission;
 
 import java.io.IOException;
-import java.time.Duration;
 import java.util.ArrayList;
+import java.util.HashSet;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.function.LongConsumer;
 
 import com.mongodb.MongoBulkWriteException;
@@ -22,10 +23,13 @@ import com.mongodb.client.model.WriteModel;
 import org.bson.BsonInvalidOperationException;
 import org.bson.BsonSerializationException;
 import org.bson.RawBsonDocument;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /**
  * Sends documents in unordered bulks of upserts by {@code _id}: sent again they change nothing. What the server refuses is
- * found and given back, the rest is written; while the server is away the rest is tried again.
+ * found and given back, the rest is written; while the server is away the rest is tried again. What it does not take for a
+ * reason that is not known to be the document's is tried again for long, before it counts as refused.
  */
 final class BulkSender {
     private static final BulkWriteOptions UNORDERED = new BulkWriteOptions().ordered(false);
@@ -34,14 +38,20 @@ final class BulkSender {
 
     private static final ReplaceOptions UPSERT = new ReplaceOptions().upsert(true);
 
+    private static final Logger LOG = LoggerFactory.getLogger(BulkSender.class);
+
     private final MissionCollections collections;
-    private final Duration patience;
+    private final MongoAccess.Waits waits;
     private final LongConsumer retried;
+    /** Codes of which documents were given up while others were taken. */
+    private final Set<Integer> learned = new HashSet<>();
+
+    private final Set<Integer> doubted = new HashSet<>();
 
     /** @param retried is told how many documents are sent once more */
-    BulkSender(MissionCollections collections, Duration patience, LongConsumer retried) {
+    BulkSender(MissionCollections collections, MongoAccess.Waits waits, LongConsumer retried) {
         this.collections = collections;
-        this.patience = patience;
+        this.waits = waits;
         this.retried = retried;
     }
 
@@ -61,15 +71,32 @@ final class BulkSender {
                     .add(document);
         }
         List<Refusal> refused = new ArrayList<>();
+        Doubt doubt = new Doubt(waits.unknown(), learned); // one for all: a checkpoint waits for them together
         for (Map.Entry<String, List<MissionDocument>> part : byCollection.entrySet()) {
-            send(part.getKey(), part.getValue(), refused);
+            send(part.getKey(), part.getValue(), doubt, refused);
         }
+        judge(byCollection.keySet(), documents.size(), refused.size(), doubt);
         return refused;
     }
 
-    private void send(String collection, List<MissionDocument> documents, List<Refusal> refused)
+    /** Where none at all was taken, no document is at fault, unless its code is known for that. */
+    private void judge(Set<String> sentTo, int documents, int refused, Doubt doubt) throws IOException {
+        if (refused < documents) {
+            learned.addAll(doubt.givenUp());
+        } else if (documents > 1 && !learned.containsAll(doubt.givenUp())) {
+            throw new IOException(
+                    "MongoDB took none of %d documents of %s for %d s, codes %s. Look into its log; see --mongo-refusal-patience."
+                            .formatted(
+                                    documents,
+                                    String.join(", ", sentTo),
+                                    waits.unknown().toSeconds(),
+                                    doubt.givenUp()));
+        }
+    }
+
+    private void send(String collection, List<MissionDocument> documents, Doubt doubt, List<Refusal> refused)
             throws IOException, InterruptedException {
-        Patience left = new Patience(patience);
+        Patience left = new Patience(waits.away());
         List<MissionDocument> open = documents;
         int breaks = 0;
         while (!open.isEmpty()) {
@@ -80,63 +107,130 @@ final class BulkSender {
                 target.bulkWrite(upserts(open), UNORDERED);
                 return;
             } catch (MongoBulkWriteException e) {
-                open = notWritten(e, open, refused);
+                Answer answer = read(e, open, doubt, refused);
+                boolean progressed = answer.open().size() < open.size();
+                open = answer.open();
                 if (!open.isEmpty()) {
-                    left.pauseAfter(e);
+                    pause(answer.isAway() && !progressed, left, e);
                 }
             } catch (MongoInterruptedException e) {
                 throw (InterruptedException) new InterruptedException(e.getMessage()).initCause(e);
             } catch (MongoException | BsonSerializationException | BsonInvalidOperationException e) {
-                MongoFailure failure =
-                        e instanceof MongoException known ? MongoFailure.of(known) : MongoFailure.REFUSED;
-                if (failure == MongoFailure.SETTING) {
-                    throw wrongSetting(e);
-                }
                 breaks += e instanceof MongoSocketException && collections.serverAnswers() ? 1 : 0;
-                // What is refused before is the making of indexes: another writer may be making them at this moment.
-                if (prepared && (failure == MongoFailure.REFUSED || breaks == BREAKS)) {
-                    findRefused(collection, open, e, refused);
+                // What fails before is the making of indexes: another writer may be making them at this moment.
+                MongoFailure failure = prepared ? failure(e, doubt, open.size()) : failureToPrepare(e);
+                if (failure == MongoFailure.REFUSED || prepared && breaks == BREAKS) {
+                    findRefused(collection, open, e, doubt, refused);
                     return;
                 }
-                left.pauseAfter(e);
+                pause(failure == MongoFailure.AWAY, left, e);
             }
             retried.accept(open.size());
         }
     }
 
+    private static void pause(boolean isAway, Patience left, Exception why) throws IOException, InterruptedException {
+        if (isAway) {
+            left.pauseAfter(why);
+        } else {
+            left.pauseOfOneThatAnswers();
+        }
+    }
+
+    private static MongoFailure failureToPrepare(Exception e) throws IOException {
+        if (e instanceof MongoException known && MongoFailure.of(known) == MongoFailure.SETTING) {
+            throw wrongSetting(e);
+        }
+        return MongoFailure.AWAY;
+    }
+
+    /** Of all documents together; what is in doubt long enough is refused. */
+    private MongoFailure failure(Exception e, Doubt doubt, int documents) throws IOException {
+        if (!(e instanceof MongoException known)) {
+            return MongoFailure.REFUSED; // the driver found that it is no document
+        }
+        MongoFailure failure = MongoFailure.of(known);
+        if (failure == MongoFailure.SETTING) {
+            throw wrongSetting(e);
+        }
+        boolean ofCommand = failure == MongoFailure.REFUSED && MongoCodes.mayBeOfTheCommand(known.getCode());
+        if (failure != MongoFailure.UNKNOWN && !ofCommand) {
+            return failure;
+        }
+        doubt(known.getCode(), known.getMessage(), doubt);
+        if (!doubt.isOver(known.getCode())) {
+            return MongoFailure.UNKNOWN;
+        }
+        if (documents == 1) {
+            doubt.giveUp(known.getCode());
+        }
+        return MongoFailure.REFUSED;
+    }
+
     /** One of several was refused, and with it all: halves are tried until it stands alone. */
-    private void findRefused(String collection, List<MissionDocument> documents, Exception why, List<Refusal> refused)
+    private void findRefused(
+            String collection, List<MissionDocument> documents, Exception why, Doubt doubt, List<Refusal> refused)
             throws IOException, InterruptedException {
         if (documents.size() == 1) {
             refused.add(new Refusal(documents.get(0), why.getMessage()));
             return;
         }
         int half = documents.size() / 2;
-        send(collection, documents.subList(0, half), refused);
-        send(collection, documents.subList(half, documents.size()), refused);
+        send(collection, documents.subList(0, half), doubt, refused);
+        send(collection, documents.subList(half, documents.size()), doubt, refused);
     }
 
-    /** What is worth another attempt; all of it where the write concern was not met. */
-    private static List<MissionDocument> notWritten(
-            MongoBulkWriteException e, List<MissionDocument> sent, List<Refusal> refused) throws IOException {
+    /**
+     * What an answer leaves.
+     *
+     * @param open worth another attempt
+     * @param isAway whether some of it is so because the server is away
+     */
+    private record Answer(List<MissionDocument> open, boolean isAway) {}
+
+    /** Where the write concern was not met, all is worth another attempt. */
+    private Answer read(MongoBulkWriteException e, List<MissionDocument> sent, Doubt doubt, List<Refusal> refused)
+            throws IOException {
         boolean unsure = e.getWriteConcernError() != null;
+        boolean away = unsure;
+        boolean attempted = false;
         List<MissionDocument> open = new ArrayList<>(unsure ? sent : List.of());
         for (BulkWriteError error : e.getWriteErrors()) {
             MissionDocument document = sent.get(error.getIndex());
-            switch (MongoFailure.of(error.getCode(), error.getMessage())) {
-                case SETTING -> throw wrongSetting(e);
-                case REFUSED -> {
-                    refused.add(new Refusal(document, error.getMessage()));
-                    open.remove(document);
-                }
-                case AWAY -> {
-                    if (!unsure) {
-                        open.add(document);
-                    }
+            MongoFailure failure = MongoFailure.of(error.getCode(), error.getMessage());
+            if (failure == MongoFailure.SETTING) {
+                throw wrongSetting(e);
+            }
+            if (failure == MongoFailure.UNKNOWN && !attempted) {
+                attempted = true; // however many documents it fails for
+                doubt(error.getCode(), error.getMessage(), doubt);
+            }
+            boolean givenUp = failure == MongoFailure.UNKNOWN && doubt.isOver(error.getCode());
+            if (givenUp) {
+                doubt.giveUp(error.getCode());
+            }
+            if (givenUp || failure == MongoFailure.REFUSED) {
+                refused.add(new Refusal(document, error.getMessage()));
+                open.remove(document);
+            } else {
+                away |= failure == MongoFailure.AWAY;
+                if (!unsure) {
+                    open.add(document);
                 }
             }
         }
-        return open;
+        return new Answer(open, away);
+    }
+
+    private void doubt(int code, String message, Doubt doubt) {
+        doubt.failed();
+        if (doubted.add(code)) {
+            LOG.warn(
+                    "MongoDB does not take documents, code {}: {}. They are tried again for {} s, then they are dead letters",
+                    code,
+                    message,
+                    waits.unknown().toSeconds());
+        }
     }
 
     private static IOException wrongSetting(Exception e) {

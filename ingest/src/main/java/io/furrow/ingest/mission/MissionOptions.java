@@ -39,6 +39,16 @@ public final class MissionOptions {
     private Duration patience;
 
     @Option(
+            names = "--mongo-refusal-patience",
+            paramLabel = "DURATION",
+            defaultValue = "5min",
+            description =
+                    "How long a document is tried again that MongoDB does not take for a reason that may or may not pass,"
+                            + " before it becomes a dead letter. Shorter than Flink's timeout of checkpoints, 10 min,"
+                            + " which wait for it. Default: ${DEFAULT-VALUE}.")
+    private Duration refusalPatience;
+
+    @Option(
             names = "--mission-retention",
             paramLabel = "[MISSION=]DURATION",
             description = "How long documents are kept after their event time; of one mission, or of all that are not "
@@ -57,7 +67,7 @@ public final class MissionOptions {
             throw refused("--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
                     .formatted(e.getMessage()));
         }
-        return new MongoAccess(mongo, patience);
+        return new MongoAccess(mongo, new MongoAccess.Waits(patience, refusalPatience));
     }
 
     Retention retention() {

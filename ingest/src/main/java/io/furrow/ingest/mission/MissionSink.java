@@ -37,11 +37,11 @@ public final class MissionSink implements Sink<MissionDocument> {
 
     /** A writer outside of a job, as measurements want it: without retention. */
     public static SinkWriter<MissionDocument> writer(String uri, SinkWriter<TopicRecord> deadLetters) {
-        MongoAccess access = new MongoAccess(uri, Duration.ofMinutes(1));
+        MongoAccess access = new MongoAccess(uri, MongoAccess.Waits.of(Duration.ofMinutes(1)));
         MongoClient client = access.open();
         MissionCollections collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
         return new MissionWriter(
-                new BulkSender(collections, access.patience(), ignored -> {}),
+                new BulkSender(collections, access.waits(), ignored -> {}),
                 deadLetters,
                 client,
                 UnregisteredMetricsGroup.createSinkWriterMetricGroup());
@@ -62,6 +62,6 @@ public final class MissionSink implements Sink<MissionDocument> {
             client.close();
         };
         return new MissionWriter(
-                new BulkSender(collections, access.patience(), retried::inc), dead, connection, context.metricGroup());
+                new BulkSender(collections, access.waits(), retried::inc), dead, connection, context.metricGroup());
     }
 }

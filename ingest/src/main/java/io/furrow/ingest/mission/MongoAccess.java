@@ -14,9 +14,21 @@ import com.mongodb.client.MongoClients;
  * How MongoDB is reached.
  *
  * @param uri a connection string; what it says of timeouts and of the write concern goes before what is set here
- * @param patience how long documents are tried again while the server is away
  */
-record MongoAccess(String uri, Duration patience) implements Serializable {
+record MongoAccess(String uri, Waits waits) implements Serializable {
+    /**
+     * How long documents are tried again.
+     *
+     * @param away while the server is away
+     * @param unknown where it does not take them for a reason that may or may not pass
+     */
+    record Waits(Duration away, Duration unknown) implements Serializable {
+        /** The same for both. */
+        static Waits of(Duration patience) {
+            return new Waits(patience, patience);
+        }
+    }
+
     /** The database of all missions. */
     static final String DATABASE = "persistence";
 

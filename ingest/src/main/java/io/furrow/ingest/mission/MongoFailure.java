@@ -20,17 +20,15 @@ enum MongoFailure {
     /** Nothing can be written until somebody changes a setting. */
     SETTING,
     /** The server will never take this document. */
-    REFUSED;
+    REFUSED,
+    /** The server did not say whether it is the document's fault. */
+    UNKNOWN;
 
     private static final int DUPLICATE_KEY = 11000;
 
-    /** Unreachable, shutting down, not primary, out of time, locks, full disk, no quorum for the write. */
-    private static final Set<Integer> AWAY_CODES = Set.of(
-            6, 7, 24, 46, 50, 64, 89, 91, 100, 112, 117, 134, 189, 202, 262, 9001, 10107, 11600, 11601, 11602, 13435,
-            13436, 14031);
-
-    /** Not authorised, not authenticated, illegal operation, no such command, invalid name or options, a view, quota. */
-    private static final Set<Integer> SETTING_CODES = Set.of(13, 18, 20, 59, 67, 72, 73, 115, 166, 8000);
+    /** By which a server says that the same may pass later; the last two of servers under load. */
+    private static final Set<String> PASSING =
+            Set.of("RetryableWriteError", "TransientTransactionError", "RetryableError", "SystemOverloadedError");
 
     static MongoFailure of(MongoException failure) {
         boolean away = failure instanceof MongoSocketException
@@ -38,8 +36,7 @@ enum MongoFailure {
                 || failure instanceof MongoNotPrimaryException
                 || failure instanceof MongoNodeIsRecoveringException
                 || failure instanceof MongoWriteConcernException
-                || failure.hasErrorLabel("RetryableWriteError")
-                || failure.hasErrorLabel("TransientTransactionError");
+                || PASSING.stream().anyMatch(failure::hasErrorLabel);
         if (away || failure.getCause() instanceof MongoSocketException) {
             return AWAY;
         }
@@ -54,12 +51,15 @@ enum MongoFailure {
     }
 
     static MongoFailure of(int code, String message) {
-        if (AWAY_CODES.contains(code)) {
-            return AWAY;
-        }
         if (code == DUPLICATE_KEY && message.contains("_id_")) {
             return AWAY; // two upserts of one new id at once: the second try finds the document and replaces it
         }
-        return SETTING_CODES.contains(code) ? SETTING : REFUSED;
+        if (MongoCodes.OF_TIME.contains(code)) {
+            return AWAY;
+        }
+        if (MongoCodes.OF_SETTING.contains(code)) {
+            return SETTING;
+        }
+        return MongoCodes.OF_DOCUMENT.contains(code) ? REFUSED : UNKNOWN;
     }
 }

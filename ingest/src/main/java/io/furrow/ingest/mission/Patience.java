@@ -10,7 +10,7 @@ final class Patience {
     private static final long LONGEST_MILLIS = 2_000;
 
     private final Duration allowed;
-    private final long giveUpAt;
+    private long giveUpAt;
     private long pause = FIRST_MILLIS;
 
     Patience(Duration allowed) {
@@ -30,6 +30,16 @@ final class Patience {
                             .formatted(allowed.toSeconds(), failure.getMessage()),
                     failure);
         }
+        pause();
+    }
+
+    /** Waits before the next attempt at a server that is there; the time for one that is away begins anew. */
+    void pauseOfOneThatAnswers() throws InterruptedException {
+        giveUpAt = System.nanoTime() + allowed.toNanos();
+        pause();
+    }
+
+    private void pause() throws InterruptedException {
         Thread.sleep(pause + ThreadLocalRandom.current().nextLong(pause)); // apart from other writers that wait
         pause = Math.min(2 * pause, LONGEST_MILLIS);
     }

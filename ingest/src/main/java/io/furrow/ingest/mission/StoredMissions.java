@@ -32,7 +32,7 @@ import io.furrow.model.topic.TopicName;
 public final class StoredMissions implements AutoCloseable {
     private static final int BATCH = 1_000;
     private static final int TELL_EVERY = 10_000;
-    private static final Duration PATIENCE = Duration.ofSeconds(20);
+    private static final MongoAccess.Waits WAITS = MongoAccess.Waits.of(Duration.ofSeconds(20));
 
     private final MongoClient client;
     private final MissionCollections collections;
@@ -47,7 +47,7 @@ public final class StoredMissions implements AutoCloseable {
      * @throws IllegalArgumentException if it is none
      */
     public static StoredMissions open(String uri) {
-        return new StoredMissions(new MongoAccess(uri, PATIENCE).open());
+        return new StoredMissions(new MongoAccess(uri, WAITS).open());
     }
 
     /**
@@ -162,7 +162,7 @@ public final class StoredMissions implements AutoCloseable {
      */
     public long importFrom(String mission, InputStream in, String source, LongConsumer told)
             throws IOException, InterruptedException {
-        BulkSender sender = new BulkSender(collections, PATIENCE, ignored -> {});
+        BulkSender sender = new BulkSender(collections, WAITS, ignored -> {});
         String collection = collection(mission);
         List<MissionDocument> bulk = new ArrayList<>(BATCH);
         BufferedReader lines = new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));

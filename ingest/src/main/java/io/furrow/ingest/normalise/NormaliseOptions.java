@@ -8,8 +8,10 @@ import java.util.regex.PatternSyntaxException;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.IDefaultValueProvider;
+import picocli.CommandLine.IModelTransformer;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.ArgSpec;
+import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Model.OptionSpec;
 import picocli.CommandLine.Option;
 
@@ -22,7 +24,8 @@ import io.furrow.model.topic.Topics;
 @Command(
         name = "normalise",
         description = "Brings the context broker's native Kafka notifications, in any form, to data.raw.",
-        defaultValueProvider = NormaliseOptions.OwnDefaults.class)
+        defaultValueProvider = NormaliseOptions.OwnDefaults.class,
+        modelTransformer = NormaliseOptions.WithoutEventTime.class)
 public final class NormaliseOptions extends JobOptions implements Callable<Integer> {
     private static final Duration HOUR = Duration.ofHours(1);
 
@@ -88,6 +91,18 @@ public final class NormaliseOptions extends JobOptions implements Callable<Integ
         }
     }
 
+    /** The job has no event time: what would set it is not one of its options. */
+    static final class WithoutEventTime implements IModelTransformer {
+        private static final List<String> OPTIONS =
+                List.of("--out-of-orderness", "--idle-timeout", "--idle-advance", "--clock-skew", "--max-ahead");
+
+        @Override
+        public CommandSpec transform(CommandSpec spec) {
+            OPTIONS.forEach(name -> spec.remove(spec.findOption(name)));
+            return spec;
+        }
+    }
+
     /** How topics are made. */
     public TopicOptions topics() {
         return topics;
@@ -119,7 +134,7 @@ public final class NormaliseOptions extends JobOptions implements Callable<Integ
 
     @Override
     public Integer call() throws Exception {
-        NormaliseJob.assemble(this).execute(jobName());
+        NormaliseJob.assemble(this).execute();
         return 0;
     }
 }

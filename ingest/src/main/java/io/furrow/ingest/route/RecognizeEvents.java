@@ -8,6 +8,7 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.AheadLimit;
 import io.furrow.flink.DeadCounters;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
@@ -22,14 +23,19 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Reads what routing needs of an event; a record without a value is the deletion of the entity that its key names. Emits dead
- * letters for records that are neither.
+ * letters for records that are neither, and for those from the future.
  */
 public final class RecognizeEvents extends ProcessFunction<TopicRecord, ReportedEvent> {
     private static final long serialVersionUID = 1L;
     private static final String STAGE = "ingest";
     private static final Set<String> ROUTE = Set.of("Domain", "Mission");
 
+    private final AheadLimit ahead;
     private transient DeadCounters dead;
+
+    public RecognizeEvents(AheadLimit ahead) {
+        this.ahead = ahead;
+    }
 
     @Override
     public void open(OpenContext context) {
@@ -39,6 +45,7 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
     @Override
     public void processElement(TopicRecord record, Context context, Collector<ReportedEvent> out) {
         try {
+            ahead.check(record);
             out.collect(recognize(record));
         } catch (UnreadableException e) {
             dead.count(e.reason());

@@ -5,17 +5,23 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.attribute.FileTime;
+import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
+import java.util.Set;
 import java.util.stream.Stream;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.model.event.FiwareScope;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class ImageFilesTest {
-    private static final ImageName NAME = ImageName.of("north", "weeding", "urn:Camera:1", Pictures.TIME);
+    private static final ImageName NAME =
+            ImageName.of(FiwareScope.DEFAULT, "north", "weeding", "urn:Camera:1", Pictures.TIME);
     private static final String FIRST = "north/weeding/urn~3ACamera~3A1/urn~3ACamera~3A1_20231114221320123.png";
 
     @TempDir
@@ -58,6 +64,37 @@ class ImageFilesTest {
             assertThat(Path.of(java.net.URI.create(one.url()))).hasBinaryContent(Pictures.png(1));
             assertThat(Path.of(java.net.URI.create(two.url()))).hasBinaryContent(Pictures.png(2));
         }
+    }
+
+    @Test
+    void endsEveryNameInTheHashWhereOthersReferToIt() throws Exception {
+        Image image = image(Pictures.png(1));
+        ImageStore mine = ImageStore.of(settings(Storing.FOR_OTHERS));
+        ImageStore others = ImageStore.of(settings(Storing.BY_OTHERS));
+
+        StoredImage told = others.store(NAME, image);
+        assertThat(everything()).isEmpty();
+
+        assertThat(mine.store(NAME, image)).isEqualTo(told);
+        assertThat(mine.store(NAME, image)).isEqualTo(told);
+        assertThat(told.url()).endsWith("123-" + image.sha256() + ".png");
+        assertThat(Path.of(java.net.URI.create(told.url()))).hasBinaryContent(Pictures.png(1));
+        assertThat(everything()).hasSize(1);
+    }
+
+    private ImageSettings settings(Storing storing) {
+        return new ImageSettings("file://" + folder, Set.of("Image"), 100_000, 1, 1, Duration.ZERO, storing);
+    }
+
+    @Test
+    void hasAnImageOnTheDiskBeforeItHasItsName() throws Exception {
+        List<String> calls = new ArrayList<>();
+        ImageFiles files = new ImageFiles("file://" + folder, new RecordingFiles(calls));
+
+        files.store(NAME, image(Pictures.png(1)));
+
+        assertThat(calls).containsExactly("write", "sync", "close", "rename");
+        assertThat(folder.resolve(FIRST)).hasBinaryContent(Pictures.png(1));
     }
 
     @Test

@@ -8,16 +8,31 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.model.event.FiwareScope;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class ImageNameTest {
     @Test
     void namesAFileByDomainMissionEntityAndTimeInUtc() {
-        ImageName name = ImageName.of("north", "weeding", "Camera-1", 1_700_000_000_123L);
+        ImageName name = ImageName.of(FiwareScope.DEFAULT, "north", "weeding", "Camera-1", 1_700_000_000_123L);
 
         assertThat(name.path(ImageFormat.PNG)).isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123.png");
         assertThat(name.path(ImageFormat.JPEG, "abc"))
                 .isEqualTo("north/weeding/Camera-1/Camera-1_20231114221320123-abc.jpg");
+    }
+
+    @ParameterizedTest
+    @CsvSource(textBlock = """
+                    farm, /,      ~tenant-farm/d/m/c
+                    '',   /north, ~path-~2Fnorth/d/m/c
+                    farm, /north, ~tenant-farm/~path-~2Fnorth/d/m/c
+                    '',   /,      d/m/c
+                    """)
+    void keepsTenantsAndServicePathsApart(String tenant, String path, String folder) {
+        assertThat(ImageName.of(new FiwareScope(tenant, path), "d", "m", "c", Pictures.TIME)
+                        .folder())
+                .isEqualTo(folder);
     }
 
     @ParameterizedTest
@@ -51,7 +66,7 @@ class ImageNameTest {
 
     @Test
     void fitsIntoAFileNameHoweverLongTheEntityId() {
-        ImageName name = ImageName.of("d", "m", "c".repeat(120), Pictures.TIME);
+        ImageName name = ImageName.of(FiwareScope.DEFAULT, "d", "m", "c".repeat(120), Pictures.TIME);
 
         assertThat(name.path(ImageFormat.JPEG, "f".repeat(64)).replaceAll(".*/", ""))
                 .hasSizeLessThanOrEqualTo(255);

@@ -23,7 +23,7 @@ class ImageOptionsTest {
 
     @Test
     void leavesImagesInTheEventsUnlessToldWhereToPutThem() {
-        assertThat(parsed().settings()).isEmpty();
+        assertThat(parsed().settings(Storing.ALL)).isEmpty();
     }
 
     @ParameterizedTest
@@ -36,21 +36,25 @@ class ImageOptionsTest {
         "/, file:///"
     })
     void takesAFolderOnAnyFileSystem(String given, String root) {
-        assertThat(parsed("--images", given).settings().orElseThrow().root()).isEqualTo(root);
+        assertThat(parsed("--images", given).settings(Storing.ALL).orElseThrow().root())
+                .isEqualTo(root);
     }
 
     @Test
     void takesARelativeFolderFromWhereItRuns() {
-        assertThat(parsed("--images", "images").settings().orElseThrow().root())
+        assertThat(parsed("--images", "images")
+                        .settings(Storing.ALL)
+                        .orElseThrow()
+                        .root())
                 .isEqualTo("file://" + Path.of("images").toAbsolutePath());
     }
 
     @Test
     void takesSeveralAttributes() {
-        assertThat(parsed("--images", "/x").settings().orElseThrow().attributes())
+        assertThat(parsed("--images", "/x").settings(Storing.ALL).orElseThrow().attributes())
                 .containsExactly("Image");
         assertThat(parsed("--images", "/x", "--image-attribute", "Left,Right")
-                        .settings()
+                        .settings(Storing.ALL)
                         .orElseThrow()
                         .attributes())
                 .containsExactly("Left", "Right");
@@ -69,7 +73,7 @@ class ImageOptionsTest {
     void refusesAWrongSettingWithARemedy(String args, String message) {
         ImageOptions options = parsed(args.split(" (?=--)"));
 
-        assertThatThrownBy(options::settings)
+        assertThatThrownBy(() -> options.settings(Storing.ALL))
                 .isInstanceOf(CommandLine.ParameterException.class)
                 .hasMessageContaining(message)
                 .hasMessageContaining(";");

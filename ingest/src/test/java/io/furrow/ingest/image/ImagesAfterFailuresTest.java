@@ -95,6 +95,7 @@ class ImagesAfterFailuresTest {
                 .setParallelism(1)
                 .returns(TypeInformation.of(ReportedEvent.class))
                 .keyBy(ReportedEvent::identity, Types.STRING);
-        return new ArrayList<>(ImageStage.move(cameras, options.images).executeAndCollect(2 * IMAGES));
+        return new ArrayList<>(
+                ImageStage.move(cameras, options.images, Storing.ALL).executeAndCollect(2 * IMAGES));
     }
 }

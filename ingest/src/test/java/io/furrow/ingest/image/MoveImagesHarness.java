@@ -57,8 +57,8 @@ abstract class MoveImagesHarness {
 
     KeyedOneInputStreamOperatorTestHarness<String, ReportedEvent, ReportedEvent> harness(
             long inFlight, int parallelism, int subtask) throws Exception {
-        ImageSettings settings =
-                new ImageSettings(GatedStore.uri(folder), Set.of("Image"), 100_000, 4, inFlight, Duration.ofSeconds(1));
+        ImageSettings settings = new ImageSettings(
+                GatedStore.uri(folder), Set.of("Image"), 100_000, 4, inFlight, Duration.ofSeconds(1), Storing.ALL);
         return new KeyedOneInputStreamOperatorTestHarness<>(
                 ImageStage.operator(settings, TypeInformation.of(ReportedEvent.class)),
                 ReportedEvent::identity,

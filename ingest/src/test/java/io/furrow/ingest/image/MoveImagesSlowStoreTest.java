@@ -112,7 +112,7 @@ class MoveImagesSlowStoreTest extends MoveImagesHarness {
         harness.processElement(Pictures.camera("c1", T, Pictures.png(1)), T);
         await(() -> emitted().size() == 1);
 
-        assertThat(files()).containsExactly("north/weeding/c1/c1_20231114221320123.png");
+        assertThat(files()).containsExactly("~tenant-farm/north/weeding/c1/c1_20231114221320123.png");
     }
 
     @Test

@@ -20,7 +20,7 @@ class MoveImagesTest extends MoveImagesHarness {
         await(() -> emitted().size() == 1);
 
         Entity entity = Entity.parse(emitted().get(0).record().value());
-        String file = "north/weeding/c1/c1_20231114221320123.png";
+        String file = "~tenant-farm/north/weeding/c1/c1_20231114221320123.png";
         assertThat(folder.resolve(file)).hasBinaryContent(image);
         assertThat(entity.value("Image").orElseThrow())
                 .isEqualTo(NgsiJson.mapper()

@@ -18,6 +18,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
 import io.furrow.flink.JobCommandLine;
+import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -72,7 +73,7 @@ class PurgeImagesTest {
     private String store(String entity, long time, int seed) throws Exception {
         Image image = Image.of(Pictures.base64(Pictures.png(seed)).getBytes(StandardCharsets.US_ASCII), 1_000_000);
         String url = ImageFiles.in("file://" + folder)
-                .store(ImageName.of("north", "m", entity, time), image)
+                .store(ImageName.of(FiwareScope.DEFAULT, "north", "m", entity, time), image)
                 .url();
         return folder.relativize(Path.of(java.net.URI.create(url))).toString();
     }

@@ -7,12 +7,12 @@ import java.util.Map;
 
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
-import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
@@ -154,9 +154,34 @@ class MergeLatestTest {
         assertThat(last().key()).isEqualTo("farm|/|robot".getBytes(StandardCharsets.UTF_8));
     }
 
+    @Test
+    void remembersADeletionAsLongAsItIsToldTo() throws Exception {
+        event(200, null);
+        OperatorSubtaskState snapshot = operator.snapshot(1, 1);
+        operator.close();
+        create(LatestKey.ID, Duration.ofMillis(3000));
+        operator.initializeState(snapshot);
+        operator.open();
+        operator.processWatermark(3199);
+
+        report(150, robot().number("speed", 1));
+
+        assertThat(operator.extractOutputValues()).as("older than the deletion").isEmpty();
+        operator.processWatermark(3200);
+        assertThat(operator.numKeyedStateEntries()).isZero();
+        assertThat(operator.numEventTimeTimers()).isZero();
+    }
+
     private void create(LatestKey key) throws Exception {
+        create(key, KEPT);
+    }
+
+    private void create(LatestKey key, Duration deletionMemory) throws Exception {
         operator = new KeyedOneInputStreamOperatorTestHarness<>(
-                new KeyedProcessOperator<>(new MergeLatest(KEPT, key)), ReportedEvent::identity, Types.STRING);
+                new MergeLatestOperator(
+                        new MergeLatest(deletionMemory, key), key, TopicAtStart.NONE, Duration.ofHours(1)),
+                ReportedEvent::identity,
+                Types.STRING);
     }
 
     private static EntityBuilder robot() {

@@ -44,7 +44,7 @@ class AnyMongoTest {
             embedded = EmbeddedMongo.inMemory();
             uri = embedded.uri();
         }
-        client = new MongoAccess(uri, Duration.ofSeconds(5)).open();
+        client = new MongoAccess(uri, MongoAccess.Waits.of(Duration.ofSeconds(5))).open();
         collections = keeping(Retention.FOR_EVER);
     }
 
@@ -139,7 +139,7 @@ class AnyMongoTest {
     }
 
     private List<BulkSender.Refusal> send(List<MissionDocument> documents) throws Exception {
-        return new BulkSender(collections, Duration.ofSeconds(5), ignored -> {}).send(documents);
+        return new BulkSender(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {}).send(documents);
     }
 
     private static byte[] exported(StoredMissions missions, String name) throws IOException {

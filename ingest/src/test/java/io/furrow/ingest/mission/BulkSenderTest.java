@@ -44,7 +44,8 @@ class BulkSenderTest {
     }
 
     private void connect(Retention retention) {
-        access = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", Duration.ofSeconds(20));
+        access = new MongoAccess(
+                mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ofSeconds(20)));
         client = access.open();
         collections = new MissionCollections(client, retention, Clock.systemUTC());
     }
@@ -158,8 +159,9 @@ class BulkSenderTest {
     void failsWhenTheServerStaysAway() {
         mongo.close();
 
-        assertThatThrownBy(() ->
-                        new BulkSender(collections, Duration.ofMillis(200), retried::addAndGet).send(documents(0, 3)))
+        assertThatThrownBy(() -> new BulkSender(
+                                collections, MongoAccess.Waits.of(Duration.ofMillis(200)), retried::addAndGet)
+                        .send(documents(0, 3)))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("MongoDB did not take documents")
                 .hasMessageContaining("--mongo");
@@ -202,7 +204,7 @@ class BulkSenderTest {
     }
 
     private BulkSender sender() {
-        return new BulkSender(collections, access.patience(), retried::addAndGet);
+        return new BulkSender(collections, access.waits(), retried::addAndGet);
     }
 
     private List<String> ids() {

@@ -45,7 +45,7 @@ class MissionArchiveTest {
     @BeforeEach
     void start() {
         mongo = EmbeddedMongo.start(directory.resolve("mongo"));
-        client = new MongoAccess(mongo.uri(), Duration.ofSeconds(5)).open();
+        client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(Duration.ofSeconds(5))).open();
         collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
         missions = StoredMissions.open(mongo.uri());
     }
@@ -235,7 +235,8 @@ class MissionArchiveTest {
         for (MissionEvent event : events) {
             documents.add(ComposeDocuments.compose(event));
         }
-        assertThat(new BulkSender(collections, Duration.ofSeconds(5), ignored -> {}).send(documents))
+        assertThat(new BulkSender(collections, MongoAccess.Waits.of(Duration.ofSeconds(5)), ignored -> {})
+                        .send(documents))
                 .isEmpty();
     }
 

@@ -23,6 +23,17 @@ class MissionOptionsTest {
     }
 
     @Test
+    void tryARefusalOfUnknownReasonForLong() {
+        assertThat(parsed("--mongo", "mongodb://127.0.0.1").access().waits())
+                .isEqualTo(new MongoAccess.Waits(Duration.ofMinutes(1), Duration.ofMinutes(5)));
+        assertThat(parsed("--mongo", "mongodb://127.0.0.1", "--mongo-refusal-patience", "9min")
+                        .access()
+                        .waits()
+                        .unknown())
+                .isEqualTo(Duration.ofMinutes(9));
+    }
+
+    @Test
     void keepDocumentsForEverUnlessTold() {
         assertThat(parsed().retention().isForEver()).isTrue();
         assertThat(parsed().retention().of("mission_weeding")).isEmpty();

@@ -38,10 +38,11 @@ class MissionWriterTest {
     @BeforeEach
     void start() {
         mongo = EmbeddedMongo.start(directory);
-        client = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", Duration.ZERO).open();
+        client = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=2000", MongoAccess.Waits.of(Duration.ZERO))
+                .open();
         collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
         writer = new MissionWriter(
-                new BulkSender(collections, Duration.ofMillis(100), ignored -> {}),
+                new BulkSender(collections, MongoAccess.Waits.of(Duration.ofMillis(100)), ignored -> {}),
                 dead,
                 client,
                 UnregisteredMetricsGroup.createSinkWriterMetricGroup());

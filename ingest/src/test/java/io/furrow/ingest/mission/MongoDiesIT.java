@@ -93,7 +93,8 @@ class MongoDiesIT {
         settings.set(PipelineOptions.OBJECT_REUSE, true);
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
         env.setParallelism(2);
-        MongoAccess access = new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", patience);
+        MongoAccess access =
+                new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(patience));
         env.fromSource(new NumberSequenceSource(0, EVENTS - 1), WatermarkStrategy.noWatermarks(), "numbers")
                 .map(n -> Events.reading(MISSIONS.get((int) (n % MISSIONS.size())), n.intValue()))
                 .returns(MissionEvent.class)
@@ -135,6 +136,6 @@ class MongoDiesIT {
     }
 
     private static MongoAccess reader(MongoProcess mongo) {
-        return new MongoAccess(mongo.uri(), Duration.ZERO);
+        return new MongoAccess(mongo.uri(), MongoAccess.Waits.of(Duration.ZERO));
     }
 }

@@ -17,6 +17,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobEnvironment;
@@ -148,6 +149,12 @@ class NormaliseJobTest {
         assertThat(run(options("--max-record-bytes", "100"), notification(null, NORMALIZED, Map.of())))
                 .extracting(record -> record.topic() + " " + record.headers().get(DeadLetter.REASON))
                 .containsExactly("ngsi.notifications.dead too-large");
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"--out-of-orderness=1s", "--idle-timeout=1s", "--idle-advance"})
+    void takesNoOptionOfEventTimeWhichItHasNot(String option) {
+        assertThatThrownBy(() -> options(option)).hasMessageContaining("Unknown option: '" + option + "'");
     }
 
     @Test

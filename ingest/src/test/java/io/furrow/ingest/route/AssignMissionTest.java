@@ -109,7 +109,7 @@ class AssignMissionTest {
     @Test
     void forgetsDevicesThatEndedLongerAgoThanTheyAreKept() throws Exception {
         broadcast(0, version("robot", "farm", "weeding", 100, 1));
-        broadcast(1, new DeviceChange("|/|robot", 1, 200, null));
+        broadcast(1, new DeviceChange("|/|robot", 0, 1, 200, null));
         report("robot", 150, "", "");
         assertThat(operator.getOperator()
                         .getOperatorStateBackend()
@@ -117,7 +117,7 @@ class AssignMissionTest {
                         .contains("|/|robot"))
                 .isTrue();
 
-        broadcast(2, new DeviceChange("|/|other", 2, 1201, null));
+        broadcast(2, new DeviceChange("|/|other", 0, 2, 1201, null));
 
         assertThat(operator.getOperator()
                         .getOperatorStateBackend()
@@ -134,7 +134,7 @@ class AssignMissionTest {
         report("robot", 200, "north", "mowing");
         OperatorSubtaskState snapshot = operator.snapshot(1, 1);
         operator.close();
-        onTheTopic(1, new DeviceChange("|/|robot", 1, 300, null));
+        onTheTopic(1, new DeviceChange("|/|robot", 0, 1, 300, null));
         create();
         operator.initializeState(snapshot);
         operator.open();
@@ -176,7 +176,7 @@ class AssignMissionTest {
     }
 
     private void broadcast(long offset, DeviceVersion version) throws Exception {
-        broadcast(offset, new DeviceChange(version.key(), offset, version.from(), version));
+        broadcast(offset, new DeviceChange(version.key(), 0, offset, version.from(), version));
     }
 
     private void broadcast(long offset, DeviceChange change) throws Exception {

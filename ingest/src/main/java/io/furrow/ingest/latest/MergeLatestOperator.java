@@ -1,0 +1,106 @@
+package io.furrow.ingest.latest;
+
+import java.time.Duration;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+import org.apache.flink.api.common.TaskInfo;
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.runtime.state.KeyGroupRangeAssignment;
+import org.apache.flink.runtime.state.StateInitializationContext;
+import org.apache.flink.runtime.state.StateSnapshotContext;
+import org.apache.flink.runtime.state.VoidNamespaceSerializer;
+import org.apache.flink.streaming.api.SimpleTimerService;
+import org.apache.flink.streaming.api.TimerService;
+import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+import io.furrow.ingest.route.ReportedEvent;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Merges as {@link MergeLatest}; a job without state begins with what {@code data.latest} holds, so that a part of an entity
+ * never replaces the whole, and nothing older what is newer.
+ *
+ * <p>State: that of {@link MergeLatest}, and a mark that the topic was read. Each subtask reads the whole topic and keeps the
+ * entities of its own keys.
+ */
+public final class MergeLatestOperator extends KeyedProcessOperator<String, ReportedEvent, TopicRecord> {
+    private static final long serialVersionUID = 1L;
+    private static final Logger LOG = LoggerFactory.getLogger(MergeLatestOperator.class);
+
+    private final MergeLatest merge;
+    private final LatestKey key;
+    private final TopicAtStart latest;
+    private final Duration maxAhead;
+    private transient ListState<Boolean> mark;
+    private transient boolean wasRead;
+
+    /** @param maxAhead how far records may be ahead of the clock and be believed */
+    public MergeLatestOperator(MergeLatest merge, LatestKey key, TopicAtStart latest, Duration maxAhead) {
+        super(merge);
+        this.merge = merge;
+        this.key = key;
+        this.latest = latest;
+        this.maxAhead = maxAhead;
+    }
+
+    @Override
+    public void initializeState(StateInitializationContext context) throws Exception {
+        super.initializeState(context);
+        mark = context.getOperatorStateStore()
+                .getUnionListState(new ListStateDescriptor<>("latest-read", Types.BOOLEAN));
+        wasRead = mark.get().iterator().hasNext();
+    }
+
+    @Override
+    public void open() throws Exception {
+        super.open();
+        if (!wasRead) {
+            begin();
+        }
+    }
+
+    /** Of an entity several records may be there, in their order; of one that state knows already none counts. */
+    private void begin() throws Exception {
+        TimerService timers =
+                new SimpleTimerService(getInternalTimerService("user-timers", VoidNamespaceSerializer.INSTANCE, this));
+        long newest = System.currentTimeMillis() + maxAhead.toMillis();
+        Set<String> begun = new HashSet<>();
+        latest.forEach(record -> {
+            String identity = record.key() == null ? null : key.identityOf(record);
+            if (identity == null || !isMine(identity)) {
+                return;
+            }
+            setCurrentKey(identity);
+            if (begun.contains(identity) || !merge.knows()) {
+                try {
+                    merge.begin(record, newest, timers);
+                    begun.add(identity);
+                } catch (UnreadableException e) {
+                    LOG.warn("{} holds no entity and is passed over: {}", record.position(), e.getMessage());
+                }
+            }
+        });
+        LOG.info("Began with {} entities of the topic of the newest", begun.size());
+    }
+
+    private boolean isMine(String identity) {
+        TaskInfo task = getRuntimeContext().getTaskInfo();
+        return KeyGroupRangeAssignment.assignKeyToParallelOperator(
+                        identity, task.getMaxNumberOfParallelSubtasks(), task.getNumberOfParallelSubtasks())
+                == task.getIndexOfThisSubtask();
+    }
+
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
+        mark.update(List.of(true));
+    }
+}

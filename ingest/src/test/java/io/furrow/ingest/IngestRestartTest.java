@@ -1,0 +1,166 @@
+package io.furrow.ingest;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.Set;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.runtime.minicluster.MiniCluster;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.test.junit5.InjectMiniCluster;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.Restarts;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
+
+@Timeout(value = 10, unit = TimeUnit.HOURS)
+class IngestRestartTest {
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = Restarts.cluster();
+
+    @Test
+    void writesWhatAnUndisturbedRunWritesWhereverItIsRestarted(
+            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
+        new Restarts(flink, folder).changeNothing(3, Case::new);
+    }
+
+    @Test
+    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).goOnFromReleases("ingest", new Case(1));
+    }
+
+    /**
+     * Events of a few entities with deletions, garbage and late events. What comes again under the id of an event says something
+     * else, so that it would show if it passed.
+     */
+    private static final class Case implements JobCase {
+        private static final int STEP = 100;
+        private static final long START = 1_700_000_000_000L;
+
+        private final List<Arrival> arrivals = new ArrayList<>();
+        private final Random random;
+
+        Case(long seed) {
+            random = Restarts.random(seed);
+            for (int i = 0; i < 450; i++) {
+                long now = START + (long) i * STEP - random.nextInt(1_000);
+                String key = "t" + random.nextInt(6);
+                arrivals.add(new Arrival(event("e" + i, key, now), false));
+                if (i > 0 && random.nextInt(10) == 0) {
+                    again(arrivals.get(arrivals.size() - 1 - random.nextInt(Math.min(20, arrivals.size()))));
+                }
+                if (i > 220 && random.nextInt(4) == 0) {
+                    TopicRecord late = event("late" + i, key, now - 22_000 - random.nextInt(1_000));
+                    arrivals.add(new Arrival(late, true));
+                }
+            }
+        }
+
+        private void again(Arrival arrival) {
+            TopicRecord first = arrival.record();
+            String key = new String(first.key(), StandardCharsets.UTF_8);
+            String id = first.headers().get(HeaderNames.CE_ID);
+            arrivals.add(new Arrival(entity(id, key, first.timestamp()), true));
+        }
+
+        private TopicRecord event(String id, String key, long time) {
+            return switch (random.nextInt(20)) {
+                case 0 ->
+                    record(
+                            Map.of(HeaderNames.CE_ID, id, HeaderNames.CE_TYPE, HeaderNames.TYPE_DELETED),
+                            key,
+                            time,
+                            null);
+                case 1 -> record(Map.of(HeaderNames.CE_ID, id), key, time, "{no json".getBytes(StandardCharsets.UTF_8));
+                default -> entity(id, key, time);
+            };
+        }
+
+        private TopicRecord entity(String id, String key, long time) {
+            Entity entity = Entity.builder(key, "Thermometer")
+                    .text("Domain", "farm")
+                    .text("Mission", random.nextBoolean() ? "weeding" : "")
+                    .integer("a" + random.nextInt(3), random.nextInt(1_000_000))
+                    .build();
+            return record(Map.of(HeaderNames.CE_ID, id), key, time, entity.toBytes());
+        }
+
+        private static TopicRecord record(Map<String, String> headers, String key, long time, byte[] value) {
+            return new TopicRecord(Topics.RAW, 0, 7, time, key.getBytes(StandardCharsets.UTF_8), value, headers);
+        }
+
+        @Override
+        public List<Arrival> arrivals() {
+            return arrivals;
+        }
+
+        @Override
+        public long bound() {
+            return 2_000;
+        }
+
+        @Override
+        public JobOptions options(int parallelism) {
+            IngestOptions options = new IngestOptions();
+            JobCommandLine.of(options).parseArgs("--parallelism=" + parallelism, "--repeat-window=10s");
+            return options;
+        }
+
+        @Override
+        public DataStream<TopicRecord> define(
+                StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
+            TopicRecord nobody = record(Map.of(), "|/|of-nobody", 0, null).to(Topics.DEVICES);
+            DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
+                    .setParallelism(1)
+                    .uid("devices")
+                    .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                    .uid("no-hindrance")
+                    .setParallelism(1);
+            DataStream<TopicRecord> asInPartitions =
+                    records.keyBy(record -> new String(record.key(), StandardCharsets.UTF_8));
+            CollectedOutput out = new CollectedOutput();
+            IngestJob.define(
+                    new IngestInputs(asInPartitions, devices, KnownDevices.of(), TopicAtStart.NONE),
+                    out,
+                    (IngestOptions) options);
+            return out.all();
+        }
+
+        @Override
+        public Set<String> topics() {
+            return Set.of("data.farm.realtime", "data.raw.dead", Topics.LATEST, Topics.CATALOG);
+        }
+
+        @Override
+        public List<String> judges() {
+            return List.of("Pass each event once");
+        }
+
+        /** The last of a key of compacted topics. */
+        @Override
+        public String identity(TopicRecord record) {
+            return Set.of(Topics.LATEST, Topics.CATALOG).contains(record.topic())
+                    ? record.topic() + " " + new String(record.key(), StandardCharsets.UTF_8)
+                    : Restarts.text(record);
+        }
+    }
+}
