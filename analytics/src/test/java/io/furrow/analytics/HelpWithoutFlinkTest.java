@@ -34,7 +34,7 @@ class HelpWithoutFlinkTest {
                         "--fields-topic=TOPIC",
                         "--empty-windows[=DURATION]",
                         "--window=DURATION",
-                        "--mad-floor=NUMBER",
+                        "--suspect-floor=NUMBER",
                         "--delivery=MODE")
                 .contains("Default: 1min.", "Default: data.temperature.")
                 .doesNotContain("Exception");

@@ -13,7 +13,6 @@ import java.util.function.Consumer;
  * @param open provisional records that are neither confirmed nor withdrawn, in the order of telling
  */
 public record Alarm(long firstVersion, long secondVersion, boolean close, List<Encounter> open) {
-    static final long NEVER = Long.MAX_VALUE;
     static final Alarm NONE = new Alarm(Long.MIN_VALUE, Long.MIN_VALUE, false, List.of());
 
     /**
@@ -65,15 +64,18 @@ public record Alarm(long firstVersion, long secondVersion, boolean close, List<E
         return new Alarm(firstVersion, secondVersion, close, now);
     }
 
-    /** Whether the pair is apart, all is decided, and no message of these versions can be under way any more. */
-    boolean isOver(long watermark) {
-        return !close && open.isEmpty() && lastVersion() <= watermark;
+    /**
+     * Whether the pair is apart, all is decided, and no message of these versions can be under way any more. A pair that is close
+     * is seen with each report of its devices: one that is not for a time-to-live has been told by rules that count no more.
+     */
+    boolean isOver(long watermark, long timeToLive) {
+        return open.isEmpty() && lastVersion() + (close ? timeToLive : 0) <= watermark;
     }
 
-    /** The first watermark that decides something; {@link #NEVER} where only another glimpse can. */
-    long nextDecision(long dwell) {
+    /** The first watermark that decides something. */
+    long nextDecision(long dwell, long timeToLive) {
         if (open.isEmpty()) {
-            return close ? NEVER : lastVersion();
+            return lastVersion() + (close ? timeToLive : 0);
         }
         return open.get(0).time() + dwell; // told in the order of time
     }

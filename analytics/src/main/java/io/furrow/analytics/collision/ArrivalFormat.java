@@ -10,11 +10,8 @@ import io.furrow.analytics.format.Format;
 /** How an {@link Arrival} is written. */
 public final class ArrivalFormat extends Format<Arrival> {
     private static final long serialVersionUID = 1L;
-    /** Cell, version, presence as its ordinal, fix in its version 1. */
-    private static final int VERSION = 1;
-
-    private static final int FIX_VERSION = 1;
-    private static final Presence[] PRESENCES = Presence.values();
+    /** Cell, version, code of the presence, fix as a part. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
 
     @Override
     public Class<Arrival> type() {
@@ -30,19 +27,19 @@ public final class ArrivalFormat extends Format<Arrival> {
     public void write(Arrival arrival, DataOutputView out) throws IOException {
         out.writeLong(arrival.cell());
         out.writeLong(arrival.version());
-        out.writeByte(arrival.presence().ordinal());
-        PositionFixFormat.INSTANCE.write(arrival.fix(), out);
+        out.writeByte(arrival.presence().code());
+        PositionFixFormat.INSTANCE.writePart(arrival.fix(), out);
     }
 
     @Override
     public Arrival read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
         return new Arrival(
                 in.readLong(),
                 in.readLong(),
-                PRESENCES[in.readByte()],
-                PositionFixFormat.INSTANCE.read(FIX_VERSION, in));
+                Presence.of(in.readByte()),
+                PositionFixFormat.INSTANCE.readPart(version, in));
     }
 }

@@ -27,31 +27,47 @@ public final class Arrivals {
     }
 
     /** Only before the first is applied. */
-    void put(Arrival arrival) {
+    void put(Arrival arrival, Shortlist shortlist) {
         newest.put(arrival.fix().device(), arrival);
         if (arrival.presence() != Presence.GONE) {
-            cell.put(Member.of(arrival.fix(), arrival.presence() == Presence.RESIDENT));
+            Member member = Member.of(arrival.fix(), arrival.presence() == Presence.RESIDENT);
+            member.shortlist(shortlist);
+            cell.put(member);
         }
     }
 
+    /** Of the devices in crowds. */
+    Map<Device, Shortlist> shortlists() {
+        if (!cell.isCrowded()) {
+            return Map.of();
+        }
+        Map<Device, Shortlist> shortlists = new HashMap<>();
+        for (Member member : cell.members()) {
+            if (member.shortlist() != null) {
+                shortlists.put(member.fix().device(), member.shortlist());
+            }
+        }
+        return shortlists;
+    }
+
     /** Takes the arrival if it is newer than what is known of its device, and tells which pairs look otherwise now. */
-    void apply(Arrival arrival, Proximity proximity, Consumer<Glimpse> out) {
+    void apply(Arrival arrival, Matching matching, Consumer<Glimpse> out) {
         Arrival known = newest.get(arrival.fix().device());
         if (known != null && known.version() >= arrival.version()) {
             return;
         }
         newest.put(arrival.fix().device(), arrival);
         CellUpdate update = new CellUpdate(arrival.cell(), arrival.version(), arrival.presence(), arrival.fix());
-        cell.apply(List.of(update), proximity, seen -> out.accept(glimpse(seen)));
+        cell.apply(List.of(update), matching, seen -> out.accept(glimpse(seen)));
     }
 
     /** Lets the devices go whose time-to-live the watermark has passed, and forgets tombstones that it has passed. */
-    void pass(long watermark, long timeToLive, Proximity proximity, Consumer<Glimpse> out) {
+    void pass(long watermark, long timeToLive, Matching matching, Consumer<Glimpse> out) {
         for (Arrival each : new ArrayList<>(newest.values())) {
             long end = each.fix().time() + timeToLive;
             if (each.presence() != Presence.GONE && end <= watermark) {
                 long version = Math.max(end, each.version() + 1);
-                apply(new Arrival(each.cell(), version, Presence.GONE, each.fix()), proximity, out);
+                apply(new Arrival(each.cell(), version, Presence.GONE, each.fix()), matching, out);
             }
         }
         newest.values().removeIf(each -> each.presence() == Presence.GONE && each.version() <= watermark);

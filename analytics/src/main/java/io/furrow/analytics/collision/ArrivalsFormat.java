@@ -1,6 +1,10 @@
 package io.furrow.analytics.collision;
 
 import java.io.IOException;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
 
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
@@ -10,12 +14,17 @@ import io.furrow.analytics.format.Format;
 /** How {@link Arrivals} are written. */
 public final class ArrivalsFormat extends Format<Arrivals> {
     private static final long serialVersionUID = 1L;
-    /** Number of arrivals, tombstones included; arrivals in their version 1. */
-    private static final int VERSION = 1;
+    /**
+     * Number of arrivals, tombstones included; arrivals as parts; number of shortlists; of each the device as a part and the list.
+     * In version 2 parts are without their version, which was 1; in version 1 the lists are missing, too.
+     */
+    private static final int VERSION = 3;
 
-    private static final int ARRIVAL_VERSION = 1;
+    private static final int WITHOUT_VERSIONS = 2;
+    private static final int WITHOUT_SHORTLISTS = 1;
 
     private final ArrivalFormat arrivals = new ArrivalFormat();
+    private final DeviceFormat devices = new DeviceFormat();
 
     @Override
     public Class<Arrivals> type() {
@@ -31,27 +40,43 @@ public final class ArrivalsFormat extends Format<Arrivals> {
     public void write(Arrivals all, DataOutputView out) throws IOException {
         out.writeInt(all.all().size());
         for (Arrival arrival : all.all()) {
-            arrivals.write(arrival, out);
+            arrivals.writePart(arrival, out);
+        }
+        Map<Device, Shortlist> shortlists = all.shortlists();
+        out.writeInt(shortlists.size());
+        for (Map.Entry<Device, Shortlist> each : shortlists.entrySet()) {
+            devices.writePart(each.getKey(), out);
+            CellFormat.write(each.getValue(), out);
         }
     }
 
     @Override
     public Arrivals read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
-        Arrivals all = new Arrivals();
+        boolean versions = version > WITHOUT_VERSIONS;
+        List<Arrival> all = new ArrayList<>();
         for (int left = in.readInt(); left > 0; left--) {
-            all.put(arrivals.read(ARRIVAL_VERSION, in));
+            all.add(versions ? arrivals.readPart(in) : arrivals.read(1, in));
         }
-        return all;
+        Map<Device, Shortlist> shortlists = new HashMap<>();
+        for (int left = version > WITHOUT_SHORTLISTS ? in.readInt() : 0; left > 0; left--) {
+            shortlists.put(versions ? devices.readPart(in) : devices.read(1, in), CellFormat.readShortlist(in));
+        }
+        return of(all, shortlists);
     }
 
     @Override
     public Arrivals copy(Arrivals all) {
-        Arrivals copy = new Arrivals();
-        all.all().forEach(copy::put);
-        return copy;
+        return of(all.all(), all.shortlists());
+    }
+
+    private static Arrivals of(Iterable<Arrival> all, Map<Device, Shortlist> shortlists) {
+        Arrivals arrivals = new Arrivals();
+        all.forEach(
+                arrival -> arrivals.put(arrival, shortlists.get(arrival.fix().device())));
+        return arrivals;
     }
 
     @Override

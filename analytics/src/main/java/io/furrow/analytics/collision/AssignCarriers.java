@@ -11,6 +11,7 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.Epochs;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.device.DeviceBook;
 import io.furrow.flink.device.DeviceChange;
@@ -23,7 +24,7 @@ import io.furrow.model.device.DeviceVersion;
  *
  * <p><b>State</b>: every device's versions, the same at each subtask.
  *
- * <p><b>Cleared</b>: versions, a day after they ended.
+ * <p><b>Cleared</b>: versions, a day after they ended; where a replay is read, never.
  *
  * <p><b>Late</b>: a position is told its carrier as of its own time.
  *
@@ -39,10 +40,17 @@ public final class AssignCarriers
     /** Longer than positions are late and still count. */
     private static final Duration KEPT = Duration.ofDays(1);
 
+    private static final Duration FOR_EVER = Duration.ofMillis(Epochs.SPAN);
+
     private final DeviceBook<DeviceVersions> devices;
 
     AssignCarriers(TopicAtStart devicesAtStart) {
-        devices = new DeviceBook<>(devicesAtStart, KEPT, new AsTheyAre());
+        this(devicesAtStart, false);
+    }
+
+    /** @param isReplay whether positions come of any time before now, again and again */
+    AssignCarriers(TopicAtStart devicesAtStart, boolean isReplay) {
+        devices = new DeviceBook<>(devicesAtStart, isReplay ? FOR_EVER : KEPT, new AsTheyAre());
     }
 
     /** Reads what is known of devices before the first position comes, here and after each restart. */

@@ -2,41 +2,46 @@ package io.furrow.analytics.collision;
 
 import java.util.ArrayList;
 import java.util.Collection;
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.function.Consumer;
 
 import org.apache.flink.api.common.typeinfo.TypeInfo;
 
 /**
- * The devices of one grid cell; changed in place. Which pairs are close follows from where the members are and is not
- * stored.
+ * The devices of one grid cell; changed in place. Which pairs are followed follows from where the members are and from the
+ * shortlists of those in crowds, and is not stored.
  */
 @TypeInfo(CellFormat.class)
 public final class Cell {
     /** Made again where there are none, or for another threshold. */
     private Members members = new Members(0);
-    /** Only where the number of pairs is limited; null while none is close. */
-    private Crowd crowd;
+    /** How many members have a shortlist. */
+    private int crowded;
+    /** What was last told of crowds; null where nothing was within a minute. */
+    private CrowdReport report;
 
     private Cell() {}
-
-    /** What happens to one device at one instant; null where it is not in the cell. */
-    private record Change(Member before, Member after, List<Member> partners) {}
 
     public static Cell empty() {
         return new Cell();
     }
 
     boolean isEmpty() {
-        return members.size() == 0 && crowd == null;
+        return members.size() == 0 && report == null;
     }
 
-    Crowd crowd() {
-        return crowd;
+    boolean isCrowded() {
+        return crowded > 0;
     }
 
-    void crowd(Crowd now) {
-        crowd = now;
+    CrowdReport report() {
+        return report;
+    }
+
+    void report(CrowdReport now) {
+        report = now;
     }
 
     /** How many devices are in the cell, halo copies included. */
@@ -50,7 +55,14 @@ public final class Cell {
 
     /** Only before the first updates are applied. */
     void put(Member member) {
+        crowded += member.shortlist() == null ? 0 : 1;
         members.add(member);
+    }
+
+    /** Adds all others to {@code near} that are near a member, at home or not. */
+    void near(Member member, Proximity proximity, List<Member> near) {
+        prepare(proximity);
+        members.near(member, proximity, near);
     }
 
     /**
@@ -59,58 +71,140 @@ public final class Cell {
      * @param updates in the order of {@link CellUpdate#SEQUENCE}, at most one per device and instant
      * @param out takes the sightings; their order within an instant has no meaning
      */
-    public void apply(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
-        if (members.reach() != proximity.reach()) {
-            List<Member> known = members.all();
-            members = new Members(proximity.reach());
-            known.forEach(members::add);
-        }
+    public void apply(List<CellUpdate> updates, Matching matching, Consumer<Sighting> out) {
         int from = 0;
         while (from < updates.size()) {
-            long time = updates.get(from).time();
-            int to = from + 1;
-            while (to < updates.size() && updates.get(to).time() == time) {
-                to++;
-            }
-            applyAtOnce(updates.subList(from, to), proximity, out);
+            int to = endOfInstant(updates, from);
+            applyAtOnce(updates.subList(from, to), matching, matching, out);
             from = to;
         }
     }
 
     /**
-     * A pair whose devices both change is seen once, by the one that comes first in the updates: it leaves before the other,
-     * whom it still meets, and comes back after it.
+     * Applies the updates of one instant.
+     *
+     * @param before by which who was close is judged
+     * @param now by which who is close is judged; another only where all members are among the updates
      */
-    private void applyAtOnce(List<CellUpdate> updates, Proximity proximity, Consumer<Sighting> out) {
+    void applyAtOnce(List<CellUpdate> updates, Matching before, Matching now, Consumer<Sighting> out) {
+        prepare(before.proximity());
+        List<Change> changes = takeOut(before == now ? updates : newestOfEach(updates), before);
+        prepare(now.proximity());
+        putIn(changes, now, updates.get(0).time(), out);
+    }
+
+    /** The first update of a later instant than that of the given one. */
+    static int endOfInstant(List<CellUpdate> updates, int from) {
+        int to = from + 1;
+        while (to < updates.size()
+                && updates.get(to).time() == updates.get(from).time()) {
+            to++;
+        }
+        return to;
+    }
+
+    private void prepare(Proximity proximity) {
+        if (members.reach() != proximity.reach()) {
+            List<Member> known = members.all();
+            members = new Members(proximity.reach());
+            known.forEach(members::add);
+        }
+    }
+
+    /** Where rules changed twice at an instant, a device is told of twice. */
+    private static List<CellUpdate> newestOfEach(List<CellUpdate> updates) {
+        Map<Device, CellUpdate> newest = new LinkedHashMap<>();
+        updates.forEach(update -> newest.put(update.fix().device(), update));
+        return List.copyOf(newest.values());
+    }
+
+    /**
+     * A pair whose devices both change is seen once, by the one that comes first in the updates: it leaves before the other,
+     * whom it still meets.
+     */
+    private List<Change> takeOut(List<CellUpdate> updates, Matching matching) {
         List<Change> changes = new ArrayList<>(updates.size());
         for (CellUpdate update : updates) {
             Member before = members.remove(update.fix());
             List<Member> partners = new ArrayList<>();
             if (before != null) {
-                members.closeTo(before, proximity, partners);
+                crowded -= before.shortlist() == null ? 0 : 1;
+                members.partners(before, matching.proximity(), partners);
             }
-            changes.add(new Change(before, memberOf(update), partners));
+            changes.add(new Change(changes.size(), before, memberOf(update), partners));
         }
-        List<Member> met = new ArrayList<>();
-        for (int i = changes.size() - 1; i >= 0; i--) {
-            Change change = changes.get(i);
-            long time = updates.get(i).time();
-            if (change.after != null) {
-                members.closeTo(change.after, proximity, met);
-                for (Member other : met) {
-                    out.accept(Sighting.of(change.after.fix(), other.fix(), time, wasMet(change, other) ? 0 : 1));
-                }
-                met.clear();
-                members.add(change.after);
+        return changes;
+    }
+
+    private void putIn(List<Change> changes, Matching matching, long time, Consumer<Sighting> out) {
+        List<Member> near = new ArrayList<>();
+        for (Change change : changes) {
+            if (change.after() != null) {
+                members.add(change.after());
+                change.after().change(change);
             }
-            for (Member other : change.partners) {
-                out.accept(Sighting.of(change.before.fix(), other.fix(), time, -1));
+        }
+        boolean canCrowd = matching.canCrowd(members.size());
+        boolean alone = changes.size() == 1;
+        for (Change change : canCrowd && !alone ? changes : List.<Change>of()) {
+            look(change, matching, near);
+            makeShortlist(change, matching, near);
+            near.clear();
+        }
+        for (Change change : changes) {
+            look(change, matching, near);
+            if (canCrowd && alone) { // one look is enough
+                makeShortlist(change, matching, near);
+            }
+            compare(change, near, time, out);
+            near.clear();
+        }
+        for (Change change : changes) {
+            if (change.after() != null) {
+                change.after().change(null);
             }
         }
     }
 
-    private static boolean wasMet(Change change, Member other) {
-        return change.partners.removeIf(partner -> partner.fix().isOfSameDevice(other.fix()));
+    private void look(Change change, Matching matching, List<Member> near) {
+        if (change.after() != null) {
+            members.near(change.after(), matching.proximity(), near);
+        }
+    }
+
+    /** By what was before the instant and where all are now. */
+    private void makeShortlist(Change change, Matching matching, List<Member> near) {
+        if (change.after() != null) {
+            Shortlist shortlist = matching.shortlist(change.before(), change.after(), near);
+            change.after().shortlist(shortlist);
+            crowded += shortlist == null ? 0 : 1;
+        }
+    }
+
+    /** Takes a step per partner of before and of now: partners of before are marked, so that nobody has to be looked for. */
+    private static void compare(Change change, List<Member> near, long time, Consumer<Sighting> out) {
+        for (Member partner : change.partners()) {
+            partner.partnerOf(change);
+        }
+        for (Member other : near) {
+            if (change.comesAfterThatOf(other)
+                    || !Matching.meet(change.after(), other)
+                    || !Matching.follows(change.after(), other)) {
+                continue;
+            }
+            Member was = other.change() == null ? other : other.change().before();
+            boolean wasPartner = was != null && was.partnerOf() == change;
+            if (wasPartner) {
+                was.partnerOf(null);
+            }
+            out.accept(Sighting.of(change.after().fix(), other.fix(), time, wasPartner ? 0 : 1));
+        }
+        for (Member partner : change.partners()) {
+            if (partner.partnerOf() == change) {
+                partner.partnerOf(null);
+                out.accept(Sighting.of(change.before().fix(), partner.fix(), time, -1));
+            }
+        }
     }
 
     private static Member memberOf(CellUpdate update) {

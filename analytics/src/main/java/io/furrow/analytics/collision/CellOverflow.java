@@ -1,15 +1,16 @@
 package io.furrow.analytics.collision;
 
 /**
- * A grid cell in which more pairs are close than are followed, or, where none is left out, no more.
+ * A grid cell with a crowd, in which not all pairs that are close are followed, or, where none is left out, no more.
  *
- * @param witness a device of a pair that was seen at that instant; tells topic and scope
+ * @param witness a device of the crowd; tells topic and scope
  * @param cell id of the cell
- * @param latitude of its centre, degrees
- * @param longitude of its centre, degrees
+ * @param latitude of its center, degrees
+ * @param longitude of its center, degrees
  * @param devices how many are in the cell or so near it that they may meet one that is
  * @param pairs how many are close
  * @param pairsLeftOut how many of them are not followed
+ * @param nearest how many of the devices close to it are followed for the device that has the most of them
  * @param time epoch milliseconds
  */
 public record CellOverflow(
@@ -18,6 +19,7 @@ public record CellOverflow(
         double latitude,
         double longitude,
         int devices,
-        int pairs,
-        int pairsLeftOut,
+        long pairs,
+        long pairsLeftOut,
+        int nearest,
         long time) {}

@@ -5,23 +5,26 @@ import java.io.Serializable;
 /**
  * How the Earth is cut into cells.
  *
- * @param meters height of a cell; without a limit no result depends on it, only speed
- * @param pairLimit how many pairs of one cell are followed at once; 0 for all
+ * @param meters height of a cell; but in crowds no result depends on it, only speed
+ * @param crowd of a device with more others close to it than this only the nearest are followed; 0 follows all
  */
-public record CellRules(double meters, int pairLimit) implements Serializable {
+public record CellRules(double meters, int crowd) implements Serializable {
     /** Cells of this many thresholds keep about 1.1 copies of each position. */
     static final double THRESHOLDS = 20;
+
+    /** More machines than a yard holds within 5 m. */
+    static final int CROWD = 64;
 
     public CellRules {
         if (!(meters > 0 && Double.isFinite(meters))) {
             throw new IllegalArgumentException("the cell must be at least as high as the threshold, not " + meters);
         }
-        if (pairLimit < 0) {
-            throw new IllegalArgumentException("the limit of pairs must not be negative: " + pairLimit);
+        if (crowd < 0) {
+            throw new IllegalArgumentException("the devices of a crowd must not be negative: " + crowd);
         }
     }
 
     boolean isLimited() {
-        return pairLimit > 0;
+        return crowd > 0;
     }
 }

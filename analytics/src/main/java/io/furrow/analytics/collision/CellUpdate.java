@@ -16,6 +16,6 @@ import io.furrow.analytics.eventtime.Timed;
  */
 @TypeInfo(CellUpdateFormat.class)
 public record CellUpdate(long cell, long time, Presence presence, PositionFix fix) implements Timed {
-    static final Comparator<CellUpdate> SEQUENCE = Comparator.comparingLong(CellUpdate::time)
+    public static final Comparator<CellUpdate> SEQUENCE = Comparator.comparingLong(CellUpdate::time)
             .thenComparing(update -> update.fix().identity());
 }

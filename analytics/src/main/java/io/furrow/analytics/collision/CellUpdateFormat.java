@@ -10,11 +10,8 @@ import io.furrow.analytics.format.Format;
 /** How a {@link CellUpdate} is written. */
 public final class CellUpdateFormat extends Format<CellUpdate> {
     private static final long serialVersionUID = 1L;
-    /** Cell, time, presence as its ordinal, fix in its version 1. */
-    private static final int VERSION = 1;
-
-    private static final int FIX_VERSION = 1;
-    private static final Presence[] PRESENCES = Presence.values();
+    /** Cell, time, code of the presence, fix as a part. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
 
     @Override
     public Class<CellUpdate> type() {
@@ -30,19 +27,19 @@ public final class CellUpdateFormat extends Format<CellUpdate> {
     public void write(CellUpdate cellUpdate, DataOutputView out) throws IOException {
         out.writeLong(cellUpdate.cell());
         out.writeLong(cellUpdate.time());
-        out.writeByte(cellUpdate.presence().ordinal());
-        PositionFixFormat.INSTANCE.write(cellUpdate.fix(), out);
+        out.writeByte(cellUpdate.presence().code());
+        PositionFixFormat.INSTANCE.writePart(cellUpdate.fix(), out);
     }
 
     @Override
     public CellUpdate read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
         return new CellUpdate(
                 in.readLong(),
                 in.readLong(),
-                PRESENCES[in.readByte()],
-                PositionFixFormat.INSTANCE.read(FIX_VERSION, in));
+                Presence.of(in.readByte()),
+                PositionFixFormat.INSTANCE.readPart(version, in));
     }
 }

@@ -6,15 +6,21 @@ import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
+import io.furrow.analytics.clock.LaggingPosition;
+
 /**
  * The encounters among positions, as defined for this package.
  *
  * @param encounters every start and end, and what lies between at a limited rate; a pair's in order of time
  * @param late positions that came after the watermark had passed them and were not counted
+ * @param lagging those of them that are the newest of their device
  * @param overflows cells in which more pairs were close than the rules let be followed
  */
 public record CollisionDetection(
-        DataStream<Encounter> encounters, DataStream<PositionFix> late, DataStream<CellOverflow> overflows) {
+        DataStream<Encounter> encounters,
+        DataStream<PositionFix> late,
+        DataStream<LaggingPosition> lagging,
+        DataStream<CellOverflow> overflows) {
     /** Detects in event time; {@code fixes} carry timestamps equal to {@link PositionFix#time} and watermarks. */
     public static CollisionDetection define(KeyedStream<PositionFix, Device> fixes, CollisionRules rules) {
         return define(fixes, rules, false);
@@ -46,6 +52,7 @@ public record CollisionDetection(
         return new CollisionDetection(
                 eager ? alarmed(lasting, updates.getSideOutput(TrackDevices.ACCEPTED), rules) : lasting,
                 updates.getSideOutput(TrackDevices.LATE),
+                updates.getSideOutput(TrackDevices.LAGGING),
                 sightings.getSideOutput(MatchPairs.OVERFLOWS));
     }
 

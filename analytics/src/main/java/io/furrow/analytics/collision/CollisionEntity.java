@@ -1,6 +1,7 @@
 package io.furrow.analytics.collision;
 
 import io.furrow.analytics.collision.motion.Approach;
+import io.furrow.flink.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
@@ -17,13 +18,13 @@ public final class CollisionEntity {
         String pair = encounter.pairId();
         EntityBuilder entity = Entity.builder(TYPE + ":" + pair, TYPE)
                 .number("distance", encounter.distance())
-                .integer("time", encounter.time());
+                .integer("time", Epochs.original(encounter.time()));
         device(entity, Names.FIRST, encounter.first());
         device(entity, Names.SECOND, encounter.second());
         entity.text("encounter", encounter.id(pair))
                 .text("phase", encounter.phase().code())
                 .number("minDistance", encounter.minDistance())
-                .integer("startTime", encounter.startTime());
+                .integer("startTime", Epochs.original(encounter.startTime()));
         return encounter.confirms().isEmpty() ? entity : entity.text("confirms", encounter.confirms());
     }
 
@@ -32,14 +33,14 @@ public final class CollisionEntity {
         String phase = approach.phase().code();
         EntityBuilder entity = Entity.builder(TYPE + ":" + approach.pairId() + ":" + phase, TYPE)
                 .number("distance", approach.distance())
-                .integer("time", approach.time());
+                .integer("time", Epochs.original(approach.time()));
         device(entity, Names.FIRST, approach.first());
         device(entity, Names.SECOND, approach.second());
         return entity.text("encounter", approach.id())
                 .text("phase", phase)
                 .number("tcpa", approach.tcpa())
                 .number("dcpa", approach.dcpa())
-                .integer("startTime", approach.startTime());
+                .integer("startTime", Epochs.original(approach.startTime()));
     }
 
     /** The record's key: both entity ids, the lesser first. */
@@ -70,7 +71,7 @@ public final class CollisionEntity {
         entity.text(names.id, fix.id())
                 .number(names.latitude, fix.latitude())
                 .number(names.longitude, fix.longitude())
-                .integer(names.timestamp, fix.time())
+                .integer(names.timestamp, Epochs.original(fix.time()))
                 .text(names.mission, fix.mission());
     }
 }

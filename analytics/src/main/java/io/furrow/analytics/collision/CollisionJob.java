@@ -1,5 +1,7 @@
 package io.furrow.analytics.collision;
 
+import java.util.Set;
+
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
@@ -7,10 +9,14 @@ import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.clock.ClockStage;
 import io.furrow.analytics.collision.motion.MotionDetection;
+import io.furrow.flink.AheadLimit;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.KafkaInput;
+import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.Receipt;
 import io.furrow.flink.TopicRecord;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceInput;
@@ -29,33 +35,40 @@ public final class CollisionJob {
 
     /** Runs the job until it ends, which it does not by itself. */
     public static void run(CollisionOptions options) throws Exception {
-        assemble(options).execute(options.jobName());
+        assemble(options).execute();
     }
 
     /** The job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(CollisionOptions options) {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-        if (options.eager()) {
-            JobEnvironment.hasten(env);
-        }
+        StreamExecutionEnvironment env =
+                options.eager() ? JobEnvironment.createPrompt(options) : JobEnvironment.create(options);
 
-        DataStream<TopicRecord> records = env.fromSource(
-                        KafkaEnds.source(options), KafkaEnds.watermarks(options), "Reported changes")
-                .uid("reported-changes");
+        DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
 
-        define(new Inputs(records, DeviceInput.of(env, options, options.devices())), options)
-                .sinkTo(KafkaEnds.sink(options))
-                .uid("write-topics")
-                .name("Write encounters, late positions and dead letters");
+        KafkaOutput.writeAll(
+                define(new Inputs(records, DeviceInput.of(env, options, options.devices())), options),
+                options,
+                options.topics().settings(Set.of()));
         return env;
     }
 
     /**
-     * @return encounters, late positions, crowded cells and dead letters; each record names its topic
+     * @return encounters, late positions, crowded cells, what is wrong with clocks, and dead letters; each record names its topic
      */
     static DataStream<TopicRecord> define(Inputs in, CollisionOptions options) {
-        SingleOutputStreamOperator<PositionFix> read =
-                in.records().process(new ReadPositions()).uid("read-positions").name("Read positions");
+        if (!options.clockSettings().correct()) {
+            return detect(in, options);
+        }
+        SingleOutputStreamOperator<TopicRecord> corrected = ClockStage.correct(in.records(), Receipt.of(options));
+        return detect(new Inputs(corrected, in.devices()), options)
+                .union(clocks(options).offsets(corrected));
+    }
+
+    private static DataStream<TopicRecord> detect(Inputs in, CollisionOptions options) {
+        SingleOutputStreamOperator<PositionFix> read = in.records()
+                .process(new ReadPositions(AheadLimit.of(options)))
+                .uid("read-positions")
+                .name("Read positions");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
                 .records()
@@ -66,7 +79,8 @@ public final class CollisionJob {
 
         SingleOutputStreamOperator<PositionFix> carried = read.keyBy(PositionFix::device)
                 .connect(devices.broadcast(AssignCarriers.DEVICES))
-                .process(new AssignCarriers(in.devices().atStart()))
+                .process(new AssignCarriers(
+                        in.devices().atStart(), options.inputTopics().replay().isPresent()))
                 .uid("assign-carriers")
                 .name("Assign carriers");
         // A device's positions stay where they are.
@@ -102,7 +116,11 @@ public final class CollisionJob {
                 .uid("describe-overflows")
                 .name("Describe crowded cells as entities");
 
-        return encounters.union(late, overflows);
+        return encounters.union(late, overflows, clocks(options).watch(detection.lagging()));
+    }
+
+    private static ClockStage clocks(CollisionOptions options) {
+        return new ClockStage("collision", options.clockSettings());
     }
 
     /** Beside the encounters, and only where asked for. */

@@ -1,14 +1,19 @@
 package io.furrow.analytics.collision;
 
+import java.time.Duration;
+import java.util.Optional;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.collision.motion.MotionOptions;
 import io.furrow.analytics.collision.motion.MotionRules;
+import io.furrow.flink.AlignmentOptions;
 import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicOptions;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code collision}. An accessor refuses a value that no job could start with. */
@@ -20,10 +25,19 @@ import io.furrow.model.topic.Topics;
                         + "same at any parallelism, in any order of arrival and in a second pass.")
 public final class CollisionOptions extends JobOptions implements Callable<Integer> {
     @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Mixin
+    private final AlignmentOptions alignment = new AlignmentOptions();
+
+    @Mixin
     private final RuleOptions rules = new RuleOptions();
 
     @Mixin
     private MotionOptions motion;
+
+    @Mixin
+    private final ClockSettings clocks = new ClockSettings();
 
     @Option(
             names = "--devices",
@@ -38,7 +52,8 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
             names = "--eager",
             description =
                     "Also tell at once, as provisional, of pairs that are close by what has arrived; a start names"
-                            + " what it confirms, the rest is withdrawn. Exact records stay the same.")
+                            + " what it confirms, the rest is withdrawn. Exact records stay the same. Positions that come"
+                            + " too late for those take part, if their device told of no newer one.")
     private boolean eager;
 
     @Option(
@@ -59,7 +74,8 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
             names = "--overflow-output",
             paramLabel = "TOPIC",
             defaultValue = Topics.COLLISION_OVERFLOW,
-            description = "Topic of what --pairs-per-cell left out. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Topic of cells with a crowd, and of how many pairs --crowd leaves out there. Default: ${DEFAULT-VALUE}.")
     private String overflowOutput;
 
     @Override
@@ -91,6 +107,21 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
 
     public boolean eager() {
         return eager;
+    }
+
+    /** What is done about the clocks of devices. */
+    public ClockSettings clockSettings() {
+        return clocks;
+    }
+
+    /** How topics are made. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** How far partitions may be apart. */
+    Optional<Duration> maxDrift() {
+        return alignment.maxDrift(eager());
     }
 
     public String output() {

@@ -3,6 +3,7 @@ package io.furrow.analytics.collision;
 import java.util.HexFormat;
 
 import io.furrow.analytics.collision.motion.Approach;
+import io.furrow.flink.Epochs;
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
@@ -39,10 +40,11 @@ final class CollisionRecord {
                 .text("cell", cell)
                 .number("Latitude", overflow.latitude())
                 .number("Longitude", overflow.longitude())
-                .integer("time", overflow.time())
+                .integer("time", Epochs.original(overflow.time()))
                 .integer("devices", overflow.devices())
                 .integer("pairs", overflow.pairs())
-                .integer("pairsLeftOut", overflow.pairsLeftOut());
+                .integer("pairsLeftOut", overflow.pairsLeftOut())
+                .integer("nearest", overflow.nearest());
         String output = Topics.resultOf(overflow.witness().topic(), topic);
         return ResultRecord.of(output, entity.id(), entity, overflow.witness().scope(), overflow.time(), SOURCE);
     }
@@ -63,7 +65,7 @@ final class CollisionRecord {
         EntityBuilder entity = Entity.builder(fix.id(), LATE_TYPE)
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
-                .integer("Time", fix.time())
+                .integer("Time", Epochs.original(fix.time()))
                 .text("Mission", fix.mission());
         return ResultRecord.of(Topics.resultOf(fix.topic(), topic), fix.id(), entity, fix.scope(), fix.time(), SOURCE);
     }

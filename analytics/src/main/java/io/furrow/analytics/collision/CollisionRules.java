@@ -15,7 +15,7 @@ import java.time.Duration;
 public record CollisionRules(
         Thresholds thresholds, PositionRules positions, Steadiness steadiness, Duration ongoingEvery, CellRules cells)
         implements Serializable {
-    /** 5 m, 30 s, any skew, a record a second, cells of 20 thresholds: about 1.1 copies of each position. */
+    /** 5 m, 30 s, any skew, a record a second, cells of 20 thresholds, crowds beyond 64 others. */
     public static final CollisionRules DEFAULT =
             new CollisionRules(5, Duration.ofSeconds(30), Duration.ZERO, Duration.ofSeconds(1), 100);
 
@@ -31,7 +31,7 @@ public record CollisionRules(
         }
     }
 
-    /** One threshold for all types, no zones, no steadiness, no limit. */
+    /** One threshold for all types, no zones, no steadiness, the usual crowds. */
     public CollisionRules(
             double thresholdMeters, Duration timeToLive, Duration maxSkew, Duration ongoingEvery, double cellMeters) {
         this(
@@ -39,7 +39,7 @@ public record CollisionRules(
                 new PositionRules(timeToLive, maxSkew, ExclusionZones.NONE),
                 Steadiness.NONE,
                 ongoingEvery,
-                new CellRules(cellMeters, 0));
+                new CellRules(cellMeters, CellRules.CROWD));
     }
 
     public CollisionRules with(Thresholds other) {

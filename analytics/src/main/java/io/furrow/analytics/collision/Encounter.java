@@ -1,6 +1,7 @@
 package io.furrow.analytics.collision;
 
 import io.furrow.analytics.eventtime.Timed;
+import io.furrow.flink.Epochs;
 
 /**
  * One moment in the life of an encounter of two devices; complete in itself, a reader needs no earlier record.
@@ -36,7 +37,8 @@ public record Encounter(
     }
 
     /**
-     * The pair and the start: a second pass over the same events names its encounters the same. Of what is provisional or
+     * The pair and the start: a second pass over the same events names its encounters the same, another epoch of a replay does
+     * not. Of what is provisional or
      * withdrawn the pair and the times of both positions, because late data may still move the start.
      */
     public String id() {
@@ -46,8 +48,8 @@ public record Encounter(
     /** @param pairId {@link #pairId()}, which costs a digest */
     String id(String pairId) {
         return phase == Phase.PROVISIONAL || phase == Phase.WITHDRAWN
-                ? pairId + "~" + first.time() + "~" + second.time()
-                : pairId + "@" + startTime;
+                ? pairId + "~" + Epochs.text(first.time()) + "~" + Epochs.text(second.time())
+                : pairId + "@" + Epochs.text(startTime);
     }
 
     /** What has arrived of a pair, until the watermark decides. */

@@ -10,10 +10,8 @@ import io.furrow.analytics.format.Format;
 /** How a {@link Glimpse} is written. */
 public final class GlimpseFormat extends Format<Glimpse> {
     private static final long serialVersionUID = 1L;
-    /** Both fixes in their version 1, both versions, whether close. */
-    private static final int VERSION = 1;
-
-    private static final int FIX_VERSION = 1;
+    /** Both fixes as parts, both versions, whether close. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
 
     @Override
     public Class<Glimpse> type() {
@@ -27,8 +25,8 @@ public final class GlimpseFormat extends Format<Glimpse> {
 
     @Override
     public void write(Glimpse glimpse, DataOutputView out) throws IOException {
-        PositionFixFormat.INSTANCE.write(glimpse.first(), out);
-        PositionFixFormat.INSTANCE.write(glimpse.second(), out);
+        PositionFixFormat.INSTANCE.writePart(glimpse.first(), out);
+        PositionFixFormat.INSTANCE.writePart(glimpse.second(), out);
         out.writeLong(glimpse.firstVersion());
         out.writeLong(glimpse.secondVersion());
         out.writeBoolean(glimpse.close());
@@ -36,12 +34,12 @@ public final class GlimpseFormat extends Format<Glimpse> {
 
     @Override
     public Glimpse read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
         return new Glimpse(
-                PositionFixFormat.INSTANCE.read(FIX_VERSION, in),
-                PositionFixFormat.INSTANCE.read(FIX_VERSION, in),
+                PositionFixFormat.INSTANCE.readPart(version, in),
+                PositionFixFormat.INSTANCE.readPart(version, in),
                 in.readLong(),
                 in.readLong(),
                 in.readBoolean());

@@ -16,6 +16,10 @@ final class Grid implements Serializable {
     /** Radians (6 µm): a thousand times the rounding of any angle here, and a copy too many does no harm. */
     private static final double GUARD = 1e-12;
 
+    private static final long SPREAD = 0x9E3779B97F4A7C15L;
+    /** Its inverse. */
+    private static final long GATHER = 0xF1DE83E19937733DL;
+
     private static final double POLE = Math.PI / 2;
     private static final double CIRCLE = 2 * Math.PI;
 
@@ -62,11 +66,12 @@ final class Grid implements Serializable {
         return Arrays.copyOf(cells, count);
     }
 
-    /** Latitude and longitude of the centre of the home cell of a position; degrees. */
-    double[] centre(double latitude, double longitude) {
-        int band = band(Math.toRadians(latitude));
+    /** Latitude and longitude of the center of a cell; degrees. */
+    double[] center(long cell) {
+        long number = cell * GATHER;
+        int band = (int) (number >>> 32);
+        int column = (int) number;
         int columns = columns(band);
-        int column = Math.floorMod(column(Math.toRadians(longitude), columns), columns);
         return new double[] {
             Math.toDegrees((band + 0.5) * height - POLE), Math.toDegrees((column + 0.5) * CIRCLE / columns - Math.PI)
         };
@@ -95,6 +100,6 @@ final class Grid implements Serializable {
 
     /** One to one, with bits spread so that neighbouring cells fall into different key groups and hash buckets. */
     private static long id(int band, int column) {
-        return ((long) band << 32 | column) * 0x9E3779B97F4A7C15L;
+        return ((long) band << 32 | column) * SPREAD;
     }
 }

@@ -1,28 +1,37 @@
 package io.furrow.analytics.collision;
 
-import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
+import java.util.function.Consumer;
 
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.api.common.state.OperatorStateStore;
 import org.apache.flink.metrics.Counter;
+import org.apache.flink.runtime.state.StateInitializationContext;
+import org.apache.flink.runtime.state.StateSnapshotContext;
+import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.eventtime.EventTimeOperator;
+import io.furrow.analytics.format.FormatType;
+import io.furrow.flink.EventTimeReached;
 
 /**
  * Finds the close pairs of each grid cell. Key: the cell's id.
  *
- * <p><b>State</b>: updates that wait for the watermark, the devices in the cell and around it, the pairs that are
- * followed where their number is limited.
+ * <p><b>State</b>: updates that wait for the watermark, the devices in the cell and around it with the shortlists of those in
+ * crowds, what was told of crowds within the last minute; per subtask how far event time has come and the rules, because
+ * restored with others it must know who was close by those of before.
  *
- * <p><b>Cleared</b>: when the last device has gone, no pair is close and no update waits.
+ * <p><b>Cleared</b>: when the last device has gone, no update waits and there is nothing to tell of a crowd.
  *
  * <p><b>Late</b>: nothing can be, the stage before acts before it forwards a watermark.
  *
- * <p><b>Emits</b>: a sighting for each instant at which a pair is or was close and either device reported or left.
- * What the limit leaves out goes to {@link #OVERFLOWS} and is counted as {@code pairs.left-out}.
+ * <p><b>Emits</b>: a sighting for each instant at which a pair that is followed is or was close and either device reported or
+ * left. Crowds go to {@link #OVERFLOWS}; {@code pairs.left-out} counts the pairs without an encounter that these tell of.
  */
 public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, Sighting> {
     static final OutputTag<CellOverflow> OVERFLOWS = new OutputTag<>("overflows") {
@@ -31,17 +40,22 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
 
     private static final long serialVersionUID = 1L;
 
-    private final Proximity proximity;
-    private final PairLimit limit;
-    private final Grid grid;
+    private final Matching matching;
+    private final ReportCrowds crowds;
 
+    private final KnownRules rules;
+
+    private transient ListState<RulesUntil> knownRules;
+    private transient MatchingHistory history;
+    private transient EventTimeReached reached;
     private transient Counter leftOut;
+    private transient Consumer<CellOverflow> overflows;
 
     MatchPairs(CollisionRules rules) {
         super(new PendingUpdatesFormat());
-        proximity = new Proximity(rules.exact());
-        limit = new PairLimit(rules);
-        grid = new Grid(rules.exact());
+        this.rules = KnownRules.of(rules.exact());
+        matching = new Matching(rules.exact());
+        crowds = new ReportCrowds(matching, new Grid(rules.exact()));
     }
 
     @Override
@@ -50,62 +64,62 @@ public final class MatchPairs extends EventTimeOperator<Long, CellUpdate, Cell, 
     }
 
     @Override
+    public void initializeState(StateInitializationContext context) throws Exception {
+        super.initializeState(context);
+        OperatorStateStore store = context.getOperatorStateStore();
+        reached = EventTimeReached.restore(store, getRuntimeContext().getTaskInfo());
+        knownRules =
+                store.getUnionListState(new ListStateDescriptor<>("rules", new FormatType<>(new RulesUntilFormat())));
+        history = new MatchingHistory(rules, matching);
+        history.restore(knownRules.get(), reached.furthest());
+    }
+
+    @Override
     public void open() throws Exception {
         super.open();
         leftOut = getMetricGroup().counter("pairs.left-out");
+        overflows = overflow -> {
+            leftOut.inc(overflow.pairsLeftOut());
+            output.collect(OVERFLOWS, new StreamRecord<>(overflow));
+        };
     }
 
     @Override
     protected Cell apply(Long id, Cell before, List<CellUpdate> due, long until, Collector<Sighting> out) {
         Cell now = before == null ? Cell.empty() : before;
-        if (limit.isNone()) {
-            now.apply(due, proximity, out::collect);
-        } else {
-            applyLimited(id, now, due, out);
+        int from = 0;
+        while (from < due.size()) {
+            int to = Cell.endOfInstant(due, from);
+            long time = due.get(from).time();
+            crowds.advance(id, now, time - 1, overflows);
+            now.applyAtOnce(due.subList(from, to), history.before(time), history.from(time), out::collect);
+            if (now.devices() == 0 && history.isTurn(time)) {
+                now.report(null); // a cell of the grid that was
+            }
+            crowds.applied(id, now, time, overflows);
+            from = to;
         }
+        crowds.advance(id, now, until, overflows);
         return now.isEmpty() ? null : now;
     }
 
-    /** Instant by instant, so that what is told of an instant does not depend on how far the watermark went. */
-    private void applyLimited(long id, Cell cell, List<CellUpdate> due, Collector<Sighting> out) {
-        int from = 0;
-        while (from < due.size()) {
-            int to = from + 1;
-            while (to < due.size() && due.get(to).time() == due.get(from).time()) {
-                to++;
-            }
-            List<Sighting> seen = new ArrayList<>();
-            cell.apply(due.subList(from, to), proximity, seen::add);
-            cell.crowd(limit.apply(cell.crowd(), seen, new Limited(id, cell, out)));
-            from = to;
-        }
+    @Override
+    public void processWatermark(Watermark mark) throws Exception {
+        super.processWatermark(mark);
+        reached.advance(mark.getTimestamp());
+        history.passed(mark.getTimestamp());
     }
 
-    /** Where the pairs of a cell go. */
-    private final class Limited implements PairLimit.Output {
-        private final long id;
-        private final Cell cell;
-        private final Collector<Sighting> out;
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
+        reached.snapshot();
+        knownRules.update(history.toSave());
+    }
 
-        Limited(long id, Cell cell, Collector<Sighting> out) {
-            this.id = id;
-            this.cell = cell;
-            this.out = out;
-        }
-
-        @Override
-        public void sighting(Sighting sighting) {
-            out.collect(sighting);
-        }
-
-        @Override
-        public void overflow(Crowd now, Sighting cause) {
-            output.collect(OVERFLOWS, new StreamRecord<>(now.overflow(cause, cell.devices(), id, grid)));
-        }
-
-        @Override
-        public void leftOut() {
-            leftOut.inc();
-        }
+    /** When the next minute is full. */
+    @Override
+    protected long expiry(Cell cell) {
+        return cell.report() == null ? NEVER : cell.report().next();
     }
 }

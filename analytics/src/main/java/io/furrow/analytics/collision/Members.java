@@ -93,8 +93,17 @@ final class Members {
         return removed;
     }
 
-    /** Adds all to {@code close} that are close to a member, who is not one of these itself. */
-    void closeTo(Member member, Proximity proximity, List<Member> close) {
+    /** Adds all others to {@code near} that are close to a member, halo copies of a halo copy too. */
+    void near(Member member, Proximity proximity, List<Member> near) {
+        find(member, proximity, false, near);
+    }
+
+    /** Adds all to {@code partners} with whom a member has an encounter; in a crowd few of those that are close. */
+    void partners(Member member, Proximity proximity, List<Member> partners) {
+        find(member, proximity, true, partners);
+    }
+
+    private void find(Member member, Proximity proximity, boolean followed, List<Member> found) {
         if (size == 0) {
             return;
         }
@@ -104,12 +113,12 @@ final class Members {
         int lastV = index(v + margin);
         for (int i = index(u - margin); i <= lastU; i++) {
             for (int j = index(v - margin); j <= lastV; j++) {
-                closeTo(member, square(i, j), proximity, close);
+                find(member, square(i, j), proximity, followed, found);
             }
         }
     }
 
-    private void closeTo(Member member, long square, Proximity proximity, List<Member> close) {
+    private void find(Member member, long square, Proximity proximity, boolean followed, List<Member> found) {
         double limit = reach * reach;
         for (int n = firstInSquare[slot(square, firstInSquare)]; n != NONE; n = nextInSquare[n]) {
             if (squares[n] == square
@@ -117,8 +126,10 @@ final class Members {
                                     + Geodesy.square(member.y() - coordinates[3 * n + 1])
                                     + Geodesy.square(member.z() - coordinates[3 * n + 2])
                             <= limit
-                    && proximity.holds(member, members[n])) {
-                close.add(members[n]);
+                    && (!followed || Matching.meet(member, members[n]) && Matching.follows(member, members[n]))
+                    && proximity.near(member, members[n])
+                    && members[n] != member) {
+                found.add(members[n]);
             }
         }
     }

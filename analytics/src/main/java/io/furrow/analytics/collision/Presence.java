@@ -1,11 +1,34 @@
 package io.furrow.analytics.collision;
 
+import java.io.IOException;
+
 /** What a device is to a grid cell. */
 public enum Presence {
     /** It stands in the cell. */
-    RESIDENT,
+    RESIDENT(0),
     /** It stands in a lesser cell, and its surroundings touch this one. */
-    HALO,
+    HALO(1),
     /** Neither any more. */
-    GONE
+    GONE(2);
+
+    private final int code;
+
+    Presence(int code) {
+        this.code = code;
+    }
+
+    /** By which savepoints know it; never changes. */
+    int code() {
+        return code;
+    }
+
+    /** @throws IOException if no presence has this code */
+    static Presence of(int code) throws IOException {
+        return switch (code) {
+            case 0 -> RESIDENT;
+            case 1 -> HALO;
+            case 2 -> GONE;
+            default -> throw new IOException("no presence has the code " + code);
+        };
+    }
 }

@@ -44,15 +44,26 @@ public final class Proximity implements Serializable {
 
     /** Two halo copies are not compared here: they meet in a cell where one of them is at home. */
     public boolean holds(Member a, Member b) {
-        double squaredChord =
-                Geodesy.square(a.x() - b.x()) + Geodesy.square(a.y() - b.y()) + Geodesy.square(a.z() - b.z());
-        if (squaredChord > greatest.surelyApart || !a.resident() && !b.resident()) {
-            return false;
-        }
-        return within(limit(a.fix().type(), b.fix().type()), squaredChord, a, b)
+        return Matching.meet(a, b) && near(a, b);
+    }
+
+    /** Whether two devices are close, wherever they are at home. */
+    boolean near(Member a, Member b) {
+        double squaredChord = squaredChord(a, b);
+        return squaredChord <= greatest.surelyApart
+                && within(limit(a.fix().type(), b.fix().type()), squaredChord, a, b)
                 && Math.abs(a.fix().time() - b.fix().time()) <= maxSkewMillis
                 && a.fix().topic().equals(b.fix().topic())
                 && !a.fix().sharesAggregateWith(b.fix());
+    }
+
+    /** Of two close devices the square of their distance, as a share of that of their threshold. */
+    double nearness(Member a, Member b) {
+        return squaredChord(a, b) / limit(a.fix().type(), b.fix().type()).surelyApart;
+    }
+
+    private static double squaredChord(Member a, Member b) {
+        return Geodesy.square(a.x() - b.x()) + Geodesy.square(a.y() - b.y()) + Geodesy.square(a.z() - b.z());
     }
 
     private static boolean within(Limit limit, double squaredChord, Member a, Member b) {

@@ -17,7 +17,8 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p><b>State</b>: exact records that wait, the newest glimpse's versions, and what is provisional.
  *
- * <p><b>Cleared</b>: when no record waits, the pair is apart, all is decided, and the watermark has passed the newest versions.
+ * <p><b>Cleared</b>: when no record waits, the pair is apart or has not been seen for a time-to-live, all is decided, and the
+ * watermark has passed the newest versions.
  *
  * <p><b>Late</b>: a glimpse that knows less than the newest is passed over.
  *
@@ -29,11 +30,13 @@ final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse,
     private static final long serialVersionUID = 1L;
 
     private final long dwell;
+    private final long timeToLive;
     private transient OneTimer timer;
     private transient Inbox<Encounter> exact;
     private transient ValueState<Alarm> alarm;
 
     RaiseAlarms(CollisionRules rules) {
+        timeToLive = rules.timeToLive().toMillis();
         // A start comes at the first instant after its dwell.
         dwell = rules.steadiness().dwell().isZero()
                 ? 0
@@ -67,7 +70,7 @@ final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse,
             now = now.after(encounter, out::collect);
         }
         now = now.decided(watermark - dwell, out::collect);
-        if (now.isOver(watermark)) {
+        if (now.isOver(watermark, timeToLive)) {
             alarm.clear();
         } else {
             remember(now, context.timerService());
@@ -76,10 +79,7 @@ final class RaiseAlarms extends KeyedCoProcessFunction<Pair, Encounter, Glimpse,
 
     private void remember(Alarm now, TimerService timers) throws Exception {
         alarm.update(now);
-        long next = now.nextDecision(dwell);
-        if (next != Alarm.NEVER) {
-            timer.ask(next, timers);
-        }
+        timer.ask(now.nextDecision(dwell, timeToLive), timers);
     }
 
     private Alarm known() throws Exception {

@@ -8,7 +8,10 @@ import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
+import io.furrow.flink.AheadLimit;
 import io.furrow.flink.DeadLetters;
+import io.furrow.flink.Epochs;
+import io.furrow.flink.ReplayKind;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -18,9 +21,9 @@ import io.furrow.model.ngsi.PositionReading;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Takes the positions out of reported entities, at the time of their record. Unreadable records become dead letters, counted
- * as {@code rejected}. Everything else that is no position is counted: {@code skipped} (a deletion, a result, an entity
- * without one), {@code positions.faulty} (one that cannot be right).
+ * Takes the positions out of reported entities, at the event time of their record. Unreadable records and those from the future, counted as {@code
+ * rejected}, become dead letters, but those of {@code data.raw}, which {@code ingest} sets aside. Everything else that is no position is
+ * counted: {@code skipped} (a deletion, a result, an entity without one), {@code positions.faulty} (one that cannot be right).
  */
 final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
     private static final long serialVersionUID = 1L;
@@ -30,10 +33,15 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
 
     private static final Set<String> ATTRIBUTES = Set.of("Mission", "carriedBy", "refRobot", "speed", "heading");
 
+    private final AheadLimit ahead;
     private transient EntityReader entity;
     private transient Counter rejected;
     private transient Counter skipped;
     private transient Counter faulty;
+
+    ReadPositions(AheadLimit ahead) {
+        this.ahead = ahead;
+    }
 
     @Override
     public void open(OpenContext context) {
@@ -51,19 +59,26 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
             return;
         }
         try {
-            entity.read(record.value());
-            if (entity.type().startsWith(OWN_TYPES)) {
+            ahead.check(record);
+            Epochs.timeOf(record); // refuses what tells none, an end too
+            boolean isEnd = ReplayKind.of(record) == ReplayKind.END;
+            if (!isEnd) {
+                entity.read(record.value());
+            }
+            if (isEnd || entity.type().startsWith(OWN_TYPES)) {
                 skipped.inc();
             } else {
                 located(record, out);
             }
         } catch (UnreadableException e) {
             rejected.inc();
-            context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
+            if (!DeadLetters.areOfIngest(record)) {
+                context.output(DeadLetters.TAG, DeadLetters.of(record, e, STAGE));
+            }
         }
     }
 
-    private void located(TopicRecord record, Collector<PositionFix> out) {
+    private void located(TopicRecord record, Collector<PositionFix> out) throws UnreadableException {
         PositionReading reading = entity.position();
         if (reading instanceof PositionReading.Located located) {
             out.collect(fix(located.position(), record));
@@ -74,7 +89,7 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
         }
     }
 
-    private PositionFix fix(Position position, TopicRecord record) {
+    private PositionFix fix(Position position, TopicRecord record) throws UnreadableException {
         FiwareScope scope = FiwareScope.of(
                 record.headers().get(HeaderNames.SERVICE), record.headers().get(HeaderNames.SERVICE_PATH));
         String carrier =
@@ -90,7 +105,7 @@ final class ReadPositions extends ProcessFunction<TopicRecord, PositionFix> {
                 position.longitude(),
                 within(entity.number("speed"), Double.MAX_VALUE),
                 within(entity.number("heading"), 360),
-                record.timestamp());
+                Epochs.timeOf(record));
     }
 
     private static double within(double number, double greatest) {

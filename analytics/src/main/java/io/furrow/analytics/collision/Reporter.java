@@ -9,6 +9,7 @@ import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputSerializer;
 import org.apache.flink.core.memory.DataOutputView;
 
+import io.furrow.analytics.format.SharedByTasks;
 import io.furrow.analytics.format.Text;
 
 /**
@@ -23,7 +24,7 @@ public final class Reporter {
     private static final int WAYS = 4;
 
     private static final int SPREAD = 0x9E3779B9;
-    private static final Reporter[] KNOWN = new Reporter[1 << SLOT_BITS];
+    private static final SharedByTasks<Reporter[]> KNOWN = new SharedByTasks<>(() -> new Reporter[1 << SLOT_BITS]);
 
     private final Device device;
     private final String id;
@@ -50,13 +51,15 @@ public final class Reporter {
      */
     public static Reporter of(Device device, String id, String type, String mission, String carrier) {
         int slot = slot(device.hashCode());
+        Reporter[] all = KNOWN.get();
         for (int way = 0; way < WAYS; way++) {
-            Reporter known = KNOWN[slot ^ way];
+            Reporter known = all[slot ^ way];
             if (known != null && known.has(device, id, type, mission, carrier)) {
                 return known;
             }
         }
-        return keep(new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier)), slot);
+        return keep(
+                new Reporter(device, id, type, mission, carrier, block(device, id, type, mission, carrier)), slot, all);
     }
 
     private boolean has(Device device, String id, String type, String mission, String carrier) {
@@ -68,12 +71,12 @@ public final class Reporter {
     }
 
     /** In an empty place, else in the first. Of two threads that take one place the later is remembered; either is right. */
-    private static Reporter keep(Reporter reporter, int slot) {
+    private static Reporter keep(Reporter reporter, int slot, Reporter[] all) {
         int way = WAYS - 1;
-        while (way > 0 && KNOWN[slot ^ way] != null) {
+        while (way > 0 && all[slot ^ way] != null) {
             way--;
         }
-        KNOWN[slot ^ way] = reporter;
+        all[slot ^ way] = reporter;
         return reporter;
     }
 
@@ -111,13 +114,14 @@ public final class Reporter {
         int slot = slot(in.readInt());
         byte[] block = new byte[in.readInt()];
         in.readFully(block);
+        Reporter[] all = KNOWN.get();
         for (int way = 0; way < WAYS; way++) {
-            Reporter known = KNOWN[slot ^ way];
+            Reporter known = all[slot ^ way];
             if (known != null && Arrays.equals(known.block, block)) {
                 return known;
             }
         }
-        return keep(decoded(block), slot);
+        return keep(decoded(block), slot, all);
     }
 
     private static Reporter decoded(byte[] block) throws IOException {

@@ -77,19 +77,19 @@ final class RuleOptions {
             names = "--cell",
             paramLabel = "METERS",
             description = "Height of a grid cell, at least the greatest threshold times --leave-factor. Changes speed "
-                    + "only, and with --pairs-per-cell what is left out: smaller where devices crowd, larger where they "
-                    + "are sparse. Default: 20 times that.")
+                    + "only, and which pairs of a crowd beyond the nearest are followed: smaller where devices are "
+                    + "dense, larger where they are sparse. Default: 20 times that.")
     private Double cell;
 
     @Option(
-            names = "--pairs-per-cell",
+            names = "--crowd",
             paramLabel = "N",
-            defaultValue = "0",
+            defaultValue = "" + CellRules.CROWD,
             description =
-                    "How many pairs of one grid cell are followed at once; what is left out is reported. 0 follows "
-                            + "all. Set it where so many devices may stand together that their pairs are too many. Default: "
-                            + "${DEFAULT-VALUE}.")
-    private int pairsPerCell;
+                    "A device with more than N others close to it is in a crowd: of so many others its nearest N * N / "
+                            + "others are followed, and --overflow-output tells of it. 0 follows all: then the cost of "
+                            + "devices on one spot grows with their square. Default: ${DEFAULT-VALUE}.")
+    private int crowd;
 
     /**
      * @throws IllegalArgumentException if no job could go by them; the message names what is wrong
@@ -104,6 +104,6 @@ final class RuleOptions {
                 new PositionRules(timeToLive, maxSkew, places),
                 steadiness,
                 ongoingEvery,
-                new CellRules(cell == null ? CellRules.THRESHOLDS * reach : cell, pairsPerCell));
+                new CellRules(cell == null ? CellRules.THRESHOLDS * reach : cell, crowd));
     }
 }

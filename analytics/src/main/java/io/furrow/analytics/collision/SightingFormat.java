@@ -10,10 +10,8 @@ import io.furrow.analytics.format.Format;
 /** How a {@link Sighting} is written. */
 public final class SightingFormat extends Format<Sighting> {
     private static final long serialVersionUID = 1L;
-    /** Both fixes in their version 1, time, change. */
-    private static final int VERSION = 1;
-
-    private static final int FIX_VERSION = 1;
+    /** Both fixes as parts, time, change. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
 
     @Override
     public Class<Sighting> type() {
@@ -27,20 +25,20 @@ public final class SightingFormat extends Format<Sighting> {
 
     @Override
     public void write(Sighting sighting, DataOutputView out) throws IOException {
-        PositionFixFormat.INSTANCE.write(sighting.first(), out);
-        PositionFixFormat.INSTANCE.write(sighting.second(), out);
+        PositionFixFormat.INSTANCE.writePart(sighting.first(), out);
+        PositionFixFormat.INSTANCE.writePart(sighting.second(), out);
         out.writeLong(sighting.time());
         out.writeByte(sighting.change());
     }
 
     @Override
     public Sighting read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
         return new Sighting(
-                PositionFixFormat.INSTANCE.read(FIX_VERSION, in),
-                PositionFixFormat.INSTANCE.read(FIX_VERSION, in),
+                PositionFixFormat.INSTANCE.readPart(version, in),
+                PositionFixFormat.INSTANCE.readPart(version, in),
                 in.readLong(),
                 in.readByte());
     }

@@ -23,13 +23,13 @@ import org.apache.flink.util.Collector;
 final class SpotPairs extends KeyedProcessFunction<Long, Arrival, Glimpse> {
     private static final long serialVersionUID = 1L;
 
-    private final Proximity proximity;
+    private final Matching matching;
     private final long timeToLive;
     private transient ValueState<Arrivals> arrivals;
     private transient ValueState<Long> timer;
 
     SpotPairs(CollisionRules rules) {
-        proximity = new Proximity(rules.whileBothCount());
+        matching = new Matching(rules.whileBothCount());
         timeToLive = rules.timeToLive().toMillis();
     }
 
@@ -43,7 +43,7 @@ final class SpotPairs extends KeyedProcessFunction<Long, Arrival, Glimpse> {
     public void processElement(Arrival arrival, Context context, Collector<Glimpse> out) throws Exception {
         Arrivals known = arrivals.value();
         Arrivals now = known == null ? new Arrivals() : known;
-        now.apply(arrival, proximity, out::collect);
+        now.apply(arrival, matching, out::collect);
         arrivals.update(now);
         ring(Arrivals.passes(arrival, timeToLive), context.timerService());
     }
@@ -52,7 +52,7 @@ final class SpotPairs extends KeyedProcessFunction<Long, Arrival, Glimpse> {
     public void onTimer(long time, OnTimerContext context, Collector<Glimpse> out) throws Exception {
         timer.clear();
         Arrivals now = arrivals.value();
-        now.pass(context.timerService().currentWatermark(), timeToLive, proximity, out::collect);
+        now.pass(context.timerService().currentWatermark(), timeToLive, matching, out::collect);
         if (now.isEmpty()) {
             arrivals.clear();
         } else {

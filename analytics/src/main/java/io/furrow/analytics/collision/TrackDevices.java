@@ -5,7 +5,6 @@ import java.util.List;
 
 import org.apache.flink.api.common.state.ListState;
 import org.apache.flink.api.common.state.ListStateDescriptor;
-import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.runtime.state.StateInitializationContext;
 import org.apache.flink.runtime.state.StateSnapshotContext;
@@ -14,17 +13,22 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
+import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.eventtime.EventTimeOperator;
+import io.furrow.analytics.format.FormatType;
+import io.furrow.flink.EventTimeReached;
 
 /**
  * Puts each device into the grid cells that have to know of it. Key: the device.
  *
- * <p><b>State</b>: positions that wait for the watermark, the newest that counts with its cells; per subtask how far
- * event time has come, because a restored job starts without a watermark and must not go back behind what it has told.
+ * <p><b>State</b>: positions that wait for the watermark, the newest that counts with its cells; how far event time
+ * has come, because a restored job starts without a watermark and must not go back behind what it has told; the rules,
+ * because restored with others it tells all cells anew.
  *
  * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
  *
- * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}.
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device told of no newer one.
+ * So does, to {@code LATE}, a position of which {@value #MOST_WAITING} wait, counted as {@code crowded-out}.
  *
  * <p><b>Emits</b>: updates of cells, a device's in the order of their time, before the watermark that brings them about.
  */
@@ -33,20 +37,30 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         private static final long serialVersionUID = 1L;
     };
 
-    /** Every position that is not late, as soon as it arrives. */
+    static final OutputTag<LaggingPosition> LAGGING = new OutputTag<>("lagging") {
+        private static final long serialVersionUID = 1L;
+    };
+
+    /** As soon as it arrives, every position that is not late, and the newest of a device that is, as long as it counts. */
     static final OutputTag<PositionFix> ACCEPTED = new OutputTag<>("accepted") {
         private static final long serialVersionUID = 1L;
     };
+
+    /** Positions of a device. */
+    static final int MOST_WAITING = 100_000;
 
     private static final long serialVersionUID = 1L;
 
     private final boolean eager;
     private final Tracker tracker;
+    private final KnownRules rules;
 
-    private transient ListState<Long> progress;
-    private transient long reached;
+    private transient ListState<KnownRules> knownRules;
+    private transient boolean rulesChanged;
+    private transient EventTimeReached reached;
     private transient Counter accepted;
     private transient Counter late;
+    private transient Counter crowdedOut;
 
     TrackDevices(CollisionRules rules) {
         this(rules, false);
@@ -56,6 +70,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     TrackDevices(CollisionRules rules, boolean eager) {
         super(new PendingFixesFormat());
         this.eager = eager;
+        this.rules = KnownRules.of(rules.exact());
         tracker = new Tracker(rules.exact());
     }
 
@@ -67,11 +82,12 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     @Override
     public void initializeState(StateInitializationContext context) throws Exception {
         super.initializeState(context);
-        progress = context.getOperatorStateStore()
-                .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
-        reached = Long.MIN_VALUE;
-        for (long each : progress.get()) {
-            reached = Math.max(reached, each);
+        reached = EventTimeReached.restore(
+                context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
+        knownRules = context.getOperatorStateStore()
+                .getUnionListState(new ListStateDescriptor<>("rules", new FormatType<>(new KnownRulesFormat())));
+        for (KnownRules each : knownRules.get()) {
+            rulesChanged |= !each.equals(rules);
         }
     }
 
@@ -80,25 +96,48 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
         super.open();
         accepted = getMetricGroup().counter("accepted");
         late = getMetricGroup().counter("late");
+        crowdedOut = getMetricGroup().counter("crowded-out");
+        if (rulesChanged) {
+            long now = reached.furthest();
+            revise((track, out) -> tracker.renew(track, now, out::collect));
+        }
     }
 
     @Override
     public void processElement(StreamRecord<PositionFix> record) throws Exception {
-        if (record.getValue().time() <= reached) {
+        PositionFix fix = record.getValue();
+        if (reached.hasPassed(fix.time(), fix.device())) {
             late.inc();
+            seeLagging(fix);
             output.collect(LATE, record);
+        } else if (!offer(fix, MOST_WAITING)) {
+            crowdedOut.inc();
+            output.collect(LATE, record);
+        } else {
+            accepted.inc();
+            if (eager) {
+                output.collect(ACCEPTED, record);
+            }
+        }
+    }
+
+    private void seeLagging(PositionFix fix) {
+        long counted = newest(fix.device(), track -> track.last().time());
+        if (fix.time() <= counted) {
             return;
         }
-        accepted.inc();
-        super.processElement(record);
-        if (eager) {
-            output.collect(ACCEPTED, record);
+        long passed = reached.of(fix.device());
+        LaggingPosition lagging =
+                new LaggingPosition(fix.topic(), fix.identity(), fix.id(), fix.mission(), fix.time(), passed, counted);
+        output.collect(LAGGING, new StreamRecord<>(lagging, fix.time()));
+        if (eager && tracker.expiry(fix) > passed) {
+            output.collect(ACCEPTED, new StreamRecord<>(fix, fix.time()));
         }
     }
 
     @Override
     public void processWatermark(Watermark mark) throws Exception {
-        reached = Math.max(reached, mark.getTimestamp());
+        reached.advance(mark.getTimestamp());
         super.processWatermark(mark);
     }
 
@@ -115,6 +154,7 @@ public final class TrackDevices extends EventTimeOperator<Device, PositionFix, T
     @Override
     public void snapshotState(StateSnapshotContext context) throws Exception {
         super.snapshotState(context);
-        progress.update(List.of(reached));
+        reached.snapshot();
+        knownRules.update(List.of(rules));
     }
 }

@@ -10,10 +10,8 @@ import io.furrow.analytics.format.Format;
 /** How a {@link Track} is written. */
 public final class TrackFormat extends Format<Track> {
     private static final long serialVersionUID = 1L;
-    /** The fix in its version 1, number of cells, cells. */
-    private static final int VERSION = 1;
-
-    private static final int FIX_VERSION = 1;
+    /** The fix as a part, number of cells, cells. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
 
     @Override
     public Class<Track> type() {
@@ -27,7 +25,7 @@ public final class TrackFormat extends Format<Track> {
 
     @Override
     public void write(Track track, DataOutputView out) throws IOException {
-        PositionFixFormat.INSTANCE.write(track.last(), out);
+        PositionFixFormat.INSTANCE.writePart(track.last(), out);
         out.writeInt(track.cells().length);
         for (long cell : track.cells()) {
             out.writeLong(cell);
@@ -36,10 +34,10 @@ public final class TrackFormat extends Format<Track> {
 
     @Override
     public Track read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
-        PositionFix last = PositionFixFormat.INSTANCE.read(FIX_VERSION, in);
+        PositionFix last = PositionFixFormat.INSTANCE.readPart(version, in);
         long[] cells = new long[in.readInt()];
         for (int i = 0; i < cells.length; i++) {
             cells[i] = in.readLong();

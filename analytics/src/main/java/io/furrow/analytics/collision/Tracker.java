@@ -39,17 +39,26 @@ public final class Tracker implements Serializable {
 
     /** The first instant at which the track's position counts no more. */
     long expiry(Track track) {
-        return track.last().time() + timeToLive;
+        return expiry(track.last());
+    }
+
+    /** The same of a position. */
+    long expiry(PositionFix fix) {
+        return fix.time() + timeToLive;
     }
 
     private Track expire(Track track, long until, Consumer<CellUpdate> out) {
         if (track == null || expiry(track) > until) {
             return track;
         }
-        for (long cell : track.cells()) {
-            out.accept(new CellUpdate(cell, expiry(track), Presence.GONE, track.last()));
-        }
+        leave(track, expiry(track), out);
         return null;
+    }
+
+    private static void leave(Track track, long time, Consumer<CellUpdate> out) {
+        for (long cell : track.cells()) {
+            out.accept(new CellUpdate(cell, time, Presence.GONE, track.last()));
+        }
     }
 
     /**
@@ -58,16 +67,34 @@ public final class Tracker implements Serializable {
      * @param track null where it was nowhere
      */
     public Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
+        return place(track, fix, fix.time(), out);
+    }
+
+    /**
+     * The same track in this grid, all its cells told anew; null where its position counts no more.
+     *
+     * @param track made by other rules
+     * @param time of the updates
+     */
+    Track renew(Track track, long time, Consumer<CellUpdate> out) {
+        if (expiry(track) <= time) {
+            leave(track, time, out);
+            return null;
+        }
+        return place(track, track.last(), time, out);
+    }
+
+    private Track place(Track track, PositionFix fix, long time, Consumer<CellUpdate> out) {
         boolean excluded = zones.cover(fix.latitude(), fix.longitude());
         long[] cells = excluded ? NO_CELLS : grid.cells(fix.latitude(), fix.longitude());
         for (long left : track == null ? NO_CELLS : track.cells()) {
             if (!contains(cells, left)) {
-                out.accept(new CellUpdate(left, fix.time(), Presence.GONE, track.last()));
+                out.accept(new CellUpdate(left, time, Presence.GONE, track.last()));
             }
         }
         for (int i = 0; i < cells.length; i++) {
             Presence presence = i == 0 ? Presence.RESIDENT : Presence.HALO;
-            out.accept(new CellUpdate(cells[i], fix.time(), presence, fix));
+            out.accept(new CellUpdate(cells[i], time, presence, fix));
         }
         return new Track(fix, cells);
     }

@@ -10,6 +10,8 @@ import java.util.NavigableMap;
 import java.util.PriorityQueue;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.function.BiFunction;
+import java.util.function.ToLongFunction;
 
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
@@ -143,6 +145,21 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         }
     }
 
+    /**
+     * Replaces what is remembered of each key, null for nothing; before the first message.
+     *
+     * @param revision takes what is remembered and what takes records
+     */
+    protected final void revise(BiFunction<S, Collector<O>, S> revision) {
+        for (Slot<K, M, S> slot : List.copyOf(slots.values())) {
+            if (slot.remembered != null) {
+                slot.remembered = revision.apply(slot.remembered, out);
+                slot.changed = true;
+                settle(slot);
+            }
+        }
+    }
+
     @Override
     public void open() throws Exception {
         super.open();
@@ -155,11 +172,40 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
 
     @Override
     public void processElement(StreamRecord<M> record) throws Exception {
-        M message = record.getValue();
+        offer(record.getValue(), Integer.MAX_VALUE);
+    }
+
+    /**
+     * Lets a message wait for the watermark, unless so many of its key do.
+     *
+     * @return whether it waits
+     */
+    protected final boolean offer(M message, int most) throws Exception {
         Slot<K, M, S> slot = slots.computeIfAbsent(keyOf.getKey(message), Slot::new);
+        if (slot.waiting.size() >= most) {
+            return false;
+        }
         slot.waiting.add(message);
         slot.changed = true;
         await(slot, message.time());
+        return true;
+    }
+
+    /**
+     * The newest time of what waits of a key and of what is remembered of it; {@link Long#MIN_VALUE} where there is neither.
+     *
+     * @param time of what is remembered
+     */
+    protected final long newest(K key, ToLongFunction<S> time) {
+        Slot<K, M, S> slot = slots.get(key);
+        if (slot == null) {
+            return Long.MIN_VALUE;
+        }
+        long newest = slot.remembered == null ? Long.MIN_VALUE : time.applyAsLong(slot.remembered);
+        for (M message : slot.waiting) {
+            newest = Math.max(newest, message.time());
+        }
+        return newest;
     }
 
     private void await(Slot<K, M, S> slot, long time) {
@@ -204,6 +250,11 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         S now = apply(slot.key, slot.remembered, due, until, out);
         slot.changed |= !due.isEmpty() || now != slot.remembered;
         slot.remembered = now;
+        settle(slot);
+    }
+
+    /** Forgets a key without anything, and sees to it that one with something is looked at in time. */
+    private void settle(Slot<K, M, S> slot) {
         if (slot.isEmpty()) {
             slots.remove(slot.key, slot);
             if (slot.saved) {
@@ -214,8 +265,8 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         if (!slot.waiting.isEmpty()) {
             await(slot, slot.earliest());
         }
-        if (now != null) {
-            expireAt(slot, expiry(now));
+        if (slot.remembered != null) {
+            expireAt(slot, expiry(slot.remembered));
         }
     }
 

@@ -35,6 +35,30 @@ public final class Inbox<T extends Timed> {
         timer.ask(message.time(), timers);
     }
 
+    /**
+     * The same, unless so many wait already.
+     *
+     * @return whether it waits
+     */
+    public boolean offer(T message, int most, TimerService timers) throws Exception {
+        List<T> before = waiting.value();
+        if (before != null && before.size() >= most) {
+            return false;
+        }
+        add(message, timers);
+        return true;
+    }
+
+    /** The newest time of what waits; {@link Long#MIN_VALUE} where nothing does. */
+    public long newest() throws Exception {
+        List<T> all = waiting.value();
+        long newest = Long.MIN_VALUE;
+        for (T message : all == null ? List.<T>of() : all) {
+            newest = Math.max(newest, message.time());
+        }
+        return newest;
+    }
+
     public boolean isEmpty() throws Exception {
         return waiting.value() == null;
     }

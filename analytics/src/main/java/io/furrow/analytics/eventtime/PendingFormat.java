@@ -10,8 +10,11 @@ import io.furrow.analytics.format.Format;
 /** How a {@link Pending} is written; a subclass says what its messages and its remembered value are. */
 public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M, S>> {
     private static final long serialVersionUID = 1L;
-    /** Number of messages, messages, whether something is remembered, what it is. */
-    private static final int VERSION = 1;
+    /**
+     * Number of messages, messages as parts, whether something is remembered, what it is as a part. In versions 1 and 2 messages are
+     * without their version, which was 1, and so is what is remembered, of which it was that of the whole.
+     */
+    private static final int VERSION = 3;
 
     private final Format<M> messages;
     private final Format<S> remembered;
@@ -27,7 +30,6 @@ public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M
         return (Class<Pending<M, S>>) (Class<?>) Pending.class;
     }
 
-    /** Higher than the version of each part, so that it rises when one of them does. */
     @Override
     public final int version() {
         return VERSION;
@@ -37,24 +39,27 @@ public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M
     public final void write(Pending<M, S> pending, DataOutputView out) throws IOException {
         out.writeInt(pending.waiting.size());
         for (M message : pending.waiting) {
-            messages.write(message, out);
+            messages.writePart(message, out);
         }
         out.writeBoolean(pending.remembered != null);
         if (pending.remembered != null) {
-            remembered.write(pending.remembered, out);
+            remembered.writePart(pending.remembered, out);
         }
     }
 
     @Override
     public final Pending<M, S> read(int version, DataInputView in) throws IOException {
-        if (version != VERSION) {
+        if (version < 1 || version > VERSION) {
             throw unknown(version);
         }
+        boolean versions = version == VERSION;
         Pending<M, S> pending = new Pending<>();
         for (int left = in.readInt(); left > 0; left--) {
-            pending.waiting.add(messages.read(1, in));
+            pending.waiting.add(versions ? messages.readPart(in) : messages.read(1, in));
         }
-        pending.remembered = in.readBoolean() ? remembered.read(1, in) : null;
+        if (in.readBoolean()) {
+            pending.remembered = versions ? remembered.readPart(in) : remembered.read(version, in);
+        }
         return pending;
     }
 

@@ -3,7 +3,6 @@ package io.furrow.analytics.field;
 import java.util.List;
 import java.util.Optional;
 
-import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
@@ -17,15 +16,20 @@ import io.furrow.model.field.FieldVersion;
 /**
  * How a job learns of the fields.
  *
- * @param records of {@code service.fields}, from its beginning and all that come
+ * @param topic {@code service.fields}, from its beginning and all that come; empty for fields that never change
  * @param atStart those that are known before the first event
  */
-public record FieldInput(DataStream<TopicRecord> records, TopicAtStart atStart) {
+public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicAtStart atStart) {
+    /** Fields of a topic that is read beside the events. */
+    public FieldInput(DataStream<TopicRecord> topic, TopicAtStart atStart) {
+        this(Optional.of(topic), atStart);
+    }
+
     /** The fields of the file or of the topic that the options name. */
     public static FieldInput of(StreamExecutionEnvironment env, JobOptions job, FieldOptions options) {
         Optional<List<FieldVersion>> file = options.file();
         if (file.isPresent()) {
-            return of(env, file.get());
+            return new FieldInput(Optional.empty(), new FieldsAtStart(file.get()));
         }
         DataStream<TopicRecord> records = env.fromSource(
                         KafkaEnds.wholeTopic(job, options.topic()), KafkaEnds.noHindrance(), "Read fields")
@@ -34,13 +38,13 @@ public record FieldInput(DataStream<TopicRecord> records, TopicAtStart atStart) 
         return new FieldInput(records, new KafkaTopicAtStart(job, options.topic()));
     }
 
-    /** Fields that never change. */
-    private static FieldInput of(StreamExecutionEnvironment env, List<FieldVersion> fields) {
-        FieldsAtStart atStart = new FieldsAtStart(fields);
-        DataStream<TopicRecord> records = env.fromData(atStart.read(), TypeInformation.of(TopicRecord.class))
-                .uid("read-fields")
-                .name("Read fields")
-                .setParallelism(1);
-        return new FieldInput(records, atStart);
+    /**
+     * The records of the fields, for an operator that joins them with the events. Fields that never change have none: a stream
+     * without records whose event time is that of the events. A source of their own would end, and where a job is restored, a
+     * source that has ended moves event time to its end as soon as the events are idle, whatever stands behind it.
+     */
+    public DataStream<TopicRecord> recordsBeside(DataStream<TopicRecord> events) {
+        return topic.orElseGet(
+                () -> events.filter(event -> false).uid("no-changes-of-fields").name("Fields never change"));
     }
 }

@@ -16,13 +16,14 @@ import org.apache.flink.api.common.typeinfo.Types;
 
 import io.furrow.analytics.field.FieldIndex.Located;
 import io.furrow.analytics.field.FieldIndex.Span;
+import io.furrow.flink.Epochs;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Position;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The fields as one subtask knows them: all versions of all fields, asked for as of an event time. A version holds from its
+ * The fields as one subtask knows them: all versions of all fields, asked for as of an event time, whose original time counts. A version holds from its
  * {@code validFrom} until that of the field's next version. For one thread.
  *
  * <p>Needs no state of Flink's: the topic is compacted and keeps every version, and is read to its end whenever the subtask
@@ -106,20 +107,20 @@ public final class KnownFields {
     /** The fields that cover a position at an event time in epoch ms, in no order. The border counts, also that of a hole. */
     public List<Field> covering(Position position, long time) {
         refresh();
-        return index.covering(position, time);
+        return index.covering(position, Epochs.original(time));
     }
 
     /** The field as it is at an event time; empty where there is none of that id at that time. */
     public Optional<Field> at(String id, long time) {
         NavigableMap<Long, Optional<Located>> ofField = versions.get(id);
-        Map.Entry<Long, Optional<Located>> last = ofField == null ? null : ofField.floorEntry(time);
+        Map.Entry<Long, Optional<Located>> last = ofField == null ? null : ofField.floorEntry(Epochs.original(time));
         return last == null ? Optional.empty() : last.getValue().map(Located::field);
     }
 
-    /** When, after an event time, any field begins, changes or ends as far as is known; epoch ms. */
+    /** When, after an event time and in its epoch, any field begins, changes or ends as far as is known. */
     public OptionalLong nextChange(long after) {
         refresh();
-        Long next = changes.higher(after);
-        return next == null ? OptionalLong.empty() : OptionalLong.of(next);
+        Long next = changes.higher(Epochs.original(after));
+        return next == null ? OptionalLong.empty() : OptionalLong.of(Epochs.begin(after) + next);
     }
 }

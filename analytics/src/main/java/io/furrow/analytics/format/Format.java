@@ -32,6 +32,17 @@ public abstract class Format<T> extends TypeInfoFactory<T> implements Serializab
      */
     public abstract T read(int version, DataInputView in) throws IOException;
 
+    /** Writes a value that is part of another one: behind its version, so that it may have another than the whole. */
+    public final void writePart(T value, DataOutputView out) throws IOException {
+        out.writeByte(version());
+        write(value, out);
+    }
+
+    /** Reads what {@link #writePart} wrote. */
+    public final T readPart(DataInputView in) throws IOException {
+        return read(in.readUnsignedByte(), in);
+    }
+
     /** A value that shares nothing changeable with the given one; the same where the type cannot be changed. */
     public T copy(T value) {
         return value;

@@ -11,7 +11,8 @@ public final class Text {
     private static final int LONG = 255;
     private static final int SPREAD = 0x9E3779B9;
     private static final int SHIFT = 14;
-    private static final String[] KNOWN = new String[1 << Integer.SIZE - SHIFT];
+    private static final SharedByTasks<String[]> KNOWN =
+            new SharedByTasks<>(() -> new String[1 << Integer.SIZE - SHIFT]);
 
     private Text() {}
 
@@ -43,11 +44,12 @@ public final class Text {
     /** An equal text, the same object as most times before: names come again and again and are held many times over. */
     public static String shared(String text) {
         int slot = text.hashCode() * SPREAD >>> SHIFT;
-        String known = KNOWN[slot]; // whichever of two threads wrote last
+        String[] all = KNOWN.get();
+        String known = all[slot]; // whichever of two threads wrote last
         if (text.equals(known)) {
             return known;
         }
-        KNOWN[slot] = text;
+        all[slot] = text;
         return text;
     }
 }

@@ -4,44 +4,47 @@ import java.io.IOException;
 import java.util.List;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ListState;
-import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
-import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.metrics.Counter;
-import org.apache.flink.runtime.state.FunctionInitializationContext;
-import org.apache.flink.runtime.state.FunctionSnapshotContext;
 import org.apache.flink.streaming.api.TimerService;
-import org.apache.flink.streaming.api.checkpoint.CheckpointedFunction;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
+import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
 import io.furrow.analytics.field.KnownFields;
+import io.furrow.flink.EventTimeReached;
+import io.furrow.flink.JudgesLateness;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 
 /**
  * Tells when a device entered and left fields. Key: the device of a topic.
  *
- * <p><b>State</b>: positions that wait for the watermark, the whereabouts; per subtask how far event time has come, because a restored
- * job starts without a watermark and must not go back behind what it has told. Fields: see {@link KnownFields}.
+ * <p><b>State</b>: positions that wait for the watermark, the whereabouts; how far event time has come, because a restored job
+ * starts without a watermark and must not go back behind what it has told. Fields: see {@link KnownFields}.
  *
  * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is told and no position waits.
  *
- * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}. A version of a field that comes after its time has passed for a
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device told of no newer one.
+ * So does, to {@code LATE}, a position of which {@value #MOST_WAITING} wait, counted as {@code crowded-out}. A version of a field that comes after its time has passed for a
  * device shows when the device is next looked at: with its next position, or within {@link #AGAIN} of event time.
  *
  * <p><b>Emits</b>: passages, a device's in the order of the times at which they are certain, before the watermark of that time.
  */
 public final class FollowDevices extends KeyedBroadcastProcessFunction<String, PresenceFix, TopicRecord, Passage>
-        implements CheckpointedFunction {
+        implements JudgesLateness {
     static final OutputTag<PresenceFix> LATE = new OutputTag<>("late") {
         private static final long serialVersionUID = 1L;
     };
+    static final OutputTag<LaggingPosition> LAGGING = new OutputTag<>("lagging") {
+        private static final long serialVersionUID = 1L;
+    };
+    /** Positions of a device. */
+    static final int MOST_WAITING = 100_000;
     /** How long a device that says nothing is left alone, ms. A new version reaches no timer of a key by itself. */
     static final long AGAIN = 5_000;
 
@@ -54,10 +57,10 @@ public final class FollowDevices extends KeyedBroadcastProcessFunction<String, P
     private transient OneTimer timer;
     private transient Inbox<PresenceFix> inbox;
     private transient ValueState<Whereabouts> whereabouts;
-    private transient ListState<Long> progress;
-    private transient long reached;
+    private transient EventTimeReached reached;
     private transient Counter accepted;
     private transient Counter late;
+    private transient Counter crowdedOut;
     private transient Counter changes;
 
     public FollowDevices(PresenceRules rules, TopicAtStart atStart) {
@@ -66,13 +69,8 @@ public final class FollowDevices extends KeyedBroadcastProcessFunction<String, P
     }
 
     @Override
-    public void initializeState(FunctionInitializationContext context) throws Exception {
-        progress = context.getOperatorStateStore()
-                .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
-        reached = Long.MIN_VALUE;
-        for (long each : progress.get()) {
-            reached = Math.max(reached, each);
-        }
+    public void judgeBy(EventTimeReached reached) {
+        this.reached = reached;
     }
 
     @Override
@@ -83,19 +81,42 @@ public final class FollowDevices extends KeyedBroadcastProcessFunction<String, P
         whereabouts = getRuntimeContext().getState(new ValueStateDescriptor<>("whereabouts", Whereabouts.class));
         accepted = getRuntimeContext().getMetricGroup().counter("accepted");
         late = getRuntimeContext().getMetricGroup().counter("late");
+        crowdedOut = getRuntimeContext().getMetricGroup().counter("crowded-out");
         changes = getRuntimeContext().getMetricGroup().counter("field-changes");
     }
 
     @Override
     public void processElement(PresenceFix fix, ReadOnlyContext context, Collector<Passage> out) throws Exception {
-        reached = Math.max(reached, context.timerService().currentWatermark());
-        if (fix.time() <= reached) {
+        if (reached.hasPassed(fix.time(), context.getCurrentKey())) {
             late.inc();
             context.output(LATE, fix);
-            return;
+            seeLagging(fix, context);
+        } else if (inbox.offer(fix, MOST_WAITING, context.timerService())) {
+            accepted.inc();
+        } else {
+            crowdedOut.inc();
+            context.output(LATE, fix);
         }
-        accepted.inc();
-        inbox.add(fix, context.timerService());
+    }
+
+    private void seeLagging(PresenceFix fix, ReadOnlyContext context) throws Exception {
+        Whereabouts known = whereabouts.value();
+        long last = known == null || known.last() == null
+                ? Long.MIN_VALUE
+                : known.last().time();
+        long counted = Math.max(last, inbox.newest());
+        if (fix.time() > counted) {
+            context.output(
+                    LAGGING,
+                    new LaggingPosition(
+                            fix.topic(),
+                            fix.identity(),
+                            fix.id(),
+                            fix.mission(),
+                            fix.time(),
+                            reached.of(context.getCurrentKey()),
+                            counted));
+        }
     }
 
     @Override
@@ -110,7 +131,6 @@ public final class FollowDevices extends KeyedBroadcastProcessFunction<String, P
         timer.rang();
         TimerService timers = context.timerService();
         long until = timers.currentWatermark();
-        reached = Math.max(reached, until);
         List<PresenceFix> due = inbox.takeDue(timers);
         Whereabouts before = whereabouts.value();
         Whereabouts now =
@@ -125,10 +145,5 @@ public final class FollowDevices extends KeyedBroadcastProcessFunction<String, P
             timer.ask(judge.nextInstant(now, fields), timers);
             timer.ask(until + AGAIN, timers);
         }
-    }
-
-    @Override
-    public void snapshotState(FunctionSnapshotContext context) throws Exception {
-        progress.update(List.of(reached));
     }
 }

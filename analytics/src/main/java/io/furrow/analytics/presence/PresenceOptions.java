@@ -1,14 +1,18 @@
 package io.furrow.analytics.presence;
 
 import java.time.Duration;
+import java.util.Optional;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.field.FieldOptions;
+import io.furrow.flink.AlignmentOptions;
 import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicOptions;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code presence}. An accessor refuses a value that no job could start with. */
@@ -21,7 +25,16 @@ import io.furrow.model.topic.Topics;
                         + " order of arrival and in a second pass.")
 public final class PresenceOptions extends JobOptions implements Callable<Integer> {
     @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Mixin
+    private final AlignmentOptions alignment = new AlignmentOptions();
+
+    @Mixin
     private final FieldOptions fields = new FieldOptions();
+
+    @Mixin
+    private final ClockSettings clocks = new ClockSettings();
 
     @Option(
             names = "--dwell",
@@ -73,6 +86,21 @@ public final class PresenceOptions extends JobOptions implements Callable<Intege
     /** Where the job learns of the fields. */
     public FieldOptions fields() {
         return fields;
+    }
+
+    /** What is done about the clocks of devices. */
+    public ClockSettings clockSettings() {
+        return clocks;
+    }
+
+    /** How topics are made. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** How far partitions may be apart. */
+    Optional<Duration> maxDrift() {
+        return alignment.maxDrift(false);
     }
 
     public String output() {

@@ -5,6 +5,7 @@ import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
+import io.furrow.flink.Epochs;
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
@@ -36,9 +37,9 @@ final class PresenceRecord {
                 .text("field", stay.field())
                 .text("phase", passage.phase().code())
                 .text("cause", stay.cause().code())
-                .integer("time", passage.time())
-                .text("stay", id + "-" + stay.since())
-                .integer("startTime", stay.since())
+                .integer("time", Epochs.original(passage.time()))
+                .text("stay", id + "-" + Epochs.text(stay.since()))
+                .integer("startTime", Epochs.original(stay.since()))
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .text("Mission", fix.mission());
@@ -60,7 +61,7 @@ final class PresenceRecord {
         EntityBuilder entity = Entity.builder(fix.id(), LATE_TYPE)
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
-                .integer("Time", fix.time())
+                .integer("Time", Epochs.original(fix.time()))
                 .text("Mission", fix.mission());
         return ResultRecord.of(Topics.resultOf(fix.topic(), topic), fix.id(), entity, fix.scope(), fix.time(), SOURCE);
     }

@@ -45,8 +45,7 @@ public final class AssignFields extends BroadcastProcessFunction<Reading, TopicR
 
     @Override
     public void processElement(Reading reading, ReadOnlyContext context, Collector<FieldReading> out) {
-        List<Field> covering =
-                fields.covering(reading.position(), reading.record().timestamp());
+        List<Field> covering = fields.covering(reading.position(), reading.time());
         (covering.isEmpty() ? outside : inside).inc();
         for (Field field : covering) {
             out.collect(new FieldReading(field.id(), field.domain(), field.validFrom(), reading));

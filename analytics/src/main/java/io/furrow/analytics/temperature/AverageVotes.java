@@ -23,12 +23,12 @@ final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage,
 
     private static final long serialVersionUID = 1L;
 
-    private final double madFloor;
+    private final double suspectFloor;
     private final boolean judges;
 
     /** @param judges whether anybody reads the verdicts */
-    AverageVotes(double madFloor, boolean judges) {
-        this.madFloor = madFloor;
+    AverageVotes(double suspectFloor, boolean judges) {
+        this.suspectFloor = suspectFloor;
         this.judges = judges;
     }
 
@@ -46,7 +46,7 @@ final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage,
                 newest.scope(),
                 newest.windowStart(),
                 newest.windowEnd(),
-                RobustMean.of(latest, madFloor));
+                RobustMean.of(latest, suspectFloor));
         out.collect(result);
         if (judges && result.average().verified()) {
             latest.forEach((device, value) -> context.output(VERDICTS, verdict(result, device, value)));

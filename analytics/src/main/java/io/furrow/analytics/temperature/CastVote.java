@@ -7,7 +7,7 @@ import org.apache.flink.util.Collector;
 /**
  * Gives a device its one vote in a field's window: a device that reports often counts no more than one that reports rarely.
  *
- * <p>State: the values of each device, field and window ({@link DeviceReadings}). Cleared: with the window, when the watermark
+ * <p>State: the values of each device, field and window and how often each came ({@link DeviceReadings}). Cleared: with the window, when the watermark
  * passes its end and the allowed lateness. Late: within the allowed lateness the vote is cast again; after it the reading
  * goes to the side output. Emits: the median, when the watermark passes the end of the window.
  */
@@ -17,15 +17,13 @@ final class CastVote implements WindowFunction<DeviceReadings, DeviceVote, Strin
     @Override
     public void apply(String voter, TimeWindow window, Iterable<DeviceReadings> only, Collector<DeviceVote> out) {
         for (DeviceReadings readings : only) {
-            double median = Median.of(
-                    readings.values().stream().mapToDouble(Double::doubleValue).toArray());
             out.collect(new DeviceVote(
                     readings.field(),
                     readings.domain(),
                     readings.validFrom(),
                     readings.scope(),
                     readings.device(),
-                    median,
+                    readings.median(),
                     window.getStart(),
                     window.getEnd()));
         }

@@ -4,19 +4,23 @@ import java.util.ArrayList;
 
 import org.apache.flink.api.common.functions.AggregateFunction;
 
-/** Keeps the values of a device in a window and nothing else of its records. */
+/**
+ * Keeps the values of a device in a window and nothing else of its records. A state backend on disk reads and writes all of that with
+ * every reading; values are counted, because a sensor that reports each second of a day has few different ones.
+ */
 final class CollectReadings implements AggregateFunction<FieldReading, DeviceReadings, DeviceReadings> {
     private static final long serialVersionUID = 1L;
 
     @Override
     public DeviceReadings createAccumulator() {
-        return new DeviceReadings(null, null, Long.MIN_VALUE, null, null, new ArrayList<>());
+        return new DeviceReadings(null, null, Long.MIN_VALUE, null, null, new ArrayList<>(), new ArrayList<>());
     }
 
     @Override
-    public DeviceReadings add(FieldReading from, DeviceReadings so) {
+    public DeviceReadings add(FieldReading from, DeviceReadings before) {
         Reading reading = from.reading();
-        so.values().add(reading.value());
+        DeviceReadings so = before.counted();
+        so.add(reading.value());
         boolean newer = from.validFrom() >= so.validFrom();
         return new DeviceReadings(
                 from.field(),
@@ -24,7 +28,8 @@ final class CollectReadings implements AggregateFunction<FieldReading, DeviceRea
                 newer ? from.validFrom() : so.validFrom(),
                 reading.input(),
                 reading.device(),
-                so.values());
+                so.values(),
+                so.times());
     }
 
     @Override

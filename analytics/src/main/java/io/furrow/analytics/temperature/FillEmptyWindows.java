@@ -13,13 +13,15 @@ import org.apache.flink.util.Collector;
 import io.furrow.analytics.field.Field;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.flink.EndOfEventTime;
+import io.furrow.flink.Epochs;
 import io.furrow.flink.TopicAtStart;
 import io.furrow.flink.TopicRecord;
 
 /**
  * Adds a result of no devices for each window of a field without a reading: from the field's first reading on, as event time
  * passes the ends of the windows, for as long as a field of this id is there and for a limited time after its last reading. At
- * the end of a bounded input nothing follows the field's last reading, since no event time is known beyond.
+ * the end of a bounded input, and of an epoch of a replay, nothing follows the field's last reading, since no event time is known
+ * beyond.
  *
  * <p>State: of each field that has reported, the window that comes next. Cleared: when the field has ended, has been silent
  * for the limit, or the input ends. Late: a corrected result is passed on, also after an empty one. Emits: results as they
@@ -60,6 +62,9 @@ final class FillEmptyWindows extends KeyedBroadcastProcessFunction<String, Field
             throws Exception {
         long start = result.windowStart();
         SilentField known = silent.value();
+        if (known != null && Epochs.isOver(known.heard(), start)) {
+            known = null;
+        }
         while (known != null && known.next() < start) {
             known = isWithinLimit(known) && empty(known, out) ? known.after(slide) : null;
         }
@@ -80,7 +85,8 @@ final class FillEmptyWindows extends KeyedBroadcastProcessFunction<String, Field
         if (known == null || time != lastInstant(known)) {
             return; // of a window whose result has come
         }
-        boolean isEnd = EndOfEventTime.isAt(context.timerService().currentWatermark());
+        long watermark = context.timerService().currentWatermark();
+        boolean isEnd = EndOfEventTime.isAt(watermark) || Epochs.isOver(known.heard(), watermark);
         if (isEnd || !isWithinLimit(known) || !empty(known, out)) {
             silent.clear();
             return;

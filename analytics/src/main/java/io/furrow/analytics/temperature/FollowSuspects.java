@@ -7,12 +7,13 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
-import org.apache.flink.streaming.api.TimerService;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.flink.EventTimeReached;
+import io.furrow.flink.JudgesLateness;
 
 /**
  * Reports a device once that stays suspect for a number of windows in a row, and again only after it was sound in between. In
@@ -21,9 +22,9 @@ import io.furrow.analytics.eventtime.OneTimer;
  *
  * <p>State: verdicts that wait for the watermark, and of a suspect device its run of windows. Cleared: by the first window in
  * which it is sound, or when no verdict has come for the memory. Late: a corrected verdict of a window that event time has
- * passed is passed over. Emits: a report when the watermark passes the window that was one too many.
+ * passed, in this run or an earlier one, is passed over. Emits: a report when the watermark passes the window that was one too many.
  */
-final class FollowSuspects extends KeyedProcessFunction<String, Verdict, SuspectDevice> {
+final class FollowSuspects extends KeyedProcessFunction<String, Verdict, SuspectDevice> implements JudgesLateness {
     private static final long serialVersionUID = 1L;
 
     private final int windows;
@@ -31,10 +32,16 @@ final class FollowSuspects extends KeyedProcessFunction<String, Verdict, Suspect
     private transient OneTimer timer;
     private transient Inbox<Verdict> inbox;
     private transient ValueState<SuspectRun> run;
+    private transient EventTimeReached reached;
 
     FollowSuspects(int windows, Duration memory) {
         this.windows = windows;
         this.memoryMillis = memory.toMillis();
+    }
+
+    @Override
+    public void judgeBy(EventTimeReached reached) {
+        this.reached = reached;
     }
 
     @Override
@@ -46,9 +53,8 @@ final class FollowSuspects extends KeyedProcessFunction<String, Verdict, Suspect
 
     @Override
     public void processElement(Verdict verdict, Context context, Collector<SuspectDevice> out) throws Exception {
-        TimerService timers = context.timerService();
-        if (verdict.time() > timers.currentWatermark()) {
-            inbox.add(verdict, timers);
+        if (!reached.hasPassed(verdict.time(), context.getCurrentKey())) {
+            inbox.add(verdict, context.timerService());
         }
     }
 

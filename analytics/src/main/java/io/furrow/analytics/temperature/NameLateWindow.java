@@ -10,6 +10,7 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
 
 import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -41,8 +42,14 @@ final class NameLateWindow extends RichMapFunction<FieldReading, TopicRecord> {
     public TopicRecord map(FieldReading reading) {
         late.inc();
         TopicRecord record = reading.reading().record();
-        long start = TimeWindow.getWindowStartWithOffset(record.timestamp(), 0, slideMillis);
+        long time = reading.reading().time();
+        long start = TimeWindow.getWindowStartWithOffset(time, 0, slideMillis);
         String window = Instant.ofEpochMilli(start) + "/" + Instant.ofEpochMilli(start + windowMillis);
-        return record.to(Topics.resultOf(record.topic(), topic)).with(Map.of(FIELD, reading.field(), WINDOW, window));
+        TopicRecord told = record.to(Topics.resultOf(record.topic(), topic))
+                .at(time)
+                .with(Map.of(FIELD, reading.field(), WINDOW, window));
+        return record.headers().containsKey(HeaderNames.REPLAY_OFFSET)
+                ? told.with(HeaderNames.REPLAY_OFFSET, "0")
+                : told;
     }
 }

@@ -1,22 +1,33 @@
 package io.furrow.analytics.temperature;
 
+import io.furrow.flink.Epochs;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Position;
+import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What one device measured at one place; its event time is the timestamp of the record.
+ * What one device measured at one place; the element's timestamp is its event time.
  *
  * @param device entity id
  * @param value in the attribute's unit, finite
  * @param eventId equal for every copy of the same event
- * @param record as it was read, for the topic of late readings
+ * @param record as it was read, for the topic of late readings; of a large one what the job read of it
  */
 public record Reading(
         String device, FiwareScope scope, Position position, double value, String eventId, TopicRecord record) {
     /** The topic that told of it, and the tenant. */
     InputScope input() {
         return new InputScope(record.topic(), scope);
+    }
+
+    /** Original event time, epoch ms. */
+    long time() {
+        try {
+            return Epochs.originalTimeOf(record);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("a reading was made of a record without a time", e);
+        }
     }
 
     /** The device among those of all topics and tenants. */

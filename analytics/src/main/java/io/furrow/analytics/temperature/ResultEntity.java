@@ -5,6 +5,7 @@ import java.util.Locale;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
+import io.furrow.flink.Epochs;
 import io.furrow.flink.ResultRecord;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Entity;
@@ -34,8 +35,8 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         number(entity, "spread", average.spread());
         entity.integer("devices", average.devices())
                 .texts("suspects", average.suspects())
-                .integer("windowStart", result.windowStart())
-                .integer("windowEnd", result.windowEnd())
+                .integer("windowStart", original(result.windowStart(), result.windowEnd()))
+                .integer("windowEnd", original(result.windowEnd(), result.windowEnd()))
                 .text("quality", average.verified() ? "robust" : "unverified");
         if (!result.domain().isEmpty()) {
             entity.text("Domain", result.domain());
@@ -54,9 +55,9 @@ record ResultEntity(String attribute, String topic) implements Serializable {
                 .number("value", last.value())
                 .number("average" + title(), last.mean())
                 .integer("windows", suspect.windows())
-                .integer("since", suspect.since())
-                .integer("windowStart", last.windowStart())
-                .integer("windowEnd", last.windowEnd());
+                .integer("since", original(suspect.since(), last.windowEnd()))
+                .integer("windowStart", original(last.windowStart(), last.windowEnd()))
+                .integer("windowEnd", original(last.windowEnd(), last.windowEnd()));
         if (!last.domain().isEmpty()) {
             entity.text("Domain", last.domain());
         }
@@ -66,6 +67,11 @@ record ResultEntity(String attribute, String topic) implements Serializable {
     private TopicRecord record(String key, EntityBuilder entity, InputScope scope, long time) {
         String output = Topics.resultOf(scope.topic(), topic);
         return ResultRecord.of(output, key, entity, scope.fiware(), time, SOURCE);
+    }
+
+    /** A time in the epoch of a window, of which the first may begin before 1970. */
+    private static long original(long time, long windowEnd) {
+        return time - Epochs.begin(windowEnd - 1);
     }
 
     /** Null where there was nothing to average: the value of an earlier window must not stand beside this one's. */

@@ -1,5 +1,8 @@
 package io.furrow.analytics.temperature;
 
+import java.util.Set;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
@@ -7,9 +10,12 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.field.RecognizeFields;
+import io.furrow.flink.AheadLimit;
 import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.KafkaInput;
+import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.KeyedLatenessOperator;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.TopicRecord;
 
@@ -26,43 +32,42 @@ public final class TemperatureJob {
 
     /** Runs the job until it ends, which it does not by itself. */
     public static void run(TemperatureOptions options) throws Exception {
-        assemble(options).execute(options.jobName());
+        assemble(options).execute();
     }
 
     /** The job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(TemperatureOptions options) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
 
-        DataStream<TopicRecord> records = env.fromSource(
-                        KafkaEnds.source(options), KafkaEnds.watermarks(options), "Reported changes")
-                .uid("reported-changes");
+        DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
 
-        define(new Inputs(records, FieldInput.of(env, options, options.fields())), options)
-                .sinkTo(KafkaEnds.sink(options))
-                .uid("write-topics")
-                .name("Write results, late and dead records");
+        KafkaOutput.writeAll(
+                define(new Inputs(records, FieldInput.of(env, options, options.fields())), options),
+                options,
+                options.topics().settings(Set.of()));
         return env;
     }
 
     /** Results, late readings and dead letters; each record names its topic. */
     static DataStream<TopicRecord> define(Inputs in, TemperatureOptions options) {
         SingleOutputStreamOperator<TopicRecord> fields = in.fields()
-                .records()
+                .recordsBeside(in.records())
                 .process(new RecognizeFields("temperature"))
                 .setParallelism(1) // a version's records stay in order
                 .uid("recognize-fields")
                 .name("Recognize fields");
 
         SingleOutputStreamOperator<Reading> readings = in.records()
-                .process(new ReadReadings(options.attribute()))
+                .process(new ReadReadings(options.attribute(), AheadLimit.of(options)))
                 .uid("read-readings")
                 .name("Read readings");
 
         SingleOutputStreamOperator<FieldReading> fieldReadings = readings.keyBy(Reading::deviceIdentity)
-                .process(new PassOnce<>(options.repeatWindow(), Reading::eventId))
-                .returns(Reading.class)
+                .transform(
+                        "Let each event pass once",
+                        TypeInformation.of(Reading.class),
+                        new KeyedLatenessOperator<>(new PassOnce<Reading>(options.repeatWindow(), Reading::eventId)))
                 .uid("pass-once")
-                .name("Let each event pass once")
                 .connect(fields.broadcast(KnownFields.BROADCAST))
                 .process(new AssignFields(in.fields().atStart()))
                 .uid("assign-fields")
@@ -98,9 +103,12 @@ public final class TemperatureJob {
             SingleOutputStreamOperator<FieldAverage> averages, ResultEntity form, TemperatureOptions options) {
         return averages.getSideOutput(AverageVotes.VERDICTS)
                 .keyBy(Verdict::deviceIdentity)
-                .process(new FollowSuspects(options.suspectAfter(), options.suspectMemory()))
+                .transform(
+                        "Follow suspect devices",
+                        TypeInformation.of(SuspectDevice.class),
+                        new KeyedLatenessOperator<>(
+                                new FollowSuspects(options.suspectAfter(), options.suspectMemory())))
                 .uid("follow-suspects")
-                .name("Follow suspect devices")
                 .map(form::of)
                 .uid("describe-suspects")
                 .name("Describe suspect devices as entities");

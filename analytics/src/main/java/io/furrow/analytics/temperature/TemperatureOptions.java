@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature;
 
 import java.time.Duration;
+import java.util.Optional;
 import java.util.concurrent.Callable;
 import java.util.regex.Pattern;
 
@@ -9,7 +10,9 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.analytics.field.FieldOptions;
+import io.furrow.flink.AlignmentOptions;
 import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicOptions;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code temperature}. An accessor refuses a value that no job could start with. */
@@ -21,7 +24,14 @@ import io.furrow.model.topic.Topics;
                         + "its median; devices that are far from the others are set aside and named as suspects.")
 public final class TemperatureOptions extends JobOptions implements Callable<Integer> {
     private static final String TEMPERATURE = "Temperature";
+    private static final double TEMPERATURE_FLOOR = 0.5;
     private static final Pattern ATTRIBUTE = Pattern.compile("[A-Za-z0-9_:.-]{1,40}");
+
+    @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Mixin
+    private final AlignmentOptions alignment = new AlignmentOptions();
 
     @Mixin
     private final FieldOptions fields = new FieldOptions();
@@ -61,13 +71,16 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
     private Duration allowedLateness;
 
     @Option(
-            names = "--mad-floor",
+            names = "--suspect-floor",
             paramLabel = "NUMBER",
-            defaultValue = "0",
-            description = "Least median absolute deviation to judge devices by, in the attribute's unit. Raise it where"
-                    + " thermometers agree so well that a tenth of a degree makes one suspect. Default:"
-                    + " ${DEFAULT-VALUE}.")
-    private double madFloor;
+            description =
+                    "By how much two sound devices in one place differ (the standard deviation of the difference), in the"
+                            + " attribute's unit. A device within 2.4 times that of the others is never set aside. Raise it where"
+                            + " sound devices are named, for instance in wide fields. 0: devices are judged by how much the others"
+                            + " differ alone, and sound ones are named often. Default: " + TEMPERATURE_FLOOR
+                            + " (degrees Celsius)"
+                            + " for " + TEMPERATURE + "; must be given for any other attribute.")
+    private Double suspectFloor;
 
     @Option(
             names = "--empty-windows",
@@ -133,8 +146,8 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
 
     /** Two attributes are two jobs, which must share neither a consumer group nor transactions. */
     @Override
-    public String jobName() {
-        return attribute().equals(TEMPERATURE) ? super.jobName() : super.jobName() + "-" + attribute();
+    protected String defaultName() {
+        return attribute().equals(TEMPERATURE) ? super.defaultName() : super.defaultName() + "-" + attribute();
     }
 
     public String attribute() {
@@ -161,11 +174,19 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
         return allowedLateness;
     }
 
-    public double madFloor() {
-        if (!Double.isFinite(madFloor) || madFloor < 0) {
-            throw refused("--mad-floor must be 0 or a positive number", null);
+    /** By how much two sound devices differ, in the attribute's unit; only of a temperature it is known. */
+    public double suspectFloor() {
+        if (suspectFloor == null && !attribute().equals(TEMPERATURE)) {
+            throw refused(
+                    "--attribute " + attribute() + " needs --suspect-floor: by how much two sound devices in one place"
+                            + " differ, in its unit, for instance their resolution; 0 to judge by what the others show alone",
+                    null);
         }
-        return madFloor;
+        double floor = suspectFloor == null ? TEMPERATURE_FLOOR : suspectFloor;
+        if (!Double.isFinite(floor) || floor < 0) {
+            throw refused("--suspect-floor must be 0 or a positive number", null);
+        }
+        return floor;
     }
 
     /** How long a silent field gives results; zero where it gives none. */
@@ -187,6 +208,16 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
 
     public Duration repeatWindow() {
         return repeatWindow == null ? window().plus(allowedLateness) : positive("--repeat-window", repeatWindow);
+    }
+
+    /** How topics are made. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** How far partitions may be apart. */
+    Optional<Duration> maxDrift() {
+        return alignment.maxDrift(false);
     }
 
     public String output() {

@@ -1,37 +1,40 @@
 package io.furrow.analytics.temperature;
 
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
-import org.apache.flink.streaming.api.windowing.assigners.SlidingEventTimeWindows;
-import org.apache.flink.streaming.api.windowing.assigners.TumblingEventTimeWindows;
 import org.apache.flink.util.OutputTag;
 
 import io.furrow.flink.TopicRecord;
 
 /** The windows: first each device has its vote in each field, then the votes of a field are averaged. */
 final class VoteStage {
-    private static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
+    static final OutputTag<FieldReading> LATE = new OutputTag<>("late-readings") {
         private static final long serialVersionUID = 1L;
     };
 
     private VoteStage() {}
 
     static SingleOutputStreamOperator<DeviceVote> cast(DataStream<FieldReading> readings, TemperatureOptions options) {
-        return readings.keyBy(FieldReading::voter)
-                .window(SlidingEventTimeWindows.of(options.window(), options.slide()))
-                .allowedLateness(options.allowedLateness())
-                .sideOutputLateData(LATE)
-                .aggregate(new CollectReadings(), new CastVote())
-                .uid("cast-votes")
-                .name("Cast one vote per device");
+        KeyedStream<FieldReading, String> byVoter = readings.keyBy(FieldReading::voter);
+        return byVoter.transform(
+                        "Cast one vote per device",
+                        TypeInformation.of(DeviceVote.class),
+                        new CastVotes(
+                                EpochWindows.of(options.window(), options.slide()),
+                                options.allowedLateness(),
+                                LATE,
+                                byVoter))
+                .uid("cast-votes");
     }
 
     /** A vote is stamped with the last instant of its window: windows of one slide keep those of each window together. */
     static SingleOutputStreamOperator<FieldAverage> average(DataStream<DeviceVote> votes, TemperatureOptions options) {
         return votes.keyBy(DeviceVote::fieldIdentity)
-                .window(TumblingEventTimeWindows.of(options.slide()))
+                .window(EpochWindows.of(options.slide(), options.slide()))
                 .allowedLateness(options.allowedLateness())
-                .process(new AverageVotes(options.madFloor(), options.suspectAfter() > 0))
+                .process(new AverageVotes(options.suspectFloor(), options.suspectAfter() > 0))
                 .uid("average-votes")
                 .name("Average the votes of each field");
     }

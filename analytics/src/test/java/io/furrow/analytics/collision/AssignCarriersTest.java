@@ -64,10 +64,10 @@ class AssignCarriersTest {
         operator.open();
         assertThat(carrierOfCamera(2000)).isEqualTo("farm|/|tractor");
 
-        operator.processElement2(new DeviceChange(CAMERA, 2, 4000, null), 0);
+        operator.processElement2(new DeviceChange(CAMERA, 0, 2, 4000, null), 0);
         assertThat(carrierOfCamera(3999)).isEqualTo("farm|/|tractor");
-        operator.processElement2(new DeviceChange("farm|/|other", 3, 4000 + DAY + 1, null), 0);
-        operator.processElement2(new DeviceChange("farm|/|other", 4, 4000 + DAY + 1, null), 0);
+        operator.processElement2(new DeviceChange("farm|/|other", 0, 3, 4000 + DAY + 1, null), 0);
+        operator.processElement2(new DeviceChange("farm|/|other", 0, 4, 4000 + DAY + 1, null), 0);
         assertThat(operator.getOperator()
                         .getOperatorStateBackend()
                         .getBroadcastState(AssignCarriers.DEVICES)
@@ -97,7 +97,7 @@ class AssignCarriersTest {
     }
 
     private void change(long offset, DeviceVersion version) throws Exception {
-        operator.processElement2(new DeviceChange(version.key(), offset, version.from(), version), 0);
+        operator.processElement2(new DeviceChange(version.key(), 0, offset, version.from(), version), 0);
     }
 
     private static DeviceVersion version(long from, long sequence, String carrier) {

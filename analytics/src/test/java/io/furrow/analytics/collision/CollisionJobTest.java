@@ -6,6 +6,8 @@ import java.nio.file.Path;
 import java.util.Comparator;
 import java.util.List;
 
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.graph.StreamNode;
 import org.apache.flink.test.junit5.MiniClusterExtension;
@@ -28,14 +30,18 @@ import static io.furrow.analytics.collision.ReportedRun.placed;
 import static io.furrow.analytics.collision.ReportedRun.record;
 import static io.furrow.analytics.collision.ReportedRun.robot;
 import static io.furrow.analytics.collision.ReportedRun.run;
+import static io.furrow.analytics.collision.ReportedRun.runAfterDevices;
 import static io.furrow.analytics.collision.ReportedRun.text;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
 
 class CollisionJobTest {
+    private static final InMemoryReporter METRICS = InMemoryReporter.create();
+
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
             .setNumberTaskManagers(1)
             .setNumberSlotsPerTaskManager(2)
             .build());
@@ -92,17 +98,22 @@ class CollisionJobTest {
               [[[%1$s, -1], [11, -1], [11, 1], [%1$s, 1], [%1$s, -1]]]}}]}\
             """.formatted(corner.longitude()));
         TopicRecord[] reported = {
-            robot("r1", 0, 0), robot("r2", 7, 0), robot("r3", 100, 0), robot("r4", 100, 0), robot("r5", 7, 1000)
+            robot("r1", 0, 0),
+            robot("r2", 7, 0),
+            robot("r3", 100, 0),
+            robot("r4", 100, 0),
+            robot("r5", 9, 1000),
+            robot("r1", 0, 2000)
         };
-        String[] all = {"--threshold-of", "ROBOT=10", "--zones", yard.toString(), "--pairs-per-cell", "1"};
+        String[] all = {"--threshold-of", "ROBOT=10", "--zones", yard.toString(), "--crowd", "1"};
 
         List<TopicRecord> written = run(options(all), reported);
 
         assertThat(written)
                 .filteredOn(record -> record.topic().equals("data.collision"))
-                .as("r3 and r4 are in the yard, r1 and r2 were there before r5")
+                .as("r3 and r4 are in the yard, r5 is nearer to r2 than to r1")
                 .extracting(record -> new String(record.key(), StandardCharsets.UTF_8))
-                .containsOnly("r1-r2");
+                .containsOnly("r1-r2", "r2-r5");
         TopicRecord overflow = written.stream()
                 .filter(record -> record.topic().equals("data.collision.overflow"))
                 .findFirst()
@@ -110,7 +121,8 @@ class CollisionJobTest {
         assertThat(overflow.timestamp()).isEqualTo(START + 1000);
         assertThat(entity(overflow).type()).isEqualTo("Analytics:CollisionOverflow");
         assertThat(entity(overflow).number("pairs")).hasValue(3.0);
-        assertThat(entity(overflow).number("pairsLeftOut")).hasValue(2.0);
+        assertThat(entity(overflow).number("pairsLeftOut")).hasValue(1.0);
+        assertThat(entity(overflow).number("nearest")).hasValue(1.0);
         assertThat(entity(overflow).number("devices")).hasValue(3.0);
         assertThat(entity(overflow).id())
                 .isEqualTo("Analytics:CollisionOverflow:"
@@ -135,19 +147,22 @@ class CollisionJobTest {
     void setsAsideWhatIsUnreadableAndLateAndDetectsAmongTheRest() throws Exception {
         // One subtask, so that the watermark is behind no channel when the late position comes.
         TopicRecord garbage = record("x", 0, "{not json");
-        List<TopicRecord> written = run(
+        TopicRecord ofIngest = record("y", 0, "{not json either");
+        List<TopicRecord> written = runAfterDevices(
                 options("--parallelism", "1"),
+                () -> METRICS,
                 robot("r1", 0, 0),
-                garbage,
+                garbage.to("reports"),
+                ofIngest,
                 robot("r2", 2, 0),
                 robot("r9", 900, 90_000),
                 robot("r3", 2, 50));
 
         assertThat(written)
                 .extracting(TopicRecord::topic)
-                .containsExactlyInAnyOrder("data.collision", "data.collision", "data.collision.late", "data.raw.dead");
+                .containsExactlyInAnyOrder("data.collision", "data.collision", "data.collision.late", "reports.dead");
         assertThat(written)
-                .filteredOn(record -> record.topic().equals("data.raw.dead"))
+                .filteredOn(record -> record.topic().equals("reports.dead"))
                 .singleElement()
                 .satisfies(dead -> assertThat(dead.headers())
                         .containsEntry(DeadLetter.STAGE, "collision")
@@ -235,9 +250,11 @@ class CollisionJobTest {
                 .containsExactly(
                         "Sink Committer: write-topics",
                         "assign-carriers",
+                        "describe-clocks",
                         "describe-encounters",
                         "describe-late-positions",
                         "describe-overflows",
+                        "ensure-topics",
                         "follow-encounters",
                         "match-pairs",
                         "read-devices",
@@ -245,6 +262,7 @@ class CollisionJobTest {
                         "recognize-devices",
                         "reported-changes",
                         "track-devices",
+                        "watch-clocks",
                         "write-topics");
     }
 }

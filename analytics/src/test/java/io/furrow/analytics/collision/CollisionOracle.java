@@ -4,7 +4,6 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.Comparator;
 import java.util.HashMap;
-import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -25,9 +24,8 @@ final class CollisionOracle {
     private final TreeMap<String, List<PositionFix>> devices;
     private final Map<Pair, Seen> close = new HashMap<>();
     private final Map<Pair, List<Seen>> open = new HashMap<>();
-    private final Map<Long, Overflow> told = new HashMap<>();
+    private final CrowdOracle crowds;
     private final List<Encounter> encounters = new ArrayList<>();
-    private final List<Overflow> overflows = new ArrayList<>();
 
     /** A close pair at an instant, and the cell in which it is found. */
     private record Seen(PositionFix first, PositionFix second, double distance, long cell, long time) {
@@ -36,10 +34,19 @@ final class CollisionOracle {
         }
     }
 
-    /** What is told of a cell with too many pairs. */
-    record Overflow(long cell, long time, int pairs, int leftOut) {
+    /** What is told of a cell with a crowd, or without one any more. */
+    record Overflow(long cell, long time, int devices, long pairs, long leftOut, boolean crowded) {
         static final Comparator<Overflow> ORDER =
                 Comparator.comparingLong(Overflow::time).thenComparingLong(Overflow::cell);
+
+        /** Whether one is there is not told: it is known from what follows. */
+        static Overflow of(CellOverflow told) {
+            return new Overflow(told.cell(), told.time(), told.devices(), told.pairs(), told.pairsLeftOut(), false);
+        }
+
+        Overflow asTold() {
+            return new Overflow(cell, time, devices, pairs, leftOut, false);
+        }
     }
 
     /** In their orders. */
@@ -48,6 +55,7 @@ final class CollisionOracle {
     private CollisionOracle(Collection<PositionFix> accepted, CollisionRules rules) {
         this.rules = rules;
         this.grid = new Grid(rules.exact());
+        this.crowds = new CrowdOracle(rules, grid, this::isClose);
         this.devices = accepted.stream()
                 .collect(Collectors.groupingBy(PositionFix::identity, TreeMap::new, Collectors.toList()));
     }
@@ -65,8 +73,11 @@ final class CollisionOracle {
         }
         instants.forEach(oracle::evaluate);
         oracle.encounters.sort(ORDER);
-        oracle.overflows.sort(Overflow.ORDER);
-        return new Result(oracle.encounters, oracle.overflows);
+        List<Overflow> overflows = oracle.crowds.overflows().stream()
+                .map(Overflow::asTold)
+                .sorted(Overflow.ORDER)
+                .toList();
+        return new Result(oracle.encounters, overflows);
     }
 
     /** The first records in which two sorted results differ; few, because a failing test prints them. */
@@ -82,7 +93,6 @@ final class CollisionOracle {
     }
 
     private void evaluate(long t) {
-        Map<Pair, Seen> before = Map.copyOf(close);
         close.clear();
         List<PositionFix> last = devices.values().stream()
                 .flatMap(fixes -> last(fixes, t).stream())
@@ -93,6 +103,7 @@ final class CollisionOracle {
                 closeAt(last.get(i), other, t).ifPresent(seen -> close.put(Pair.of(seen.first, seen.second), seen));
             }
         }
+        crowds.evaluate(last, t);
         Set<Pair> followed = followed();
         for (Pair pair : Set.copyOf(open.keySet())) {
             if (!followed.contains(pair)) {
@@ -104,9 +115,6 @@ final class CollisionOracle {
             if (seen.isNew() || !open.containsKey(pair)) {
                 open.computeIfAbsent(pair, key -> new ArrayList<>()).add(seen);
             }
-        }
-        if (rules.cells().isLimited()) {
-            tellOverflows(before, followed, t);
         }
     }
 
@@ -120,6 +128,11 @@ final class CollisionOracle {
     }
 
     private Optional<Seen> closeAt(PositionFix a, PositionFix b, long t) {
+        long cell = Math.max(grid.cells(a.latitude(), a.longitude())[0], grid.cells(b.latitude(), b.longitude())[0]);
+        return isClose(a, b) ? Optional.of(new Seen(a, b, Geodesy.distance(a, b), cell, t)) : Optional.empty();
+    }
+
+    private boolean isClose(PositionFix a, PositionFix b) {
         boolean inTime = rules.maxSkew().isZero()
                 || Math.abs(a.time() - b.time()) <= rules.maxSkew().toMillis();
         boolean together = a.identity().equals(b.carrier())
@@ -127,61 +140,15 @@ final class CollisionOracle {
                 || !a.carrier().isEmpty() && a.carrier().equals(b.carrier());
         double threshold = rules.thresholds().between(a.type(), b.type())
                 * rules.steadiness().leaveFactor();
-        double distance = Geodesy.distance(a, b);
-        long cell = Math.max(grid.cells(a.latitude(), a.longitude())[0], grid.cells(b.latitude(), b.longitude())[0]);
-        return distance <= threshold && inTime && !together
-                ? Optional.of(new Seen(a, b, distance, cell, t))
-                : Optional.empty();
+        return Geodesy.distance(a, b) <= threshold && inTime && !together;
     }
 
-    /** Pairs that are followed stay so in their cell; then those seen now come in by name while there is room. */
+    /** All close pairs but what crowds leave out. */
     private Set<Pair> followed() {
-        if (!rules.cells().isLimited()) {
-            return close.keySet();
-        }
-        Set<Pair> followed = new HashSet<>();
-        open.forEach((pair, sightings) -> {
-            Seen newest = sightings.get(sightings.size() - 1);
-            if (close.containsKey(pair) && close.get(pair).cell == newest.cell) {
-                followed.add(pair);
-            }
-        });
-        Comparator<Seen> byName =
-                Comparator.comparing(Seen::first, PositionFix.NAMING).thenComparing(Seen::second, PositionFix.NAMING);
-        close.values().stream().filter(Seen::isNew).sorted(byName).forEach(seen -> {
-            long inCell = followed.stream()
-                    .filter(pair -> close.get(pair).cell == seen.cell)
-                    .count();
-            if (inCell < rules.cells().pairLimit()) {
-                followed.add(Pair.of(seen.first, seen.second));
-            }
-        });
-        return followed;
-    }
-
-    private void tellOverflows(Map<Pair, Seen> before, Set<Pair> followed, long t) {
-        Set<Long> seenIn = new TreeSet<>();
-        close.values().stream().filter(Seen::isNew).forEach(seen -> seenIn.add(seen.cell));
-        before.forEach((pair, seen) -> {
-            if (!close.containsKey(pair) || close.get(pair).cell != seen.cell) {
-                seenIn.add(seen.cell);
-            }
-        });
-        for (long cell : seenIn) {
-            int pairs = (int)
-                    close.values().stream().filter(seen -> seen.cell == cell).count();
-            int kept = (int) followed.stream()
-                    .filter(pair -> close.get(pair).cell == cell)
-                    .count();
-            Overflow now = new Overflow(cell, t, pairs, pairs - kept);
-            Overflow known = told.get(cell);
-            boolean was = known != null && known.leftOut > 0;
-            boolean rested = !was || t - known.time >= rules.ongoingEvery().toMillis();
-            if (now.leftOut > 0 ? rested : was) {
-                overflows.add(now);
-                told.put(cell, now);
-            }
-        }
+        return close.values().stream()
+                .filter(seen -> crowds.isFollowed(seen.cell, seen.first, seen.second))
+                .map(seen -> Pair.of(seen.first, seen.second))
+                .collect(Collectors.toSet());
     }
 
     /** A stretch of time in which a pair is close, from its first instant; {@code end} is the first after it. */

@@ -20,6 +20,13 @@ class CollisionUidsTest {
         assertThat(JobUids.of(CollisionJob.assemble(options))).isEqualTo(JobUids.checkedIn("collision-motion"));
     }
 
+    @Test
+    void keepsThemAlsoWhereClocksAreCorrected() {
+        CollisionOptions options = options("--clock-correction", "on");
+
+        assertThat(JobUids.of(CollisionJob.assemble(options))).isEqualTo(JobUids.checkedIn("collision-clocks"));
+    }
+
     private static CollisionOptions options(String... args) {
         CollisionOptions options = new CollisionOptions();
         JobCommandLine.of(options).parseArgs(args);

@@ -55,9 +55,7 @@ record DetectionRun(
     }
 
     List<CollisionOracle.Overflow> toldOverflows() {
-        return overflows.stream()
-                .map(told -> new CollisionOracle.Overflow(told.cell(), told.time(), told.pairs(), told.pairsLeftOut()))
-                .toList();
+        return overflows.stream().map(CollisionOracle.Overflow::of).toList();
     }
 
     /** The sum of a counter over all subtasks. */

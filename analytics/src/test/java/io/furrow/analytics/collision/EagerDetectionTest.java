@@ -37,6 +37,10 @@ class EagerDetectionTest {
             double threshold = Worlds.THRESHOLDS[job % 4];
             CollisionRules rules =
                     job % 2 == 0 ? Worlds.rules(threshold, 3 + job, job > 2) : Worlds.anyRules(threshold, seed + job);
+            int parallelism = new int[] {1, 2, 4}[job % 3];
+            if (parallelism == 1) { // what crowds leave out of provisional records depends on the order of arrival
+                rules = rules.with(new CellRules(rules.cells().meters(), CellRules.CROWD));
+            }
             List<PositionFix> fixes = new ArrayList<>();
             List<Encounter> expected = new ArrayList<>();
             for (int i = 0; i < CASES_PER_JOB; i++) {
@@ -46,10 +50,10 @@ class EagerDetectionTest {
                 expected.addAll(CollisionOracle.result(world, rules).encounters());
             }
             List<PositionFix> arrivals = new Worlds(seed + job).shuffled(fixes, DetectionRun.BOUND);
-            int parallelism = new int[] {1, 2, 4}[job % 3];
+            CollisionRules given = rules;
             DetectionRun run = DetectionRun.of(
                     arrivals,
-                    positions -> CollisionDetection.define(positions.keyBy(PositionFix::device), rules, true),
+                    positions -> CollisionDetection.define(positions.keyBy(PositionFix::device), given, true),
                     parallelism);
             String which = "job %d, seed %d, %s".formatted(job, seed, rules);
             assertThat(CollisionOracle.difference(exact(run.encounters()), expected))

@@ -143,6 +143,24 @@ class EagerStagesTest {
         alarms.stop();
     }
 
+    /** Of a pair that is close a glimpse comes with each report; rules that were changed on a savepoint tell of it no more. */
+    @Test
+    void forgetsAPairThatNobodySeesForATimeToLive() throws Exception {
+        long timeToLive = RULES.timeToLive().toMillis();
+        Alarms alarms = new Alarms(RULES);
+        Encounter provisional = alarms.glimpse(0, 2, 1000, true).get(0);
+        assertThat(alarms.advance(1000)).containsExactly(provisional.withdrawn());
+
+        alarms.glimpse(0, 2, 1500, true);
+        alarms.advance(1500 + timeToLive - 1);
+        assertThat(alarms.stateEntries()).isNotZero();
+        alarms.advance(1500 + timeToLive);
+
+        assertThat(alarms.stateEntries()).isZero();
+        assertThat(alarms.timers()).isZero();
+        alarms.stop();
+    }
+
     private Arrival resident(String device, double meters, long time, long version) {
         return new Arrival(7, version, Presence.RESIDENT, east(device, meters, time));
     }

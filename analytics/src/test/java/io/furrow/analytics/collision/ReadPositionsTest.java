@@ -7,7 +7,10 @@ import java.util.Map;
 import org.apache.flink.streaming.util.ProcessFunctionTestHarnesses;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.flink.AheadLimit;
+import io.furrow.flink.DeadLetters;
 import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
@@ -42,8 +45,24 @@ class ReadPositionsTest {
         assertThat(fix.heading()).isNaN();
     }
 
+    @Test
+    void setsAsideAnEndOfAnEpochThatCannotBeRead() throws Exception {
+        var harness = ProcessFunctionTestHarnesses.forProcessFunction(
+                new ReadPositions(AheadLimit.of(ReportedRun.options())));
+        Map<String, String> headers = Map.of(HeaderNames.REPLAY_KIND, "end", HeaderNames.REPLAY_EPOCH, "none");
+        harness.processElement(
+                new TopicRecord("data.hoeing.replay.0a1b2c3d", 0, 7, 1000, new byte[0], new byte[0], headers), 1000);
+
+        assertThat(harness.getSideOutput(DeadLetters.TAG))
+                .singleElement()
+                .satisfies(letter ->
+                        assertThat(letter.getValue().headers()).containsEntry(DeadLetter.REASON, "not-an-event"));
+        harness.close();
+    }
+
     private static List<PositionFix> read(EntityBuilder entity) throws Exception {
-        var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions());
+        AheadLimit ahead = AheadLimit.of(ReportedRun.options());
+        var harness = ProcessFunctionTestHarnesses.forProcessFunction(new ReadPositions(ahead));
         byte[] key = "r1".getBytes(StandardCharsets.UTF_8);
         byte[] value = entity.build().toBytes();
         Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");

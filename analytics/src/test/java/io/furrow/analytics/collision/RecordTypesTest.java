@@ -1,7 +1,8 @@
 package io.furrow.analytics.collision;
 
-import java.util.HashSet;
-import java.util.Set;
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
 
 import org.apache.flink.api.common.serialization.SerializerConfigImpl;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -46,7 +47,7 @@ class RecordTypesTest {
         return new Object[] {
             new Encounter(Phase.ENDED, FIX, FIX, 4.5, 1.5, 500, 1000),
             new Course(new Encounter(Phase.STARTED, FIX, FIX, 4.5, 1.5, 500, 1000), true, 900),
-            new CellOverflow(FIX, -7, 40, -3, 9, 4, 1, 1000)
+            new CellOverflow(FIX, -7, 40, -3, 9, 4, 1, 2, 1000)
         };
     }
 
@@ -68,16 +69,95 @@ class RecordTypesTest {
     void cellsGoThroughTheirFormatAndAreCopiedBeforeTheyChange() throws Exception {
         Cell cell = Cell.empty();
         cell.put(Member.of(FIX, true));
-        cell.put(Member.of(Fixes.east("c", 3, 500), false));
-        cell.crowd(new Crowd(new HashSet<>(Set.of(PAIR)), 3, true, 1000));
-        assertThat(copied(cell).crowd()).isEqualTo(cell.crowd());
+        cell.put(inACrowd(Fixes.east("c", 3, 500)));
+        cell.report(new CrowdReport(1000, true, FIX));
+        assertThat(copied(cell).report()).isEqualTo(cell.report());
+        assertThat(copied(cell).isCrowded()).isTrue();
         assertThat(copied(cell).members()).containsExactlyInAnyOrderElementsOf(cell.members());
         Cell copy = serializer(cell).copy(cell);
         copy.put(Member.of(Fixes.east("d", 3, 500), false));
-        copy.crowd().kept().add(new Pair("t", "b", "c"));
-        assertThat(cell.crowd().kept()).containsExactly(PAIR);
+        copy.report(null);
         assertThat(copy.members()).hasSize(3);
         assertThat(cell.members()).hasSize(2);
+        assertThat(cell.report()).isNotNull();
+    }
+
+    @Test
+    void cellsOfAnOlderVersionKeepThePairsThatWereFollowed() throws Exception {
+        List<PositionFix> fixes = List.of(Fixes.east("a", 0, 500), Fixes.east("b", 1, 500), Fixes.east("c", 2, 500));
+        DataInputDeserializer in = new DataInputDeserializer(olderCell(fixes));
+
+        Cell cell = new CellFormat().read(1, in);
+
+        assertThat(in.available()).isZero();
+        List<String> ended = new ArrayList<>();
+        Matching matching = new Matching(CollisionRules.DEFAULT);
+        for (PositionFix fix : fixes) {
+            CellUpdate gone = new CellUpdate(7, 600, Presence.GONE, fix);
+            cell.apply(
+                    List.of(gone),
+                    matching,
+                    seen -> ended.add(seen.pair().first() + seen.pair().second()));
+        }
+        assertThat(ended).containsExactly("farm|/|bfarm|/|c");
+        assertThat(cell.isEmpty()).isTrue();
+    }
+
+    @Test
+    void aCellOfAnOlderVersionIsReadWithWhatWaitsForIt() throws Exception {
+        byte[] older = olderCell(List.of(Fixes.east("a", 0, 500), Fixes.east("b", 1, 500), Fixes.east("c", 2, 500)));
+        DataOutputSerializer out = new DataOutputSerializer(256);
+        out.writeInt(0);
+        out.writeBoolean(true);
+        out.write(older);
+        PendingUpdatesFormat format = new PendingUpdatesFormat();
+
+        var pending = format.read(1, new DataInputDeserializer(out.getCopyOfBuffer()));
+
+        DataOutputSerializer now = new DataOutputSerializer(256);
+        format.write(pending, now);
+        DataInputDeserializer in = new DataInputDeserializer(now.getCopyOfBuffer());
+        assertThat(in.readInt()).isZero();
+        assertThat(in.readBoolean()).isTrue();
+        assertThat(new CellFormat().readPart(in).members())
+                .containsExactlyInAnyOrderElementsOf(new CellFormat()
+                        .read(1, new DataInputDeserializer(older))
+                        .members());
+    }
+
+    /** Version 1: three devices of which the second pair is followed. */
+    private static byte[] olderCell(List<PositionFix> fixes) throws IOException {
+        DataOutputSerializer out = new DataOutputSerializer(256);
+        out.writeInt(fixes.size());
+        for (PositionFix fix : fixes) {
+            out.writeBoolean(true);
+            PositionFixFormat.INSTANCE.write(fix, out);
+        }
+        out.writeBoolean(true);
+        out.writeInt(1);
+        PairFormat.INSTANCE.write(Pair.of(fixes.get(1), fixes.get(2)), out);
+        out.writeInt(3);
+        out.writeBoolean(true);
+        out.writeLong(500);
+        return out.getCopyOfBuffer();
+    }
+
+    @Test
+    void arrivalsGoThroughTheirFormatWithTheirShortlists() throws Exception {
+        Arrivals arrivals = new Arrivals();
+        Arrival here = new Arrival(7, 500, Presence.RESIDENT, Fixes.east("c", 3, 500));
+        arrivals.put(here, new Shortlist(List.of("farm|/|a")));
+        assertThat(copied(arrivals).all()).containsExactly(here);
+        assertThat(copied(arrivals).shortlists())
+                .isEqualTo(arrivals.shortlists())
+                .hasSize(1);
+        assertThat(serializer(arrivals).copy(arrivals).shortlists()).isEqualTo(arrivals.shortlists());
+    }
+
+    private static Member inACrowd(PositionFix fix) {
+        Member member = Member.of(fix, false);
+        member.shortlist(new Shortlist(List.of("farm|/|a", "farm|/|é")));
+        return member;
     }
 
     private static <T> T copied(T written) throws Exception {

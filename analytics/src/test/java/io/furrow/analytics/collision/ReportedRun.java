@@ -1,16 +1,20 @@
 package io.furrow.analytics.collision;
 
 import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
+import java.util.function.UnaryOperator;
 
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.AfterBroadcast;
+import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
 import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.TopicAtStart;
@@ -36,24 +40,48 @@ final class ReportedRun {
     private ReportedRun() {}
 
     static List<TopicRecord> run(CollisionOptions options, TopicRecord... records) throws Exception {
+        return run(options, reports -> reports, records);
+    }
+
+    /** Where it matters which position is late. */
+    static List<TopicRecord> runAfterDevices(
+            CollisionOptions options, AfterBroadcast.Metrics metrics, TopicRecord... records) throws Exception {
+        List<TopicRecord> all = new ArrayList<>(List.of(record("the first", AfterBroadcast.FIRST - START, null)));
+        all.addAll(Arrays.asList(records));
+        AfterBroadcast after =
+                new AfterBroadcast("Assign carriers", options.parallelism().orElse(2), metrics);
+        return run(
+                options,
+                reports -> reports.filter(after).setParallelism(1).uid("after-devices"),
+                all.toArray(TopicRecord[]::new));
+    }
+
+    private static List<TopicRecord> run(
+            CollisionOptions options, UnaryOperator<DataStream<TopicRecord>> held, TopicRecord... records)
+            throws Exception {
         StreamExecutionEnvironment env = TestEnvironment.of(options);
         env.setParallelism(options.parallelism().orElse(2));
         DataStream<TopicRecord> source = env.fromData(Arrays.asList(records))
                 .setParallelism(1)
                 .uid("records")
-                .assignTimestampsAndWatermarks(
-                        WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(2000))
-                                .withTimestampAssigner((record, ignored) -> record.timestamp()))
+                .assignTimestampsAndWatermarks(watermarks(options))
                 .setParallelism(1)
                 .uid("timestamps");
         DataStream<TopicRecord> devices = env.fromData(DEVICES.read(), TypeInformation.of(TopicRecord.class))
                 .uid("read-devices")
                 .setParallelism(1);
         List<TopicRecord> written = CollisionJob.define(
-                        new CollisionJob.Inputs(source, new DeviceInput(devices, DEVICES)), options)
+                        new CollisionJob.Inputs(held.apply(source), new DeviceInput(devices, DEVICES)), options)
                 .executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
         written.sort(Comparator.comparingLong(TopicRecord::timestamp));
         return written;
+    }
+
+    private static WatermarkStrategy<TopicRecord> watermarks(CollisionOptions options) {
+        return options.inputTopics().replay().isPresent()
+                ? Replayed.watermarks(options)
+                : WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachEvent<>(2000))
+                        .withTimestampAssigner((record, ignored) -> record.timestamp());
     }
 
     private static TopicRecord device(DeviceVersion version) {

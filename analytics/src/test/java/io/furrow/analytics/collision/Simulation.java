@@ -10,15 +10,13 @@ import java.util.function.Function;
 /** All stages without Flink: watermarks at random instants, and within each all keys in random order. */
 final class Simulation {
     private final Tracker tracker;
-    private final Proximity proximity;
-    private final Grid grid;
-    private final PairLimit limit;
+    private final Matching matching;
+    private final ReportCrowds reports;
     private final Follower follower;
     private final Steadier steadier;
     private final Random random;
     private final Map<String, Track> tracks = new HashMap<>();
     private final Map<Long, Cell> cells = new HashMap<>();
-    private final Map<Long, Crowd> crowds = new HashMap<>();
     private final Map<Pair, Meeting> meetings = new HashMap<>();
     private final Map<Pair, Course> courses = new HashMap<>();
     private final List<Encounter> encounters = new ArrayList<>();
@@ -27,9 +25,8 @@ final class Simulation {
 
     private Simulation(CollisionRules rules, Random random) {
         tracker = new Tracker(rules.exact());
-        proximity = new Proximity(rules.exact());
-        grid = new Grid(rules.exact());
-        limit = new PairLimit(rules);
+        matching = new Matching(rules.exact());
+        reports = new ReportCrowds(matching, new Grid(rules.exact()));
         follower = new Follower(rules.exact());
         steadier = rules.steadiness().isNone() ? null : new Steadier(rules);
         this.random = random;
@@ -51,8 +48,8 @@ final class Simulation {
         if (simulation.violations != 0) {
             throw new AssertionError(simulation.violations + " violations");
         }
-        if (!simulation.crowds.isEmpty() || !simulation.courses.isEmpty()) {
-            throw new AssertionError("something is remembered of pairs that are close no more");
+        if (!simulation.cells.values().stream().allMatch(Cell::isEmpty) || !simulation.courses.isEmpty()) {
+            throw new AssertionError("something is remembered of devices or pairs that are gone");
         }
         simulation.encounters.sort(CollisionOracle.ORDER);
         simulation.overflows.sort(CollisionOracle.Overflow.ORDER);
@@ -71,27 +68,29 @@ final class Simulation {
         });
         List<Sighting> sightings = new ArrayList<>();
         grouped(updates, CellUpdate::cell).forEach((cell, of) -> match(cell, of, sightings));
+        cells.forEach((id, cell) -> reports.advance(id, cell, until, this::tell));
         grouped(sightings, Sighting::pair).forEach((pair, of) -> follow(pair, of, until));
         for (Pair pair : List.copyOf(courses.keySet())) {
             courses.put(pair, steadier.advance(courses.get(pair), until, encounters::add));
         }
     }
 
-    private void match(long cell, List<CellUpdate> updates, List<Sighting> out) {
+    private void match(long id, List<CellUpdate> updates, List<Sighting> out) {
         updates.sort(CellUpdate.SEQUENCE);
-        Cell members = cells.computeIfAbsent(cell, id -> Cell.empty());
-        if (limit.isNone()) {
-            members.apply(updates, proximity, out::add);
-            return;
+        Cell cell = cells.computeIfAbsent(id, any -> Cell.empty());
+        int from = 0;
+        while (from < updates.size()) {
+            int to = Cell.endOfInstant(updates, from);
+            long time = updates.get(from).time();
+            reports.advance(id, cell, time - 1, this::tell);
+            cell.apply(updates.subList(from, to), matching, out::add);
+            reports.applied(id, cell, time, this::tell);
+            from = to;
         }
-        List<Sighting> seen = new ArrayList<>();
-        members.apply(updates, proximity, seen::add);
-        for (long time :
-                seen.stream().mapToLong(Sighting::time).distinct().sorted().toArray()) {
-            List<Sighting> atOnce =
-                    seen.stream().filter(each -> each.time() == time).toList();
-            crowds.compute(cell, (id, crowd) -> limit.apply(crowd, atOnce, new Limited(cell, out)));
-        }
+    }
+
+    private void tell(CellOverflow overflow) {
+        overflows.add(CollisionOracle.Overflow.of(overflow));
     }
 
     private void follow(Pair pair, List<Sighting> sightings, long until) {
@@ -104,30 +103,6 @@ final class Simulation {
         for (Encounter encounter : steadier == null ? List.<Encounter>of() : exact) {
             courses.compute(pair, (key, course) -> steadier.next(course, encounter, encounters::add));
         }
-    }
-
-    private final class Limited implements PairLimit.Output {
-        private final long cell;
-        private final List<Sighting> out;
-
-        Limited(long cell, List<Sighting> out) {
-            this.cell = cell;
-            this.out = out;
-        }
-
-        @Override
-        public void sighting(Sighting sighting) {
-            out.add(sighting);
-        }
-
-        @Override
-        public void overflow(Crowd crowd, Sighting cause) {
-            CellOverflow told = crowd.overflow(cause, 0, cell, grid);
-            overflows.add(new CollisionOracle.Overflow(told.cell(), told.time(), told.pairs(), told.pairsLeftOut()));
-        }
-
-        @Override
-        public void leftOut() {}
     }
 
     private <K, T> Map<K, List<T>> grouped(List<T> all, Function<T, K> key) {

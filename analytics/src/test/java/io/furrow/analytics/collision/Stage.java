@@ -19,7 +19,7 @@ import org.apache.flink.util.OutputTag;
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
 final class Stage<K, I, O> {
     private final ToLongFunction<I> time;
-    private final Supplier<OneInputStreamOperator<I, O>> operator;
+    private Supplier<OneInputStreamOperator<I, O>> operator;
     private final KeySelector<I, K> key;
     private final TypeInformation<K> keyType;
     private KeyedOneInputStreamOperatorTestHarness<K, I, O> harness;
@@ -125,6 +125,14 @@ final class Stage<K, I, O> {
         start();
         harness.initializeState(snapshot);
         harness.open();
+    }
+
+    /** From the snapshot of another, by rules of its own; what comes out at once is told. */
+    Stage<K, I, O> restartAs(Stage<K, I, O> other) throws Exception {
+        operator = other.operator;
+        other.stop();
+        restart();
+        return this;
     }
 
     private void start() throws Exception {

@@ -10,8 +10,11 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.analytics.clock.LaggingPosition;
+
 import static io.furrow.analytics.collision.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
 
 class TrackDevicesTest {
     private static final CollisionRules RULES =
@@ -87,6 +90,30 @@ class TrackDevicesTest {
         stage.receive(List.of(late, inTime));
         assertThat(stage.side(TrackDevices.LATE)).containsExactly(late);
         assertThat(stage.advance(1001)).containsExactlyElementsOf(arrival(inTime));
+    }
+
+    @Test
+    void showsTheLatePositionsThatAreTheNewestOfTheirDevice() throws Exception {
+        stage.receive(List.of(east("a", 50, 1000), east("b", 50, 1500)));
+        stage.advance(1200);
+        stage.receive(List.of(east("a", 50, 900), east("a", 50, 1100), east("b", 50, 1100), east("c", 50, 1150)));
+
+        assertThat(stage.side(TrackDevices.LATE)).hasSize(4);
+        assertThat(stage.side(TrackDevices.LAGGING))
+                .extracting(LaggingPosition::id, LaggingPosition::reached, LaggingPosition::counted)
+                .containsExactly(tuple("a", 1200L, 1000L), tuple("c", 1200L, Long.MIN_VALUE));
+    }
+
+    @Test
+    void letsNoMorePositionsOfADeviceWaitThanItHasRoomFor() throws Exception {
+        for (int i = 0; i <= TrackDevices.MOST_WAITING; i++) {
+            stage.receive(east("a", 50, 1000 + i));
+        }
+        PositionFix other = east("b", 50, 1000);
+        stage.receive(other);
+
+        assertThat(stage.side(TrackDevices.LATE)).containsExactly(east("a", 50, 1000 + TrackDevices.MOST_WAITING));
+        assertThat(stage.advance(1000)).hasSize(2 * cells(other).length);
     }
 
     @Test

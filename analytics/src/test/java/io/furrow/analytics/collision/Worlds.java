@@ -49,14 +49,14 @@ final class Worlds {
                                 "T2+T1", threshold * (0.3 + 2 * random.nextDouble())));
         Duration skew = random.nextInt(4) == 0 ? Duration.ofMillis(700) : Duration.ZERO;
         ExclusionZones zones = random.nextInt(3) == 0 ? yards(threshold, random) : ExclusionZones.NONE;
-        int limit = random.nextInt(3) == 0 ? 1 + random.nextInt(3) : 0;
+        int crowd = random.nextBoolean() ? CellRules.CROWD : random.nextInt(4);
         double reach = thresholds.greatest() * factor;
         return new CollisionRules(
                 thresholds,
                 new PositionRules(Duration.ofSeconds(3), skew, zones),
                 new Steadiness(factor, Duration.ofMillis(dwell)),
                 Duration.ofMillis(500),
-                new CellRules(reach * (1 + random.nextInt(30)), limit));
+                new CellRules(reach * (1 + random.nextInt(30)), crowd));
     }
 
     /** A rectangle beside each centre, some thresholds wide. */

@@ -9,10 +9,12 @@ import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.presence.Plot.Box;
 import io.furrow.flink.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
 
 class FollowDevicesTest {
     private static final Logger LOG = LoggerFactory.getLogger(FollowDevicesTest.class);
@@ -69,6 +71,22 @@ class FollowDevicesTest {
         assertThat(following.timers()).isZero();
         following.stop();
         return passages.stream().map(PresenceOracle::line).sorted().toList();
+    }
+
+    @Test
+    void goesByOtherRulesAsSoonAsTheyAreRestored() throws Exception {
+        Following following = new Following(
+                new PresenceRules(Duration.ofSeconds(60), Duration.ofSeconds(10)), 1, List.of(FIELD.record(0)));
+        following.receive(Story.fix("d", 2, 2, 1000));
+        assertThat(following.advance(5000)).isEmpty();
+
+        following.restart(new PresenceRules(Duration.ofSeconds(20), Duration.ofSeconds(3)));
+
+        assertThat(following.advance(60_000))
+                .extracting(one -> one.phase().code() + " " + one.time() + " told " + one.told())
+                .containsExactly("entered 1000 told 4000", "left 21000 told 24000");
+        assertThat(following.stateEntries()).isZero();
+        following.stop();
     }
 
     @Test
@@ -148,6 +166,25 @@ class FollowDevicesTest {
     }
 
     @Test
+    void showsTheLatePositionsThatAreTheNewestOfTheirDevice() throws Exception {
+        Following following = new Following(AT_ONCE, 1, List.of(FIELD.record(0)));
+        following.receive(Story.fix("d", 2, 2, 10_000));
+        following.receive(Story.fix("e", 2, 2, 13_000));
+        following.advance(12_000);
+
+        following.receive(Story.fix("d", 9, 9, 9_000));
+        following.receive(Story.fix("d", 9, 9, 11_000));
+        following.receive(Story.fix("e", 9, 9, 11_000));
+        following.receive(Story.fix("f", 9, 9, 11_500));
+
+        assertThat(following.late()).hasSize(4);
+        assertThat(following.lagging())
+                .extracting(LaggingPosition::id, LaggingPosition::reached, LaggingPosition::counted)
+                .containsExactly(tuple("d", 12_000L, 10_000L), tuple("f", 12_000L, Long.MIN_VALUE));
+        following.stop();
+    }
+
+    @Test
     void setsAsideWhatComesBehindTheWatermarkAlsoAfterARestart() throws Exception {
         Following following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
         following.receive(Story.fix("d", 2, 2, 10_000));
@@ -159,6 +196,26 @@ class FollowDevicesTest {
         following.receive(Story.fix("d", 9, 9, 11_000));
 
         assertThat(following.late()).extracting(PresenceFix::time).containsExactlyInAnyOrder(12_000L, 11_000L);
+        following.stop();
+    }
+
+    @Test
+    void takesWhatWasOnItsWayToASubtaskThatWasBehind() throws Exception {
+        Following following = new Following(AT_ONCE, 2, List.of(FIELD.record(0)));
+        PresenceFix ahead = Story.fix("d", 9, 9, 11_000);
+        PresenceFix behind = null;
+        for (int i = 0; behind == null || following.subtaskOf(behind) == following.subtaskOf(ahead); i++) {
+            behind = Story.fix("e" + i, 2, 2, 11_000);
+        }
+        following.advance(following.subtaskOf(ahead), 12_000);
+        following.advance(following.subtaskOf(behind), 10_000);
+
+        following.restart(1);
+        following.receive(ahead);
+        following.receive(behind);
+
+        assertThat(following.late()).containsExactly(ahead);
+        assertThat(following.advance(12_000)).hasSize(1);
         following.stop();
     }
 

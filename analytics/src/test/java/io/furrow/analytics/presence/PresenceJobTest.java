@@ -2,20 +2,13 @@ package io.furrow.analytics.presence;
 
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
-import java.util.Arrays;
-import java.util.Comparator;
 import java.util.List;
-import java.util.Map;
+import java.util.function.Predicate;
+import java.util.stream.LongStream;
 
-import org.apache.flink.api.common.eventtime.Watermark;
-import org.apache.flink.api.common.eventtime.WatermarkGenerator;
-import org.apache.flink.api.common.eventtime.WatermarkOutput;
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.runtime.testutils.InMemoryReporter;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
-import org.apache.flink.streaming.api.datastream.DataStream;
-import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -25,16 +18,18 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.analytics.TestEnvironment;
-import io.furrow.analytics.field.FieldInput;
+import io.furrow.analytics.Replayed;
 import io.furrow.analytics.presence.Plot.Box;
-import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.UnreadableException;
 
+import static io.furrow.analytics.presence.PresenceRun.entity;
+import static io.furrow.analytics.presence.PresenceRun.options;
+import static io.furrow.analytics.presence.PresenceRun.record;
+import static io.furrow.analytics.presence.PresenceRun.report;
+import static io.furrow.analytics.presence.PresenceRun.run;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.tuple;
@@ -50,10 +45,6 @@ class PresenceJobTest {
             .setNumberTaskManagers(1)
             .setNumberSlotsPerTaskManager(4)
             .build());
-
-    private static final int MORE_THAN_ANY_TEST_WRITES = 10_000;
-    /** Time of a record whose watermark is the first that there is. */
-    static final long FIRST = Long.MIN_VALUE + Story.BOUND + 2;
 
     private static final Plot FIELD = new Plot("f", 0, List.of(new Box(1, 1, 1 + 5e-4, 1 + 5e-4)), null);
 
@@ -73,9 +64,9 @@ class PresenceJobTest {
             List<TopicRecord> written = run(
                     options,
                     story.plots,
-                    story.arrivals().stream().map(PresenceJobTest::report).toArray(TopicRecord[]::new));
+                    story.arrivals().stream().map(PresenceRun::report).toArray(TopicRecord[]::new));
 
-            assertThat(written.stream().map(PresenceJobTest::line).sorted())
+            assertThat(written.stream().map(PresenceRun::line).sorted())
                     .as("story %d of seed %d", index, seed)
                     .containsExactlyElementsOf(PresenceOracle.passages(story.fixes, story.plots, story.rules));
         }
@@ -138,14 +129,15 @@ class PresenceJobTest {
                 options("--parallelism", "1"),
                 List.of(FIELD),
                 report(Story.fix("r1", 2, 3, 1000)),
-                garbage,
+                garbage.to("reports"),
+                garbage, // of data.raw, which ingest sets aside
                 record("r2", 1000, null),
                 report(Story.fix("r1", 2, 3, 90_000)),
                 report(Story.fix("r1", 9, 9, 2000)));
 
         assertThat(written)
                 .extracting(TopicRecord::topic)
-                .containsExactlyInAnyOrder("data.presence", "data.presence", "data.presence.late", "data.raw.dead");
+                .containsExactlyInAnyOrder("data.presence", "data.presence", "data.presence.late", "reports.dead");
         assertThat(written)
                 .filteredOn(record -> record.topic().endsWith(".dead"))
                 .allSatisfy(dead -> assertThat(dead.headers()).containsEntry(DeadLetter.STAGE, "presence"));
@@ -156,114 +148,79 @@ class PresenceJobTest {
     }
 
     @Test
+    void seesADeviceWhoseClockIsBehindOnceThatIsCorrected() throws Exception {
+        long behind = Story.BOUND + 3000;
+        List<TopicRecord> reports = new ArrayList<>();
+        for (long now = 1_000_000; now < 1_200_000; now += 1000) {
+            String received = Long.toString(now);
+            reports.add(report(Story.fix("right", 9, 9, now)).with(HeaderNames.TS_SOURCE, received));
+            reports.add(report(Story.fix("slow", 2, 3, now - behind)).with(HeaderNames.TS_SOURCE, received));
+        }
+        TopicRecord[] all = reports.toArray(TopicRecord[]::new);
+
+        List<TopicRecord> written = run(options("--parallelism", "1"), List.of(FIELD), all);
+        assertThat(written)
+                .extracting(TopicRecord::topic)
+                .contains("data.clocks")
+                .doesNotContain("data.presence");
+
+        written = run(options("--parallelism", "1", "--clock-correction", "on"), List.of(FIELD), all);
+        assertThat(written)
+                .filteredOn(record -> record.topic().equals("data.presence"))
+                .extracting(record -> entity(record).text("device").orElseThrow())
+                .containsOnly("slow");
+        assertThat(written)
+                .filteredOn(record -> entity(record).type().equals("Analytics:ClockOffset"))
+                .singleElement()
+                .satisfies(offset -> {
+                    assertThat(entity(offset).text("job")).contains("presence");
+                    assertThat(entity(offset).number("offset")).contains((double) behind);
+                });
+    }
+
+    @Test
+    void tellsOfEachEpochOfAReplayWhatItTellsOfItAlone() throws Exception {
+        long seed = Long.getLong("presence.seed", System.nanoTime());
+        LOG.info("replay of a story of presence from seed {}", seed);
+        Story story = storyWithPassagesInBothHalves(seed);
+        PresenceOptions options = options(("--input %s --out-of-orderness %dms --dwell %dms --time-to-live %dms")
+                .formatted(
+                        Replayed.TOPIC,
+                        Story.BOUND,
+                        story.rules.dwell().toMillis(),
+                        story.rules.timeToLive().toMillis())
+                .split(" "));
+        List<TopicRecord> arrivals =
+                story.arrivals().stream().map(PresenceRun::report).toList();
+
+        Replayed.assertThatEpochsAreAsAlone(
+                Replayed.epochs(arrivals, middle(story)),
+                records -> run(options, story.plots, records.toArray(TopicRecord[]::new)));
+    }
+
+    /** In two of a hundred random stories nobody enters a field in one of the halves, and nothing would be compared. */
+    private static Story storyWithPassagesInBothHalves(long seed) {
+        return LongStream.iterate(seed, next -> next + 1)
+                .mapToObj(Story::new)
+                .filter(story -> hasPassages(story, fix -> fix.time() <= middle(story))
+                        && hasPassages(story, fix -> fix.time() > middle(story)))
+                .findFirst()
+                .orElseThrow();
+    }
+
+    private static boolean hasPassages(Story story, Predicate<PresenceFix> half) {
+        List<PresenceFix> fixes = story.fixes.stream().filter(half).toList();
+        return !PresenceOracle.passages(fixes, story.plots, story.rules).isEmpty();
+    }
+
+    private static long middle(Story story) {
+        return story.fixes.get(0).time() + 200;
+    }
+
+    @Test
     void refusesRulesThatCannotBeKept() {
         assertThatThrownBy(() -> options("--time-to-live", "0s").rules())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--time-to-live must be longer than 0");
-    }
-
-    private static List<TopicRecord> run(PresenceOptions options, List<Plot> plots, TopicRecord... records)
-            throws Exception {
-        StreamExecutionEnvironment env = TestEnvironment.of(options);
-        env.setBufferTimeout(0); // what was sent first is there first
-        env.setParallelism(options.parallelism().orElse(2));
-        List<TopicRecord> all = new ArrayList<>(List.of(record("the first", FIRST, null)));
-        all.addAll(Arrays.asList(records));
-        DataStream<TopicRecord> source = env.fromData(all)
-                .setParallelism(1)
-                .uid("records")
-                .assignTimestampsAndWatermarks(WatermarkStrategy.<TopicRecord>forGenerator(context -> new EachRecord())
-                        .withTimestampAssigner((record, ignored) -> record.timestamp()))
-                .setParallelism(1)
-                .uid("timestamps")
-                .filter(new AfterFields(options.parallelism().orElse(2)))
-                .setParallelism(1)
-                .uid("after-fields");
-        ArrayList<Plot> known = new ArrayList<>(plots);
-        DataStream<TopicRecord> versions = env.fromData(records(known))
-                .setParallelism(1)
-                .uid("fields")
-                .assignTimestampsAndWatermarks(WatermarkStrategy.forGenerator(context -> new NoHindrance()))
-                .setParallelism(1)
-                .uid("no-hindrance");
-        PresenceJob.Inputs in = new PresenceJob.Inputs(source, new FieldInput(versions, () -> records(known)));
-        List<TopicRecord> written = PresenceJob.define(in, options).executeAndCollect(MORE_THAN_ANY_TEST_WRITES);
-        written.sort(Comparator.comparingLong(TopicRecord::timestamp));
-        return written;
-    }
-
-    private static List<TopicRecord> records(List<Plot> plots) {
-        List<TopicRecord> records = new ArrayList<>();
-        plots.forEach(plot -> records.add(plot.record(records.size())));
-        return records;
-    }
-
-    /** A watermark after every record, so that a short job has as many as a long one. */
-    private static final class EachRecord implements WatermarkGenerator<TopicRecord> {
-        private long newest = Long.MIN_VALUE + Story.BOUND + 1;
-
-        @Override
-        public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
-            newest = Math.max(newest, time);
-            output.emitWatermark(new Watermark(newest - Story.BOUND - 1));
-        }
-
-        @Override
-        public void onPeriodicEmit(WatermarkOutput output) {}
-    }
-
-    private static final class NoHindrance implements WatermarkGenerator<TopicRecord> {
-        @Override
-        public void onEvent(TopicRecord event, long time, WatermarkOutput output) {
-            output.emitWatermark(new Watermark(Long.MAX_VALUE - 1));
-        }
-
-        @Override
-        public void onPeriodicEmit(WatermarkOutput output) {}
-    }
-
-    private static PresenceOptions options(String... args) {
-        PresenceOptions options = new PresenceOptions();
-        JobCommandLine.of(options).parseArgs(args);
-        return options;
-    }
-
-    private static TopicRecord report(PresenceFix fix) {
-        Entity entity = Entity.builder(fix.id(), "ROBOT")
-                .text("Mission", "hoeing")
-                .number("Latitude", fix.latitude())
-                .number("Longitude", fix.longitude())
-                .build();
-        return record(fix.id(), fix.time(), new String(entity.toBytes(), StandardCharsets.UTF_8));
-    }
-
-    private static TopicRecord record(String key, long time, String value) {
-        byte[] bytes = value == null ? null : value.getBytes(StandardCharsets.UTF_8);
-        Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
-        return new TopicRecord("data.raw", 0, 7, time, key.getBytes(StandardCharsets.UTF_8), bytes, headers);
-    }
-
-    /** As {@link PresenceOracle#line}. */
-    private static String line(TopicRecord record) {
-        Entity entity = entity(record);
-        return "data.raw|farm|/|%s %s %s at %d told %d from %s,%s %s since %d"
-                .formatted(
-                        entity.text("device").orElseThrow(),
-                        entity.text("field").orElseThrow(),
-                        entity.text("phase").orElseThrow(),
-                        entity.number("time").orElseThrow().longValue(),
-                        record.timestamp(),
-                        entity.number("Longitude").orElseThrow(),
-                        entity.number("Latitude").orElseThrow(),
-                        entity.text("cause").orElseThrow(),
-                        entity.number("startTime").orElseThrow().longValue());
-    }
-
-    private static Entity entity(TopicRecord record) {
-        try {
-            return Entity.parse(record.value());
-        } catch (UnreadableException e) {
-            throw new AssertionError("what the job wrote is an entity", e);
-        }
     }
 }

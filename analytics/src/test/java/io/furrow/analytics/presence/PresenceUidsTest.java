@@ -15,4 +15,12 @@ class PresenceUidsTest {
 
         assertThat(JobUids.of(PresenceJob.assemble(options))).isEqualTo(JobUids.checkedIn("presence"));
     }
+
+    @Test
+    void keepsThemAlsoWhereClocksAreCorrected() {
+        PresenceOptions options = new PresenceOptions();
+        JobCommandLine.of(options).parseArgs("--clock-correction", "on");
+
+        assertThat(JobUids.of(PresenceJob.assemble(options))).isEqualTo(JobUids.checkedIn("presence-clocks"));
+    }
 }

@@ -1,6 +1,7 @@
 package io.furrow.analytics.temperature;
 
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
@@ -8,6 +9,7 @@ import java.util.Map;
 import java.util.Set;
 import java.util.TreeMap;
 import java.util.TreeSet;
+import java.util.stream.IntStream;
 
 import io.furrow.analytics.temperature.RandomCases.Arrival;
 import io.furrow.analytics.temperature.RandomCases.Change;
@@ -173,16 +175,21 @@ final class BatchRecomputation {
         double centre = middle(new ArrayList<>(votes.values()));
         double mad = middle(
                 votes.values().stream().map(vote -> Math.abs(vote - centre)).toList());
-        List<String> suspects = new ArrayList<>();
-        List<Double> kept = new ArrayList<>();
-        votes.forEach((device, vote) -> {
-            boolean far = Math.abs(vote - centre) > 3 * 1.4826 * Math.max(mad, floor);
-            if (votes.size() >= 3 && far) {
-                suspects.add('"' + device + '"');
-            } else {
-                kept.add(vote);
-            }
-        });
+        List<String> outward = votes.keySet().stream()
+                .sorted(Comparator.comparing((String device) -> Math.abs(votes.get(device) - centre))
+                        .thenComparing(votes::get))
+                .toList();
+        List<Double> offsets =
+                outward.stream().map(device -> votes.get(device) - centre).toList();
+        int sound = IntStream.range(offsets.size() / 2 + 1, offsets.size())
+                .filter(k -> isTooFar(offsets.get(k), offsets.subList(0, k), offsets.size(), floor))
+                .findFirst()
+                .orElse(offsets.size());
+        List<Double> kept = outward.subList(0, sound).stream().map(votes::get).toList();
+        List<String> suspects = outward.subList(sound, outward.size()).stream()
+                .sorted()
+                .map(device -> '"' + device + '"')
+                .toList();
         Map<String, Object> result = new HashMap<>();
         result.put("averageTemperature", average(kept));
         result.put("plainMean", average(new ArrayList<>(votes.values())));
@@ -192,6 +199,17 @@ final class BatchRecomputation {
         result.put("quality", votes.size() < 3 ? "unverified" : "robust");
         result.put("Domain", window.newest.domain());
         return result;
+    }
+
+    /** Whether a vote is far from those that are nearer to the middle, of so many in all. */
+    private static boolean isTooFar(double vote, List<Double> nearer, int all, double floor) {
+        double k = nearer.size();
+        double squares = nearer.stream()
+                .mapToDouble(each -> Math.pow(each - average(nearer), 2))
+                .sum();
+        double spread = (all - 1) / k * Math.sqrt(squares / (k - 1)) * (k == 2 ? 4.3 : 1);
+        double sigma = Math.max(floor / Math.sqrt(2), spread) * Math.sqrt((k + 1) / k);
+        return Math.abs(vote - average(nearer)) > Math.sqrt(2 * Math.log(22 * all)) * sigma;
     }
 
     private static double average(List<Double> values) {

@@ -4,11 +4,12 @@ import java.time.Duration;
 
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
-import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.KeyedLatenessOperator;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -99,6 +100,19 @@ class FollowSuspectsTest {
     }
 
     @Test
+    void passesOverVerdictsOfWindowsThatArePastAlsoAfterARestart() throws Exception {
+        suspect(0);
+        suspect(1);
+        pass(1);
+        restart();
+        sound("north", 1);
+        suspect(2);
+        pass(2);
+
+        assertThat(operator.extractOutputValues()).containsExactly(new SuspectDevice(verdict("north", true, 2), 3, 0));
+    }
+
+    @Test
     void forgetsSoundDevicesAtOnceAndSilentOnesWithTime() throws Exception {
         suspect(0);
         sound("north", 1);
@@ -133,11 +147,7 @@ class FollowSuspectsTest {
         suspect(0);
         pass(0);
         suspect(1);
-        OperatorSubtaskState snapshot = operator.snapshot(1, 1);
-        operator.close();
-        operator = create();
-        operator.initializeState(snapshot);
-        operator.open();
+        restart();
         suspect(2);
         pass(2);
 
@@ -148,9 +158,17 @@ class FollowSuspectsTest {
         assertThat(operator.numEventTimeTimers()).isZero();
     }
 
+    private void restart() throws Exception {
+        OperatorSubtaskState snapshot = operator.snapshot(1, 1);
+        operator.close();
+        operator = create();
+        operator.initializeState(snapshot);
+        operator.open();
+    }
+
     private static KeyedOneInputStreamOperatorTestHarness<String, Verdict, SuspectDevice> create() throws Exception {
         return new KeyedOneInputStreamOperatorTestHarness<>(
-                new KeyedProcessOperator<>(new FollowSuspects(3, MEMORY)), Verdict::deviceIdentity, Types.STRING);
+                new KeyedLatenessOperator<>(new FollowSuspects(3, MEMORY)), Verdict::deviceIdentity, Types.STRING);
     }
 
     private void suspect(int window) throws Exception {

@@ -17,6 +17,7 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
+import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.flink.KafkaEnds;
@@ -96,6 +97,9 @@ record JobRun(JobID id, List<TopicRecord> records) {
     }
 
     static WatermarkStrategy<TopicRecord> watermarks(TemperatureOptions options) {
+        if (options.inputTopics().replay().isPresent()) {
+            return Replayed.watermarks(options);
+        }
         long bound = options.outOfOrderness().toMillis();
         return WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
                 .withTimestampAssigner((record, unused) -> record.timestamp());

@@ -76,7 +76,7 @@ record RandomCases(
         long window = slide * (1 + random.nextInt(3));
         long bound = random.nextInt(10_000);
         long lateness = inBounds ? 0 : random.nextInt(3) * 3_000L;
-        Setting setting = new Setting(window, slide, lateness, random.nextBoolean() ? 0 : 0.2);
+        Setting setting = new Setting(window, slide, lateness, random.nextBoolean() ? 0 : 0.5);
         List<Change> changes = new ArrayList<>();
         List<Arrival> readings = new ArrayList<>();
         for (int number = 0; number < TOGETHER; number++) {
@@ -213,7 +213,7 @@ record RandomCases(
                 "--out-of-orderness=" + bound + "ms",
                 "--allowed-lateness=" + setting.lateness() + "ms",
                 "--repeat-window=1h", // a repetition that comes after it would be one more late reading
-                "--mad-floor=" + setting.floor(),
+                "--suspect-floor=" + setting.floor(),
                 "--suspect-after=" + (inBounds ? 2 : 0),
                 "--empty-windows=" + (fillsEmptyWindows() ? "1d" : "0s"));
     }

@@ -74,21 +74,23 @@ class TemperatureIntakeTest {
         List<TopicRecord> arrivals = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
         byte[] noJson = "temperature=18".getBytes(StandardCharsets.UTF_8);
         byte[] otherSchema = "{\"sensor\": 5, \"readings\": [18.1]}".getBytes(StandardCharsets.UTF_8);
-        arrivals.add(1, Farm.garbage(noJson, 1_500));
-        arrivals.add(2, Farm.garbage(otherSchema, 1_500));
+        arrivals.add(1, Farm.garbage(noJson, 1_500).to("reports"));
+        arrivals.add(2, Farm.garbage(otherSchema, 1_500).to("reports"));
+        arrivals.add(3, Farm.garbage(noJson, 1_500));
 
         JobRun run = JobRun.over(arrivals);
 
         assertThat(run.averages()).containsExactly(Map.entry("north", 19.0));
-        assertThat(run.to("data.raw.dead")).hasSize(2);
-        TopicRecord first = run.to("data.raw.dead").stream()
+        assertThat(run.to("data.raw.dead")).as("ingest writes it").isEmpty();
+        assertThat(run.to("reports.dead")).hasSize(2);
+        TopicRecord first = run.to("reports.dead").stream()
                 .filter(dead -> java.util.Arrays.equals(dead.value(), noJson))
                 .findFirst()
                 .orElseThrow();
         assertThat(first.headers())
                 .containsEntry(DeadLetter.REASON, "not-json")
                 .containsEntry(DeadLetter.STAGE, "temperature");
-        assertThat(counted(run, "rejected")).isEqualTo(2);
+        assertThat(counted(run, "rejected")).isEqualTo(3);
     }
 
     @Test

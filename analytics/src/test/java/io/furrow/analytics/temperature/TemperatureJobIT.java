@@ -44,6 +44,9 @@ class TemperatureJobIT {
     /** Event time between two rounds, ms. */
     private static final long ROUND = 1_000_000;
 
+    /** A topic that ingest does not read. */
+    private static final String OTHER = "reports";
+
     private static final byte[] GARBAGE = "temperature=18".getBytes(StandardCharsets.UTF_8);
 
     @Test
@@ -52,7 +55,7 @@ class TemperatureJobIT {
                 EmbeddedFlink flink = EmbeddedFlink.start(1, 0)) {
             makeTopics(kafka);
             List<TopicRecord> reported = new ArrayList<>(Farm.FOUR_DEVICES_ONE_DEFECTIVE);
-            reported.add(Farm.garbage(GARBAGE, 5_000));
+            reported.add(Farm.garbage(GARBAGE, 5_000).to(OTHER));
             reported.add(Farm.north("t1", 18, 200_000));
             write(kafka, reported);
 
@@ -60,6 +63,8 @@ class TemperatureJobIT {
                             Farm.FIELDS,
                             "--bootstrap-servers",
                             kafka.bootstrapServers(),
+                            "--input",
+                            Topics.RAW + "," + OTHER,
                             "--idle-timeout",
                             "2s",
                             "--parallelism",
@@ -73,9 +78,9 @@ class TemperatureJobIT {
             assertThat(result.timestamp()).isEqualTo(59_999);
             assertThat(header(result, HeaderNames.CE_SOURCE)).isEqualTo("/analytics/temperature");
 
-            ConsumerRecord<byte[], byte[]> dead = first(kafka, Topics.dead(Topics.RAW));
+            ConsumerRecord<byte[], byte[]> dead = first(kafka, Topics.dead(OTHER));
             assertThat(dead.value()).isEqualTo(GARBAGE);
-            assertThat(header(dead, DeadLetter.SOURCE)).matches("data\\.raw-\\d@\\d+");
+            assertThat(header(dead, DeadLetter.SOURCE)).matches("reports-\\d@\\d+");
         }
     }
 
@@ -126,7 +131,7 @@ class TemperatureJobIT {
     /** They keep records of 1970: retention goes by the record timestamp. */
     private static void makeTopics(EmbeddedKafka kafka) throws Exception {
         try (Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
-            admin.createTopics(Stream.of(Topics.RAW, Topics.FIELDS, Topics.TEMPERATURE, Topics.dead(Topics.RAW))
+            admin.createTopics(Stream.of(Topics.RAW, OTHER, Topics.FIELDS, Topics.TEMPERATURE, Topics.dead(OTHER))
                             .map(name -> new NewTopic(name, Optional.of(1), Optional.empty())
                                     .configs(Map.of("retention.ms", "-1")))
                             .toList())

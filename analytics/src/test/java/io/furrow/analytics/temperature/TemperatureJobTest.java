@@ -234,6 +234,8 @@ class TemperatureJobTest {
                 List.of(moist, Farm.north("t1", 18, 200_000), moist.with(HeaderNames.CE_ID, "another")),
                 "--attribute",
                 "soilMoisture",
+                "--suspect-floor",
+                "0.02",
                 "--output",
                 "data.moisture",
                 "--late-output",

@@ -22,7 +22,7 @@ class TemperatureOptionsTest {
         assertThat(options.window()).isEqualTo(Duration.ofMinutes(1));
         assertThat(options.slide()).isEqualTo(Duration.ofMinutes(1));
         assertThat(options.allowedLateness()).isZero();
-        assertThat(options.madFloor()).isZero();
+        assertThat(options.suspectFloor()).isEqualTo(0.5);
         assertThat(options.output()).isEqualTo("data.temperature");
         assertThat(options.lateOutput()).isEqualTo("data.temperature.late");
     }
@@ -49,9 +49,10 @@ class TemperatureOptionsTest {
         assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--window", "0s").window())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--window must be longer than 0");
-        assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--mad-floor", "-1").madFloor())
+        assertThatThrownBy(
+                        () -> Farm.options(Farm.FIELDS, "--suspect-floor", "-1").suspectFloor())
                 .isInstanceOf(ParameterException.class)
-                .hasMessageContaining("--mad-floor");
+                .hasMessageContaining("--suspect-floor must be 0 or");
     }
 
     @Test
@@ -71,6 +72,19 @@ class TemperatureOptionsTest {
                         .attribute())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--attribute must be 1 to 40 of");
+    }
+
+    @Test
+    void knowHowMuchSoundDevicesDifferOfATemperatureOnly() {
+        assertThat(Farm.options(Farm.FIELDS, "--suspect-floor", "0.9").suspectFloor())
+                .isEqualTo(0.9);
+        assertThat(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture", "--suspect-floor", "0")
+                        .suspectFloor())
+                .isZero();
+        assertThatThrownBy(() -> TemperatureJob.assemble(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture")))
+                .isInstanceOf(ParameterException.class)
+                .hasMessageStartingWith(
+                        "--attribute soilMoisture needs --suspect-floor: by how much two sound devices");
     }
 
     @Test

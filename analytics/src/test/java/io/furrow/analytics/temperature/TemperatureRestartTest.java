@@ -1,24 +1,15 @@
 package io.furrow.analytics.temperature;
 
-import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
-import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
+import java.util.Set;
 import java.util.concurrent.TimeUnit;
 
-import org.apache.flink.api.common.JobID;
-import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.core.execution.RecoveryClaimMode;
-import org.apache.flink.core.execution.SavepointFormatType;
-import org.apache.flink.runtime.execution.ExecutionState;
-import org.apache.flink.runtime.executiongraph.AccessExecutionVertex;
-import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
 import org.apache.flink.runtime.minicluster.MiniCluster;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
-import org.apache.flink.streaming.api.graph.StreamGraph;
 import org.apache.flink.test.junit5.InjectMiniCluster;
 import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.junit.jupiter.api.Test;
@@ -27,112 +18,112 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.analytics.field.FieldInput;
+import io.furrow.flink.JobOptions;
 import io.furrow.flink.TopicRecord;
+import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.Restarts;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
 
-import static org.assertj.core.api.Assertions.assertThat;
-import static org.awaitility.Awaitility.await;
-
-@Timeout(240)
+@Timeout(value = 10, unit = TimeUnit.HOURS)
 class TemperatureRestartTest {
     @RegisterExtension
-    static final MiniClusterExtension FLINK = InTurn.cluster(4);
-
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
-
-    private final Collected collected = new Collected();
-    private int alreadyRead;
-
-    @TempDir
-    private Path savepoints;
+    static final MiniClusterExtension FLINK = Restarts.cluster();
 
     @Test
-    void givesTheResultsOfAnUndisturbedRunWhenRestartedAndRescaledWithinWindows(@InjectMiniCluster MiniCluster flink)
-            throws Exception {
-        List<TopicRecord> readings = readings();
-        List<String> undisturbed = results(JobRun.over(readings, arguments(1)).records());
-
-        String first = stop(flink, run(flink, null, readings, 0, 170, 1), 170);
-        String second = stop(flink, run(flink, first, readings, 170, 333, 2), 333);
-        String third = stop(flink, run(flink, second, readings, 333, 471, 4), 471);
-        JobID last = run(flink, third, readings, 471, readings.size(), 2);
-        flink.requestJobResult(last).get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
-
-        assertThat(undisturbed).hasSizeGreaterThan(20).anyMatch(result -> result.contains("Analytics:SuspectDevice"));
-        assertThat(results(collected.records())).isEqualTo(undisturbed);
+    void givesTheResultsOfAnUndisturbedRunWhereverItIsRestarted(
+            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
+        new Restarts(flink, folder).changeNothing(3, Case::new);
     }
 
-    /** Out of order by less than the bound; one device is defective, and one falls silent. */
-    private static List<TopicRecord> readings() {
-        Random random = new Random(42);
-        List<TopicRecord> readings = new ArrayList<>();
-        for (int i = 0; i < 600; i++) {
-            long time = 1_700_000_000_000L + i * 500L - random.nextInt(2_000);
-            int device = i % 6;
-            if (device != 5 || i < 200) {
-                readings.add(Farm.north("t" + device, device == 3 ? 60 : 18 + random.nextInt(10) / 10.0, time));
+    @Test
+    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).goOnFromReleases("temperature", new Case(1));
+    }
+
+    /** One device is defective, one falls silent; some readings are late, some come twice, and some are corrections. */
+    private static final class Case implements JobCase {
+        private static final long START = 1_700_000_000_000L;
+        private static final int STEP = 250;
+
+        private final List<Arrival> arrivals = new ArrayList<>();
+        private final boolean corrects;
+
+        Case(long seed) {
+            Random random = Restarts.random(seed);
+            corrects = random.nextBoolean();
+            for (int i = 0; i < 480; i++) {
+                int device = i % 6;
+                long now = START + (long) i * STEP;
+                double value = device == 3 ? 60 : 18 + random.nextInt(10) / 10.0;
+                if (device == 5 && i > 160) {
+                    continue;
+                }
+                TopicRecord reading = Farm.north("t" + device, value, now - random.nextInt(2_000));
+                arrivals.add(new Arrival(reading, false));
+                if (random.nextInt(20) == 0) {
+                    arrivals.add(new Arrival(reading, false));
+                }
+                if (i > 240 && random.nextInt(5) == 0) {
+                    long late = now - 45_000 - random.nextInt(20_000);
+                    arrivals.add(new Arrival(Farm.north("t" + device, 30, late), true));
+                }
+                if (corrects && random.nextInt(12) == 0) {
+                    long belated = now - bound() - 1_500 - random.nextInt(3_000);
+                    arrivals.add(new Arrival(Farm.north("t" + random.nextInt(3), 18.5, belated), true));
+                }
             }
         }
-        return readings;
-    }
 
-    private static TemperatureOptions arguments(int parallelism) {
-        return Farm.options(
-                Farm.FIELDS,
-                "--parallelism=" + parallelism,
-                "--window=20s",
-                "--slide=10s",
-                "--out-of-orderness=3s",
-                "--suspect-after=4",
-                "--empty-windows");
-    }
-
-    private static List<String> results(List<TopicRecord> records) {
-        return records.stream()
-                .map(record -> record.topic() + " " + new String(record.value(), StandardCharsets.UTF_8))
-                .sorted()
-                .toList();
-    }
-
-    private JobID run(
-            MiniCluster flink, String savepoint, List<TopicRecord> readings, int from, int until, int subtasks)
-            throws Exception {
-        TemperatureOptions options = arguments(subtasks);
-        StreamExecutionEnvironment env = JobRun.environment(options);
-        DataStream<TopicRecord> paused = env.fromSource(
-                        PausedReadings.of(readings, from, until), WatermarkStrategy.noWatermarks(), "Readings")
-                .setParallelism(1)
-                .uid("readings")
-                .assignTimestampsAndWatermarks(JobRun.watermarks(options))
-                .setParallelism(1)
-                .uid("watermarks");
-        TemperatureJob.define(new TemperatureJob.Inputs(paused, FieldInput.of(env, options, options.fields())), options)
-                .sinkTo(collected)
-                .uid("collect");
-        StreamGraph graph = env.getStreamGraph();
-        if (savepoint != null) {
-            graph.setSavepointRestoreSettings(
-                    SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
+        @Override
+        public List<Arrival> arrivals() {
+            return arrivals;
         }
-        return flink.submitJob(graph).get().getJobID();
-    }
 
-    /** Stops the job once it has read up to the pause; where its savepoint is. */
-    private String stop(MiniCluster flink, JobID job, int read) throws Exception {
-        await().atMost(PATIENCE).until(() -> InTurn.counted(job, "accepted") >= read - alreadyRead);
-        await().atMost(PATIENCE).until(() -> isRunning(flink, job));
-        alreadyRead = read;
-        return flink.stopWithSavepoint(job, savepoints.toUri().toString(), false, SavepointFormatType.CANONICAL)
-                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
-    }
-
-    /** All of it: there is no savepoint while a subtask still starts. The stream of fields may have ended. */
-    private static boolean isRunning(MiniCluster flink, JobID job) throws Exception {
-        for (AccessExecutionVertex subtask : flink.getExecutionGraph(job).get().getAllExecutionVertices()) {
-            ExecutionState state = subtask.getExecutionState();
-            if (state != ExecutionState.RUNNING && state != ExecutionState.FINISHED) {
-                return false;
-            }
+        @Override
+        public long bound() {
+            return 3_000;
         }
-        return true;
+
+        @Override
+        public JobOptions options(int parallelism) {
+            return Farm.options(
+                    Farm.FIELDS,
+                    "--parallelism=" + parallelism,
+                    "--window=20s",
+                    "--slide=10s",
+                    "--allowed-lateness=" + (corrects ? "15s" : "0s"),
+                    "--suspect-after=3",
+                    "--empty-windows");
+        }
+
+        @Override
+        public DataStream<TopicRecord> define(
+                StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
+            TemperatureOptions job = (TemperatureOptions) options;
+            return TemperatureJob.define(
+                    new TemperatureJob.Inputs(records, FieldInput.of(env, job, job.fields())), job);
+        }
+
+        @Override
+        public Set<String> topics() {
+            return Set.of(Topics.TEMPERATURE, Topics.TEMPERATURE_LATE);
+        }
+
+        @Override
+        public List<String> judges() {
+            return List.of("Let each event pass once", "Cast one vote per device", "Follow suspect devices");
+        }
+
+        /** A corrected result replaces the one before. */
+        @Override
+        public String identity(TopicRecord record) {
+            Entity entity = JobRun.entity(record);
+            return entity.number("windowStart")
+                    .filter(start -> record.topic().equals(Topics.TEMPERATURE))
+                    .map(start -> entity.id() + "@" + start)
+                    .orElse(Restarts.text(record));
+        }
     }
 }

@@ -10,7 +10,7 @@ class TemperatureUidsTest {
     @Test
     void keepsTheUidsThatSavepointsKnow() {
         assertThat(JobUids.of(TemperatureJob.assemble(Farm.options(Farm.FIELDS))))
-                .isEqualTo(JobUids.checkedIn("temperature"));
+                .isEqualTo(JobUids.checkedIn("temperature-file"));
     }
 
     @Test

@@ -10,6 +10,7 @@ import org.apache.flink.api.java.functions.KeySelector;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.transformations.OneInputTransformation;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
@@ -18,6 +19,7 @@ import io.furrow.flink.TopicRecord;
 import io.furrow.model.ngsi.Position;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
 
 /** The operators as the job defines them, taken out of it and fed by hand. */
 class WindowStateTest {
@@ -99,6 +101,52 @@ class WindowStateTest {
         assertThat(again.extractOutputValues()).isEqualTo(List.of(vote("t1", 20)));
     }
 
+    @Test
+    void endsWindowsAsTheyBeganWhereAnotherLengthIsRestored() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> minutes = operator("cast-votes");
+        minutes.processElement(inField("t1", 10, 31_000), 31_000);
+        OperatorSubtaskState snapshot = minutes.snapshot(1, 1);
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> halves =
+                outOfTheJob("cast-votes", Farm.options(Farm.FIELDS, "--window", "30s"));
+        halves.initializeState(snapshot);
+        halves.open();
+        halves.processElement(inField("t1", 20, 40_000), 40_000);
+        halves.processElement(inField("t1", 30, 70_000), 70_000);
+        halves.processWatermark(2 * MINUTE - 1);
+
+        assertThat(halves.extractOutputValues())
+                .extracting(DeviceVote::windowStart, DeviceVote::windowEnd, DeviceVote::value)
+                .containsExactlyInAnyOrder(
+                        tuple(0L, MINUTE, 10.0),
+                        tuple(MINUTE / 2, 3 * MINUTE / 2, 10.0),
+                        tuple(MINUTE / 2, MINUTE, 20.0),
+                        tuple(MINUTE, 3 * MINUTE / 2, 30.0));
+        assertThat(halves.numKeyedStateEntries()).isZero();
+    }
+
+    @Test
+    void leavesAWindowClosedThatAnEarlierRunHasClosed() throws Exception {
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> votes = operator("cast-votes");
+        votes.processElement(inField("t1", 10, 31_000), 31_000);
+        votes.processWatermark(2 * MINUTE);
+        assertThat(votes.extractOutputValues()).hasSize(2);
+        KeyedOneInputStreamOperatorTestHarness<String, FieldReading, DeviceVote> again =
+                restored("cast-votes", votes.snapshot(1, 1));
+
+        FieldReading late = inField("t1", 20, 32_000);
+        again.processElement(late, 32_000);
+        again.processElement(inField("t2", 20, 75_000), 75_000);
+        again.processWatermark(2 * MINUTE);
+
+        assertThat(again.getSideOutput(VoteStage.LATE))
+                .extracting(StreamRecord::getValue)
+                .containsExactly(late);
+        assertThat(again.extractOutputValues())
+                .as("the window that still takes late readings")
+                .extracting(DeviceVote::device, DeviceVote::windowStart)
+                .containsExactly(tuple("t2", MINUTE));
+    }
+
     private static FieldReading inField(String device, double value, long time) {
         TopicRecord record = Farm.north(device, value, time);
         return new FieldReading(
@@ -126,11 +174,16 @@ class WindowStateTest {
         return operator;
     }
 
-    @SuppressWarnings("unchecked") // the job's own types, which its graph does not carry
     private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> outOfTheJob(String uid) throws Exception {
-        StreamExecutionEnvironment env = JobRun.environment(OPTIONS);
+        return outOfTheJob(uid, OPTIONS);
+    }
+
+    @SuppressWarnings("unchecked") // the job's own types, which its graph does not carry
+    private <I, O> KeyedOneInputStreamOperatorTestHarness<String, I, O> outOfTheJob(
+            String uid, TemperatureOptions options) throws Exception {
+        StreamExecutionEnvironment env = JobRun.environment(options);
         Transformation<?> job = TemperatureJob.define(
-                        JobRun.inputs(env, List.of(Farm.north("t", 1, 1)), OPTIONS), OPTIONS)
+                        JobRun.inputs(env, List.of(Farm.north("t", 1, 1)), options), options)
                 .getTransformation();
         var operator = (OneInputTransformation<I, O>) job.getTransitivePredecessors().stream()
                 .filter(step -> uid.equals(step.getUid()))

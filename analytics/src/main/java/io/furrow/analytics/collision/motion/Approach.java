@@ -3,6 +3,7 @@ package io.furrow.analytics.collision.motion;
 import io.furrow.analytics.collision.PairId;
 import io.furrow.analytics.collision.Phase;
 import io.furrow.analytics.collision.PositionFix;
+import io.furrow.flink.Epochs;
 
 /**
  * That two devices will come, or came between their reports, within the threshold; complete in itself.
@@ -33,7 +34,7 @@ public record Approach(
                 finding.second(),
                 finding.apart(),
                 finding.distance(),
-                (finding.closest() - finding.time()) / 1000,
+                (finding.closest() - Epochs.original(finding.time())) / 1000,
                 startTime,
                 finding.time());
     }
@@ -48,12 +49,12 @@ public record Approach(
                 nearest.distance(),
                 0,
                 contact.from(),
-                (long) nearest.closest());
+                Epochs.begin(nearest.time()) + (long) nearest.closest());
     }
 
     /** The pair, the start and the phase: never the id of an encounter, the same in a second pass. */
     public String id() {
-        return pairId() + "@" + startTime + "-" + phase.code();
+        return pairId() + "@" + Epochs.text(startTime) + "-" + phase.code();
     }
 
     /** 32 hexadecimal digits that stand for the pair. */

@@ -5,7 +5,7 @@ import java.util.Optional;
 /**
  * How near two straight motions come to each other during a time.
  *
- * @param time when they are closest, epoch milliseconds with a fraction
+ * @param time when they are closest, epoch milliseconds with a fraction, of the original time as all here
  * @param distance metres between them then
  * @param contactFrom from when on they are within the threshold, epoch milliseconds with a fraction
  * @param contactUntil until when

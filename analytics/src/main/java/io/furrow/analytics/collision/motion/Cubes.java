@@ -3,6 +3,8 @@ package io.furrow.analytics.collision.motion;
 import java.io.Serializable;
 import java.util.Arrays;
 
+import io.furrow.flink.Epochs;
+
 /**
  * Space cut into cubes. A leg belongs to every cube that the threshold's surroundings of it may touch; what two legs have to do
  * with each other is told in one cube only, that of the place where the one is when they are closest. Both know that cube,
@@ -30,12 +32,13 @@ final class Cubes implements Serializable {
     long[] touched(Leg leg) {
         double length = leg.velocity().length() * (leg.until() - leg.from());
         int pieces = Math.max(1, (int) Math.ceil(length / edge));
+        long from = Epochs.original(leg.from());
         long[] found = new long[8];
         int count = 0;
         for (int piece = 0; piece < pieces; piece++) {
             double step = (double) (leg.until() - leg.from()) / pieces;
-            Place start = leg.at(leg.from() + piece * step);
-            Place end = leg.at(leg.from() + (piece + 1) * step);
+            Place start = leg.at(from + piece * step);
+            Place end = leg.at(from + (piece + 1) * step);
             for (long id : around(leg.fix().topic().hashCode(), start, end)) {
                 found = count == found.length ? Arrays.copyOf(found, 2 * count) : found;
                 found[count++] = id;

@@ -13,7 +13,7 @@ import io.furrow.analytics.eventtime.Timed;
  * @param time when this is known: the newest of the reports that it follows from, epoch milliseconds
  * @param apart metres between the newest positions
  * @param distance metres when they are closest
- * @param closest when that is
+ * @param closest when that is; of the original time, since it has a fraction
  * @param from the first instant that both legs cover; of legs ahead the same as {@code time}
  * @param until the last
  * @param contactFrom since when they are within the threshold, rounded down

@@ -1,6 +1,7 @@
 package io.furrow.analytics.collision.motion;
 
 import io.furrow.analytics.collision.PositionFix;
+import io.furrow.flink.Epochs;
 
 /**
  * A straight, uniform motion of one device.
@@ -21,9 +22,13 @@ public record Leg(
         return new Leg(fix, from, until, start.x(), start.y(), start.z(), velocity.x(), velocity.y(), velocity.z());
     }
 
-    /** Where the device is on its leg; the newest position itself where the leg ends with it. */
+    /**
+     * Where the device is on its leg; the newest position itself where the leg ends with it.
+     *
+     * @param time the original one, epoch milliseconds: a double tells no milliseconds of a late epoch's event time
+     */
     Place at(double time) {
-        double elapsed = time - from;
+        double elapsed = time - Epochs.original(from);
         return new Place(x + vx * elapsed, y + vy * elapsed, z + vz * elapsed);
     }
 
@@ -35,7 +40,7 @@ public record Leg(
         return new Place(vx, vy, vz);
     }
 
-    /** The same device at another time and place on the leg. */
+    /** The same device at another original time and place on the leg. */
     PositionFix fixAt(double time) {
         Place there = at(time);
         return new PositionFix(
@@ -44,6 +49,6 @@ public record Leg(
                 there.longitude(),
                 1000 * velocity().length(),
                 fix.heading(),
-                (long) time);
+                Epochs.begin(from) + (long) time);
     }
 }

@@ -1,9 +1,11 @@
 package io.furrow.analytics.collision.motion;
 
+import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
 import io.furrow.analytics.collision.PositionFix;
+import io.furrow.flink.KeyedLatenessOperator;
 
 /** What is predicted and what crossed among positions, as defined for this package; beside the encounters. */
 public final class MotionDetection {
@@ -15,9 +17,11 @@ public final class MotionDetection {
                 .uid("select-moving-types")
                 .name("Select moving types")
                 .keyBy(PositionFix::key)
-                .process(new TrackMotion(rules))
-                .uid("track-motion")
-                .name("Track the motion of devices");
+                .transform(
+                        "Track the motion of devices",
+                        TypeInformation.of(LegUpdate.class),
+                        new KeyedLatenessOperator<>(new TrackMotion(rules)))
+                .uid("track-motion");
 
         SingleOutputStreamOperator<Finding> predictions = legs.keyBy(LegUpdate::cube)
                 .process(new MatchLegs(rules))

@@ -3,27 +3,23 @@ package io.furrow.analytics.collision.motion;
 import java.util.List;
 
 import org.apache.flink.api.common.functions.OpenContext;
-import org.apache.flink.api.common.state.ListState;
-import org.apache.flink.api.common.state.ListStateDescriptor;
 import org.apache.flink.api.common.state.ValueState;
 import org.apache.flink.api.common.state.ValueStateDescriptor;
-import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.metrics.Counter;
-import org.apache.flink.runtime.state.FunctionInitializationContext;
-import org.apache.flink.runtime.state.FunctionSnapshotContext;
-import org.apache.flink.streaming.api.checkpoint.CheckpointedFunction;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.collision.PositionFix;
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.flink.EventTimeReached;
+import io.furrow.flink.JudgesLateness;
 
 /**
  * Makes legs of the positions of each device and puts them into the cubes that they touch. Key: the device.
  *
- * <p><b>State</b>: positions that wait for the watermark, the newest with the leg that begins there; per subtask how far
- * event time has come, because a restored job starts without a watermark.
+ * <p><b>State</b>: positions that wait for the watermark, the newest with the leg that begins there; how far event time has
+ * come, because a restored job starts without a watermark.
  *
  * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
  *
@@ -34,17 +30,17 @@ import io.furrow.analytics.eventtime.OneTimer;
  * {@code positions.too-fast} counts positions that are further from the one before, or report a greater speed, than the
  * greatest speed allows.
  */
-public final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate>
-        implements CheckpointedFunction {
+public final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements JudgesLateness {
     private static final long serialVersionUID = 1L;
+    /** Positions of a device; the stage that finds the encounters sets aside what is beyond. */
+    private static final int MOST_WAITING = 100_000;
 
     private final Navigator navigator;
 
     private transient OneTimer timer;
     private transient Inbox<PositionFix> inbox;
     private transient ValueState<KnownMotion> motion;
-    private transient ListState<Long> progress;
-    private transient long reached;
+    private transient EventTimeReached reached;
     private transient Counter late;
     private transient Counter tooFast;
 
@@ -53,13 +49,8 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
     }
 
     @Override
-    public void initializeState(FunctionInitializationContext context) throws Exception {
-        progress = context.getOperatorStateStore()
-                .getUnionListState(new ListStateDescriptor<>("event-time-reached", Types.LONG));
-        reached = Long.MIN_VALUE;
-        for (long each : progress.get()) {
-            reached = Math.max(reached, each);
-        }
+    public void judgeBy(EventTimeReached reached) {
+        this.reached = reached;
     }
 
     @Override
@@ -73,11 +64,9 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
 
     @Override
     public void processElement(PositionFix fix, Context context, Collector<LegUpdate> out) throws Exception {
-        reached = Math.max(reached, context.timerService().currentWatermark());
-        if (fix.time() <= reached) {
+        if (reached.hasPassed(fix.time(), context.getCurrentKey())
+                || !inbox.offer(fix, MOST_WAITING, context.timerService())) {
             late.inc();
-        } else {
-            inbox.add(fix, context.timerService());
         }
     }
 
@@ -85,7 +74,6 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
     public void onTimer(long time, OnTimerContext context, Collector<LegUpdate> out) throws Exception {
         timer.rang();
         long until = context.timerService().currentWatermark();
-        reached = Math.max(reached, until);
         List<PositionFix> due = inbox.takeDue(context.timerService());
         Navigator.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
         tooFast.inc(advanced.tooFast());
@@ -96,10 +84,5 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
             motion.update(now);
             timer.ask(navigator.expiry(now), context.timerService());
         }
-    }
-
-    @Override
-    public void snapshotState(FunctionSnapshotContext context) throws Exception {
-        progress.update(List.of(reached));
     }
 }

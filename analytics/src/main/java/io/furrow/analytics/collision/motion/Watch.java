@@ -3,6 +3,7 @@ package io.furrow.analytics.collision.motion;
 import java.util.function.Consumer;
 
 import io.furrow.analytics.collision.PositionFix;
+import io.furrow.flink.Epochs;
 
 /**
  * Finds out whether two legs come within the threshold, for one cube.
@@ -46,7 +47,7 @@ record Watch(MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predic
 
     /** The newest position reported by then, which is what the encounters are found by. */
     private static Place held(Leg leg, long time) {
-        return leg.until() == time ? leg.at(time) : leg.start();
+        return leg.until() == time ? leg.at(Epochs.original(time)) : leg.start();
     }
 
     private double threshold(Leg one, Leg other) {
@@ -61,7 +62,8 @@ record Watch(MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predic
         boolean inOrder = PositionFix.NAMING.compare(one.fix(), other.fix()) < 0;
         Leg first = inOrder ? one : other;
         Leg second = inOrder ? other : one;
-        ClosestApproach.within(threshold(first, second), first, second, span.from, span.until)
+        long epoch = Epochs.begin(span.from);
+        ClosestApproach.within(threshold(first, second), first, second, span.from - epoch, span.until - epoch)
                 .filter(approach -> cubes.cube(first.fix().topic(), first.at(approach.time())) == cube)
                 .ifPresent(approach -> out.accept(new Finding(
                         span.isAhead() ? first.fix() : first.fixAt(approach.time()),
@@ -72,8 +74,8 @@ record Watch(MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predic
                         approach.time(),
                         span.from,
                         span.until,
-                        (long) Math.floor(approach.contactFrom()),
-                        (long) Math.floor(approach.contactUntil()),
+                        epoch + (long) Math.floor(approach.contactFrom()),
+                        epoch + (long) Math.floor(approach.contactUntil()),
                         reportedClose)));
     }
 }

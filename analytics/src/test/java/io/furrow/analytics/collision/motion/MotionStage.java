@@ -8,8 +8,8 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.api.java.functions.KeySelector;
 import org.apache.flink.runtime.checkpoint.OperatorSubtaskState;
-import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
+import org.apache.flink.streaming.api.operators.OneInputStreamOperator;
 import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
@@ -17,18 +17,19 @@ import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.collision.PositionFix;
 import io.furrow.analytics.eventtime.Timed;
+import io.furrow.flink.KeyedLatenessOperator;
 
 /** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
 final class MotionStage<K, I extends Timed, O> {
-    private final Supplier<KeyedProcessFunction<K, I, O>> function;
+    private final Supplier<OneInputStreamOperator<I, O>> operator;
     private final KeySelector<I, K> key;
     private final TypeInformation<K> keyType;
     private KeyedOneInputStreamOperatorTestHarness<K, I, O> harness;
 
     private MotionStage(
-            Supplier<KeyedProcessFunction<K, I, O>> function, KeySelector<I, K> key, TypeInformation<K> keyType)
+            Supplier<OneInputStreamOperator<I, O>> operator, KeySelector<I, K> key, TypeInformation<K> keyType)
             throws Exception {
-        this.function = function;
+        this.operator = operator;
         this.key = key;
         this.keyType = keyType;
         start();
@@ -36,19 +37,22 @@ final class MotionStage<K, I extends Timed, O> {
     }
 
     static MotionStage<String, PositionFix, LegUpdate> track(MotionRules rules) throws Exception {
-        return new MotionStage<>(() -> new TrackMotion(rules), PositionFix::key, Types.STRING);
+        return new MotionStage<>(
+                () -> new KeyedLatenessOperator<>(new TrackMotion(rules)), PositionFix::key, Types.STRING);
     }
 
     static MotionStage<Long, LegUpdate, Finding> match(MotionRules rules) throws Exception {
-        return new MotionStage<>(() -> new MatchLegs(rules), LegUpdate::cube, Types.LONG);
+        return new MotionStage<>(() -> new KeyedProcessOperator<>(new MatchLegs(rules)), LegUpdate::cube, Types.LONG);
     }
 
     static MotionStage<String, Finding, Approach> predict(MotionRules rules) throws Exception {
-        return new MotionStage<>(() -> new FollowPredictions(rules), Finding::pair, Types.STRING);
+        return new MotionStage<>(
+                () -> new KeyedProcessOperator<>(new FollowPredictions(rules)), Finding::pair, Types.STRING);
     }
 
     static MotionStage<String, Finding, Approach> join(MotionRules rules) throws Exception {
-        return new MotionStage<>(() -> new JoinContacts(rules), Finding::pair, Types.STRING);
+        return new MotionStage<>(
+                () -> new KeyedProcessOperator<>(new JoinContacts(rules)), Finding::pair, Types.STRING);
     }
 
     void receive(List<I> inputs) throws Exception {
@@ -89,8 +93,7 @@ final class MotionStage<K, I extends Timed, O> {
     }
 
     private void start() throws Exception {
-        harness =
-                new KeyedOneInputStreamOperatorTestHarness<>(new KeyedProcessOperator<>(function.get()), key, keyType);
+        harness = new KeyedOneInputStreamOperatorTestHarness<>(operator.get(), key, keyType);
     }
 
     void stop() throws Exception {

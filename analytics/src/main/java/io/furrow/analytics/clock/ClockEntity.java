@@ -1,0 +1,40 @@
+package io.furrow.analytics.clock;
+
+import java.io.Serializable;
+
+import io.furrow.flink.Epochs;
+import io.furrow.flink.ResultRecord;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Describes what was found out about clocks as entities of their devices: {@code Analytics:ClockBehind:<device>} and {@code
+ * Analytics:ClockOffset:<device>}.
+ *
+ * @param job that found it out
+ * @param topic of the entities; those of a replay go to its own
+ */
+record ClockEntity(String job, String topic) implements Serializable {
+    private static final String BEHIND = "Analytics:ClockBehind";
+    private static final String OFFSET = "Analytics:ClockOffset";
+
+    /** Key = device id; timestamp = event time when it was found. */
+    TopicRecord of(ClockReport report) {
+        String type = report.kind() == ClockReport.Kind.BEHIND ? BEHIND : OFFSET;
+        EntityBuilder entity = Entity.builder(type + ":" + report.id(), type)
+                .text("device", report.id())
+                .text("job", job)
+                .integer("time", Epochs.original(report.time()));
+        if (report.kind() == ClockReport.Kind.BEHIND) {
+            entity.integer("late", report.millis())
+                    .integer("positions", report.positions())
+                    .text("Mission", report.mission());
+        } else {
+            entity.integer("offset", report.millis());
+        }
+        String output = Topics.resultOf(report.topic(), topic);
+        return ResultRecord.of(output, report.id(), entity, report.scope(), report.time(), "/analytics/" + job);
+    }
+}

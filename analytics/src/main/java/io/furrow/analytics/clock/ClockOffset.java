@@ -1,0 +1,76 @@
+package io.furrow.analytics.clock;
+
+import java.time.Duration;
+import java.util.Arrays;
+
+/**
+ * By how much the clock of a device is off, learned from its delays: receipt less event time. The delay of a message that came
+ * at once is the offset; most come later, none earlier. So the offset is a least delay: the third least, that two wrong times
+ * do not matter, of the span that is over and of the current one. It falls at once, and rises only with the end of a span in
+ * which every message but two was that late, and no three after it were earlier: what a gateway stored for a while and then sends at
+ * once has no effect, unless that takes longer than a span.
+ *
+ * @param millis the offset in force, which is added to the device's times; 0 for none
+ * @param since the receipt with which the current span began
+ * @param before the three least delays of the span before, ascending; {@link #UNKNOWN} for those that are missing
+ * @param least of the current span
+ */
+public record ClockOffset(long millis, long since, long[] before, long[] least) {
+    static final long SPAN = Duration.ofMinutes(2).toMillis();
+    /** A smaller offset is what messages take, not a clock. */
+    static final long LEAST = Duration.ofSeconds(1).toMillis();
+    /** A greater one is no clock that drifts: a wrong time zone or date. */
+    static final long GREATEST = Duration.ofMinutes(10).toMillis();
+    /** The offset in force stays while a new one differs by less. */
+    static final long STEP = 250;
+
+    private static final long UNKNOWN = Long.MAX_VALUE;
+    private static final long[] NONE = {UNKNOWN, UNKNOWN, UNKNOWN};
+
+    /** After the first message of a device. */
+    static ClockOffset first(long time, long receipt) {
+        return new ClockOffset(0, receipt, NONE, with(NONE, receipt - time));
+    }
+
+    /**
+     * After another message.
+     *
+     * @param time its event time by the device's clock, epoch ms
+     * @param receipt epoch ms
+     */
+    ClockOffset after(long time, long receipt) {
+        boolean over = receipt - since >= SPAN && third(least) != UNKNOWN;
+        long[] last = over ? least : before;
+        long[] now = with(over ? NONE : least, receipt - time);
+        long newMillis = third(now) == UNKNOWN ? millis : inForce(learned(last, now));
+        return new ClockOffset(newMillis, over ? receipt : since, last, now);
+    }
+
+    /** A time of the device as it is with a clock that is right; not after its receipt, unless it is corrected backwards. */
+    long corrected(long time, long receipt) {
+        return millis <= 0 ? time + millis : Math.min(time + millis, Math.max(time, receipt));
+    }
+
+    private static long learned(long[] last, long[] now) {
+        return third(last) == UNKNOWN ? Math.min(0, third(now)) : Math.min(third(last), third(now));
+    }
+
+    private long inForce(long learned) {
+        boolean isClock = Math.abs(learned) >= LEAST && Math.abs(learned) <= GREATEST;
+        long target = isClock ? learned : 0;
+        return target != 0 && millis != 0 && Math.abs(target - millis) < STEP ? millis : target;
+    }
+
+    private static long third(long[] ascending) {
+        return ascending[2];
+    }
+
+    private static long[] with(long[] ascending, long delay) {
+        if (delay >= third(ascending)) {
+            return ascending;
+        }
+        long[] all = {ascending[0], ascending[1], delay};
+        Arrays.sort(all);
+        return all;
+    }
+}

@@ -1,0 +1,43 @@
+package io.furrow.analytics.clock;
+
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * What was found out about the clock of a device.
+ *
+ * @param topic the topic that tells of the device
+ * @param identity tenant, service path and id
+ * @param id the entity id
+ * @param mission the mission it works for; empty where that is not known
+ * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#OFFSET} what is added to its times
+ * @param positions of {@link Kind#BEHIND} how many came too late in a row
+ * @param time event time of the report, epoch ms
+ */
+public record ClockReport(
+        Kind kind, String topic, String identity, String id, String mission, long millis, int positions, long time) {
+    /** What it tells. */
+    public enum Kind {
+        /** The device's positions come too late to count. */
+        BEHIND,
+        /** The device's times are corrected by another offset from now on. */
+        OFFSET
+    }
+
+    static ClockReport behind(LaggingPosition position, int positions) {
+        return new ClockReport(
+                Kind.BEHIND,
+                position.topic(),
+                position.identity(),
+                position.id(),
+                position.mission(),
+                position.reached() - position.time(),
+                positions,
+                position.reached());
+    }
+
+    /** The tenant and service path that the identity begins with. */
+    FiwareScope scope() {
+        String[] parts = identity.split("\\|", 3);
+        return new FiwareScope(parts[0], parts[1]);
+    }
+}

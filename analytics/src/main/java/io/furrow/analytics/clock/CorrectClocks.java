@@ -1,0 +1,127 @@
+package io.furrow.analytics.clock;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.OptionalLong;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.flink.Receipt;
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+
+/**
+ * Gives the records of each device the times of a clock that is right, before anything judges them late. Key: the device of a
+ * topic, see {@link #deviceOf}. Event time itself goes on by the times that the devices told.
+ *
+ * <p><b>State</b>: the offset learned of the device's clock, see {@link ClockOffset}. It depends on the device's records alone, in
+ * their order, and not on the wall clock, so that a restart and a second pass give the same.
+ *
+ * <p><b>Cleared</b>: a day of event time after the last records.
+ *
+ * <p><b>Late</b>: nothing is.
+ *
+ * <p><b>Emits</b>: every record once; of a corrected one the timestamp is the corrected time, and the header {@value #HEADER} says by how
+ * much. Records of replays, without a stamp of their receipt or with one that cannot be right, and results of Furrow stay as they are. To
+ * {@link #REPORTS} each change of a device's offset. {@code corrected} counts records.
+ */
+public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecord, TopicRecord> {
+    static final OutputTag<ClockReport> REPORTS = new OutputTag<>("clock-reports") {
+        private static final long serialVersionUID = 1L;
+    };
+    /** Milliseconds that were added to the device's time. */
+    static final String HEADER = "clock-offset";
+
+    private static final long serialVersionUID = 1L;
+    private static final long KEPT = Duration.ofDays(1).toMillis();
+    /** The results of Furrow itself, which come back through the context broker. */
+    private static final String OWN_TYPES = "Analytics:";
+
+    private final Receipt receipt;
+    private transient OneTimer timer;
+    private transient ValueState<ClockOffset> offset;
+    private transient Counter corrected;
+
+    CorrectClocks(Receipt receipt) {
+        this.receipt = receipt;
+    }
+
+    /** Topic, tenant, service path and key of the record, which is the id of its entity. */
+    static String deviceOf(TopicRecord record) {
+        return record.topic() + '|' + identity(record);
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        timer = new OneTimer(getRuntimeContext());
+        offset = getRuntimeContext().getState(new ValueStateDescriptor<>("offset", ClockOffset.class));
+        corrected = getRuntimeContext().getMetricGroup().counter("corrected");
+    }
+
+    @Override
+    public void processElement(TopicRecord record, Context context, Collector<TopicRecord> out) throws Exception {
+        OptionalLong stamp = receipt.stamp(record, System.currentTimeMillis());
+        if (stamp.isEmpty() || !isOfDevice(record)) {
+            out.collect(record);
+            return;
+        }
+        long received = stamp.getAsLong();
+        ClockOffset before = offset.value();
+        ClockOffset now = before == null
+                ? ClockOffset.first(record.timestamp(), received)
+                : before.after(record.timestamp(), received);
+        offset.update(now);
+        timer.ask(now.since() + KEPT, context.timerService());
+        long time = now.corrected(record.timestamp(), received);
+        if (before != null && before.millis() != now.millis()) {
+            context.output(REPORTS, report(record, now.millis(), time));
+        }
+        if (now.millis() == 0) {
+            out.collect(record);
+        } else {
+            corrected.inc();
+            out.collect(record.at(time).with(HEADER, Long.toString(now.millis())));
+        }
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<TopicRecord> out) throws Exception {
+        timer.rang();
+        long end = offset.value().since() + KEPT;
+        if (end <= context.timerService().currentWatermark()) {
+            offset.clear();
+        } else {
+            timer.ask(end, context.timerService());
+        }
+    }
+
+    private static ClockReport report(TopicRecord record, long millis, long time) {
+        return new ClockReport(
+                ClockReport.Kind.OFFSET, record.topic(), identity(record), id(record), "", millis, 0, time);
+    }
+
+    private static String identity(TopicRecord record) {
+        return FiwareScope.of(
+                        record.headers().get(HeaderNames.SERVICE),
+                        record.headers().get(HeaderNames.SERVICE_PATH))
+                .identity(id(record));
+    }
+
+    private static boolean isOfDevice(TopicRecord record) {
+        String id = id(record);
+        return record.value() != null && !id.isEmpty() && !id.startsWith(OWN_TYPES);
+    }
+
+    /** Empty where the record has no key. */
+    private static String id(TopicRecord record) {
+        return record.key() == null ? "" : new String(record.key(), StandardCharsets.UTF_8);
+    }
+}

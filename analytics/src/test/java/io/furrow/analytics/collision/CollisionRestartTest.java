@@ -1,0 +1,115 @@
+package io.furrow.analytics.collision;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.Set;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.runtime.minicluster.MiniCluster;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.test.junit5.InjectMiniCluster;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicAtStart;
+import io.furrow.flink.TopicRecord;
+import io.furrow.flink.device.DeviceInput;
+import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.Restarts;
+import io.furrow.model.topic.Topics;
+
+@Timeout(value = 10, unit = TimeUnit.HOURS)
+class CollisionRestartTest {
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = Restarts.cluster();
+
+    @Test
+    void tellsWhatAnUndisturbedRunTellsWhereverItIsRestarted(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).changeNothing(3, Case::new);
+    }
+
+    @Test
+    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).goOnFromReleases("collision", new Case(1));
+    }
+
+    /** Robots that wander along 30 m, with late positions. */
+    private static final class Case implements JobCase {
+        private static final int STEP = 100;
+
+        private final List<Arrival> arrivals = new ArrayList<>();
+
+        Case(long seed) {
+            Random random = Restarts.random(seed);
+            double[] east = new double[6];
+            for (int i = 0; i < 450; i++) {
+                int robot = random.nextInt(east.length);
+                east[robot] = Math.floorMod(Math.round(10 * east[robot]) + random.nextInt(51) - 25, 300) / 10.0;
+                long now = 1_000_000 + (long) i * STEP;
+                arrivals.add(
+                        new Arrival(ReportedRun.robot("r" + robot, east[robot], now - random.nextInt(1_000)), false));
+                if (i > 220 && random.nextInt(4) == 0) {
+                    long late = now - 12_000 - random.nextInt(10_000);
+                    arrivals.add(new Arrival(ReportedRun.robot("r" + robot, random.nextInt(30), late), true));
+                }
+            }
+        }
+
+        @Override
+        public List<Arrival> arrivals() {
+            return arrivals;
+        }
+
+        @Override
+        public long bound() {
+            return 2_000;
+        }
+
+        @Override
+        public JobOptions options(int parallelism) {
+            return ReportedRun.options(
+                    "--parallelism=" + parallelism,
+                    "--threshold=5",
+                    "--time-to-live=4s",
+                    "--dwell=200ms",
+                    "--ongoing-every=1s",
+                    "--horizon=2s",
+                    "--crossed");
+        }
+
+        @Override
+        public DataStream<TopicRecord> define(
+                StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
+            TopicRecord nobody = new TopicRecord(
+                    Topics.DEVICES, 0, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of());
+            DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
+                    .uid("read-devices")
+                    .setParallelism(1);
+            return CollisionJob.define(
+                    new CollisionJob.Inputs(records, new DeviceInput(devices, TopicAtStart.NONE)),
+                    (CollisionOptions) options);
+        }
+
+        @Override
+        public Set<String> topics() {
+            return Set.of("data.collision", "data.collision.late");
+        }
+
+        @Override
+        public List<String> judges() {
+            return List.of("Track devices through the grid", "Track the motion of devices");
+        }
+    }
+}

@@ -1,0 +1,131 @@
+package io.furrow.analytics.presence;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.Set;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.flink.api.common.typeinfo.TypeInformation;
+import org.apache.flink.runtime.minicluster.MiniCluster;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.test.junit5.InjectMiniCluster;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.analytics.field.FieldInput;
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.TopicRecord;
+import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.Restarts;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.topic.Topics;
+
+@Timeout(value = 10, unit = TimeUnit.HOURS)
+class PresenceRestartTest {
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = Restarts.cluster();
+
+    @Test
+    void tellsWhatAnUndisturbedRunTellsWhereverItIsRestarted(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).changeNothing(3, Case::new);
+    }
+
+    @Test
+    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).goOnFromReleases("presence", new Case(1));
+    }
+
+    /** Devices that walk through the fields of a story, with late positions. */
+    private static final class Case implements JobCase {
+        private static final int STEP = 100;
+        private static final long START = 1_700_000_100_000L;
+
+        private final List<Arrival> arrivals = new ArrayList<>();
+        private final ArrayList<Plot> plots;
+
+        Case(long seed) {
+            Random random = Restarts.random(seed);
+            plots = new ArrayList<>(new Story(seed).plots);
+            for (int i = 0; i < 450; i++) {
+                String device = "d" + random.nextInt(5);
+                long now = START + (long) i * STEP;
+                arrivals.add(new Arrival(report(random, device, now - random.nextInt(1_000)), false));
+                if (i > 220 && random.nextInt(4) == 0) {
+                    arrivals.add(new Arrival(report(random, device, now - 12_000 - random.nextInt(10_000)), true));
+                }
+            }
+        }
+
+        private static TopicRecord report(Random random, String device, long time) {
+            PresenceFix fix = Story.fix(device, random.nextInt(12), random.nextInt(12), time);
+            Entity entity = Entity.builder(device, "ROBOT")
+                    .number("Latitude", fix.latitude())
+                    .number("Longitude", fix.longitude())
+                    .build();
+            Map<String, String> headers = Map.of(HeaderNames.SERVICE, "farm", HeaderNames.SERVICE_PATH, "/");
+            byte[] key = device.getBytes(StandardCharsets.UTF_8);
+            return new TopicRecord(Topics.RAW, 0, 7, time, key, entity.toBytes(), headers);
+        }
+
+        @Override
+        public List<Arrival> arrivals() {
+            return arrivals;
+        }
+
+        @Override
+        public long bound() {
+            return 2_000;
+        }
+
+        @Override
+        public JobOptions options(int parallelism) {
+            PresenceOptions options = new PresenceOptions();
+            JobCommandLine.of(options).parseArgs("--parallelism=" + parallelism, "--time-to-live=3s", "--dwell=300ms");
+            return options;
+        }
+
+        @Override
+        public DataStream<TopicRecord> define(
+                StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
+            ArrayList<Plot> known = plots;
+            DataStream<TopicRecord> versions = env.fromData(records(known), TypeInformation.of(TopicRecord.class))
+                    .uid("fields")
+                    .setParallelism(1)
+                    .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                    .uid("no-hindrance")
+                    .setParallelism(1);
+            return PresenceJob.define(
+                    new PresenceJob.Inputs(records, new FieldInput(versions, () -> records(known))),
+                    (PresenceOptions) options);
+        }
+
+        private static List<TopicRecord> records(List<Plot> plots) {
+            List<TopicRecord> records = new ArrayList<>();
+            plots.forEach(plot -> records.add(plot.record(records.size())));
+            return records;
+        }
+
+        @Override
+        public Set<String> topics() {
+            return Set.of("data.presence", "data.presence.late");
+        }
+
+        @Override
+        public List<String> judges() {
+            return List.of("Follow devices through fields");
+        }
+    }
+}
