@@ -55,7 +55,8 @@ public final class ServiceTopics {
     private static final Map<String, String> KEPT_LONG =
             Map.of(POLICY, "delete", "retention.ms", Long.toString(TimeUnit.DAYS.toMillis(365)));
     /** Written by others, or read by others: made as jobs make them, never altered. */
-    private static final List<String> DATA = List.of(Topics.RAW, Topics.COLLISION, Topics.TEMPERATURE, Topics.CONTEXT);
+    private static final List<String> DATA =
+            List.of(Topics.RAW, Topics.COLLISION, Topics.TEMPERATURE, Topics.CLOCKS, Topics.CONTEXT);
 
     /** For what could not be read of topics that the control plane reads. */
     private static final List<String> DEAD = Stream.of(

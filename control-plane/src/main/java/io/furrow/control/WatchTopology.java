@@ -38,7 +38,9 @@ final class WatchTopology {
         AnalyticsAlarms.addEncounters(collisions, types, options.predictionHolds());
 
         KStream<String, byte[]> temperatures = observed(builder, Topics.TEMPERATURE, "temperatures");
-        AnalyticsAlarms.addSensors(temperatures, types);
+        AnalyticsAlarms.addSensors(builder, temperatures, types);
+
+        AnalyticsAlarms.addClocks(observed(builder, Topics.CLOCKS, "clocks"), types);
 
         ContextWatch.add(builder, new ContextWatch.Results(collisions, temperatures), scope);
 

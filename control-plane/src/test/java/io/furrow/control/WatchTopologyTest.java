@@ -20,6 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 class WatchTopologyTest {
     private static final Duration REMEMBERED = Duration.ofHours(1);
+    private static final Duration WINDOW = Duration.ofSeconds(30);
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:m-1";
 
     private final WatchedFarm farm = new WatchedFarm();
@@ -80,16 +81,75 @@ class WatchTopologyTest {
     }
 
     @Test
-    void raisesAnAlarmOfASensorThatIsSetAsideUntilItIsNotForThreeWindows() throws Exception {
+    void raisesAnAlarmOfASensorThatIsSetAsideInThreeWindowsInARowUntilItIsNotForThree() throws Exception {
+        suspectFor(2);
+        farm.temperature("f", 18, List.of());
+        farm.pass(WINDOW);
+        suspectFor(2);
+        assertThat(farm.read(Topics.ALARMS)).as("never three in a row").isEmpty();
         farm.temperature("f", 18, List.of(THERMOMETER));
         assertThat(farm.newest(Topics.ALARMS).path("kind").asText()).isEqualTo("suspect-sensor");
-        farm.pass(Duration.ofSeconds(60));
-        farm.temperature("f", 18, List.of(THERMOMETER));
+        farm.pass(WINDOW);
         farm.temperature("f", 18, List.of());
+        farm.pass(WINDOW);
+        farm.temperature("f", 18, List.of(THERMOMETER));
         farm.pass(Duration.ofSeconds(89));
-        assertThat(farm.read(Topics.ALARMS)).isEmpty();
+        assertThat(farm.read(Topics.ALARMS)).as("one window makes it last").isEmpty();
         farm.pass(Duration.ofSeconds(1));
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
+    }
+
+    @Test
+    void countsAWindowOfASensorOnceAndNoneWithoutAVerdict() throws Exception {
+        farm.temperature("f", 18, List.of(THERMOMETER));
+        farm.temperature("f", 18, List.of(THERMOMETER));
+        farm.temperature("f", 18, List.of(THERMOMETER));
+        farm.temperature("g", 18, List.of(THERMOMETER));
+        farm.pass(WINDOW);
+        suspectFor(1);
+        farm.unverified("f");
+        farm.pass(WINDOW);
+        assertThat(farm.read(Topics.ALARMS)).isEmpty();
+        suspectFor(1);
+        assertThat(farm.all(Topics.ALARMS)).hasSize(1);
+    }
+
+    @Test
+    void raisesAnAlarmOfADeviceWhosePositionsComeTooLate() throws Exception {
+        farm.want(WatchedFarm.ROBOT, "ROBOT", true);
+        farm.clockBehind(WatchedFarm.ROBOT, 999);
+        JsonNode alarm = farm.newest(Topics.ALARMS);
+        assertThat(alarm.path("kind").asText()).isEqualTo("clock-behind");
+        assertThat(alarm.path("severity").asText()).isEqualTo("major");
+        assertThat(alarm.path("subject").asText()).isEqualTo(WatchedFarm.ROBOT);
+        assertThat(alarm.path("group").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
+        assertThat(alarm.path("text").asText())
+                .isEqualTo(
+                        "positions of robot-1 come 1.0 s too late and do not count: its clock or its link is behind");
+        farm.pass(Duration.ofMinutes(2));
+        farm.clockBehind(WatchedFarm.ROBOT, 999);
+        farm.pass(Duration.ofSeconds(179));
+        farm.pipe(
+                Topics.CLOCKS, "x", Entity.builder("x", "Analytics:ClockOffset").toBytes());
+        assertThat(closedClocks()).isZero();
+        farm.pass(Duration.ofSeconds(1));
+        assertThat(closedClocks()).isEqualTo(1);
+        farm.pipe(Topics.CLOCKS, "x", "{}".getBytes(StandardCharsets.UTF_8));
+        assertThat(farm.read(Topics.dead(Topics.CLOCKS))).hasSize(1);
+    }
+
+    private long closedClocks() throws Exception {
+        return farm.all(Topics.ALARMS).stream()
+                .filter(alarm -> alarm.path("kind").asText().equals("clock-behind"))
+                .filter(alarm -> alarm.path("state").asText().equals("closed"))
+                .count();
+    }
+
+    private void suspectFor(int windows) {
+        for (int i = 0; i < windows; i++) {
+            farm.temperature("f", 18, List.of(THERMOMETER));
+            farm.pass(WINDOW);
+        }
     }
 
     @Test
@@ -166,6 +226,7 @@ class WatchTopologyTest {
                         "device-signs-repartition",
                         "collisions-repartition",
                         "temperatures-repartition",
+                        "clocks-repartition",
                         "context-domains-repartition",
                         "context-missions-repartition",
                         "context-mission-statuses-repartition");
@@ -181,6 +242,8 @@ class WatchTopologyTest {
                         "alarm-positions",
                         "collisions-positions",
                         "temperatures-positions",
+                        "suspect-runs",
+                        "clocks-positions",
                         "wanted-devices",
                         "device-health",
                         "context-domains-positions",

@@ -64,13 +64,31 @@ final class WatchedFarm implements AutoCloseable {
 
     /** A window of half a minute that ends now. */
     void temperature(String field, double average, List<String> suspects) {
+        temperature(field, average, suspects, "robust");
+    }
+
+    /** The same with too few devices to tell which are suspects. */
+    void unverified(String field) {
+        temperature(field, 18, List.of(), "unverified");
+    }
+
+    private void temperature(String field, double average, List<String> suspects, String quality) {
         EntityBuilder entity = Entity.builder("Analytics:FieldTemperature:" + field, "Analytics:FieldTemperature")
                 .text("field", field)
                 .number("averageTemperature", average)
                 .texts("suspects", suspects)
+                .text("quality", quality)
                 .integer("windowStart", now.toEpochMilli() - 30_000)
                 .integer("windowEnd", now.toEpochMilli());
         pipe(Topics.TEMPERATURE, field, entity.toBytes());
+    }
+
+    void clockBehind(String device, long late) {
+        EntityBuilder entity = Entity.builder("Analytics:ClockBehind:" + device, "Analytics:ClockBehind")
+                .text("device", device)
+                .text("Mission", "m")
+                .integer("late", late);
+        pipe(Topics.CLOCKS, device, entity.toBytes());
     }
 
     void pipe(String topic, String key, String json) {

@@ -24,8 +24,8 @@ final class AlarmLimit {
     static final int MAX_COUNTED = 1000;
 
     /** Those that are raised one by one. */
-    static final Set<AlarmKind> KINDS =
-            EnumSet.of(AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR);
+    static final Set<AlarmKind> KINDS = EnumSet.of(
+            AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR, AlarmKind.CLOCK_BEHIND);
 
     private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
 
@@ -179,6 +179,7 @@ final class AlarmLimit {
             case COLLISION -> "%s pairs of %s are too close";
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
             case SUSPECT_SENSOR -> "%s sensors of %s show what the others do not";
+            case CLOCK_BEHIND -> "positions of %s devices of %s come too late and do not count";
             case SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
                 throw new IllegalStateException("alarms of silence are grouped already: " + group.key());
         };

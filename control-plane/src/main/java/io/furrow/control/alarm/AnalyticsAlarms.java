@@ -6,16 +6,20 @@ import java.util.function.BiFunction;
 import java.util.function.Function;
 import java.util.stream.Stream;
 
+import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.KStream;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
 
 import io.furrow.control.manager.ObserveRecords;
 import io.furrow.control.manager.ObserveRecords.Observer;
 import io.furrow.control.manager.Outbox;
 import io.furrow.control.manager.Outgoing;
 import io.furrow.control.manager.RecordScope;
+import io.furrow.control.manager.StoreRecords;
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
 
 /** Makes alarms of what analytics find. */
 public final class AnalyticsAlarms {
@@ -44,26 +48,55 @@ public final class AnalyticsAlarms {
     }
 
     /** @param temperatures the records of {@code data.temperature}, in one line */
-    public static void addSensors(KStream<String, byte[]> temperatures, Types types) {
+    public static void addSensors(StreamsBuilder builder, KStream<String, byte[]> temperatures, Types types) {
+        builder.addStateStore(StoreRecords.builder(WatchSensors.RUNS));
         BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening = (context, outbox) -> {
             WatchSensors watch = new WatchSensors(
+                    AlarmManager.desk(context, outbox),
+                    types.opening().apply(context),
+                    StoreRecords.of(context, WatchSensors.RUNS, SuspectRuns.class));
+            return new SensorObserver(watch);
+        };
+        send(temperatures, opening, types, "sensors", WatchSensors.RUNS);
+    }
+
+    /** @param clocks the records of {@code data.clocks}, in one line */
+    public static void addClocks(KStream<String, byte[]> clocks, Types types) {
+        BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening = (context, outbox) -> {
+            WatchClocks watch = new WatchClocks(
                     AlarmManager.desk(context, outbox), types.opening().apply(context));
             return (record, now) -> {
-                FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
-                if (window != null) {
-                    watch.take(window, RecordScope.of(record), now);
+                if (record.value() != null) {
+                    watch.take(record.value(), RecordScope.of(record), now);
                 }
             };
         };
-        send(temperatures, opening, types, "sensors");
+        send(clocks, opening, types, "clocks");
+    }
+
+    private record SensorObserver(WatchSensors watch) implements Observer {
+        @Override
+        public void take(Record<String, byte[]> record, long now) throws UnreadableException {
+            FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
+            if (window != null) {
+                watch.take(window, RecordScope.of(record), now);
+            }
+        }
+
+        @Override
+        public void passTime(long now) {
+            watch.passTime(now);
+        }
     }
 
     private static void send(
             KStream<String, byte[]> results,
             BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening,
             Types types,
-            String name) {
-        String[] stores = Stream.concat(AlarmManager.stores().stream(), types.stores().stream())
+            String name,
+            String... own) {
+        String[] stores = Stream.of(AlarmManager.stores(), types.stores(), List.of(own))
+                .flatMap(List::stream)
                 .toArray(String[]::new);
         Outgoing.send(
                 results.process(() -> new ObserveRecords(opening), Named.as("watch-" + name), stores), name + "-out");

@@ -15,9 +15,16 @@ import io.furrow.model.ngsi.Entity;
  * @param windowStart epoch ms
  * @param windowEnd epoch ms
  * @param domain null where the field belongs to none
+ * @param verified whether there were enough devices to tell which are suspects
  */
 public record FieldWindow(
-        String field, Double average, List<String> suspects, long windowStart, long windowEnd, String domain) {
+        String field,
+        Double average,
+        List<String> suspects,
+        long windowStart,
+        long windowEnd,
+        String domain,
+        boolean verified) {
     public static final String TYPE = "Analytics:FieldTemperature";
 
     /** Null where it is of something else, as a device that was set aside. */
@@ -37,6 +44,7 @@ public record FieldWindow(
                 suspects,
                 entity.number("windowStart").orElse(0.0).longValue(),
                 entity.number("windowEnd").orElse(0.0).longValue(),
-                entity.text("Domain").orElse(null));
+                entity.text("Domain").orElse(null),
+                !entity.text("quality").orElse("").equals("unverified"));
     }
 }
