@@ -46,6 +46,8 @@ final class AnalyticsBench implements Callable<Integer> {
         KAFKA,
         HELD,
         EAGER,
+        CROWD,
+        BACKLOG,
         FIELDS
     }
 
@@ -57,12 +59,14 @@ final class AnalyticsBench implements Callable<Integer> {
             paramLabel = "PART,…",
             split = ",",
             hideParamSyntax = true,
-            defaultValue = "MEMORY,KAFKA,HELD,EAGER,FIELDS",
+            defaultValue = "MEMORY,KAFKA,HELD,EAGER,CROWD,BACKLOG,FIELDS",
             description = {
                 "MEMORY: collision updates per second, from memory.",
                 "KAFKA: the same from NGSI entities in a topic to a topic of results.",
                 "HELD: whether the consumer's lag grows while devices report once a second.",
                 "EAGER: from a position to the alarm.",
+                "CROWD: devices on one spot: the cell that they share, then the job, for five minutes each.",
+                "BACKLOG: what a job that was away for an hour holds in memory while it catches up.",
                 "FIELDS: points per second and core of the joins with fields.",
                 "Default: all."
             })
@@ -102,6 +106,12 @@ final class AnalyticsBench implements Callable<Integer> {
 
     @Mixin
     private final AnalyticsLoad load = new AnalyticsLoad();
+
+    @Mixin
+    private final CrowdLoad crowds = new CrowdLoad();
+
+    @Mixin
+    private final BacklogLoad backlogs = new BacklogLoad();
 
     @Option(names = "--output", paramLabel = "FILE", description = "Also write every figure here, as JSON.")
     private Path output;
@@ -149,6 +159,8 @@ final class AnalyticsBench implements Callable<Integer> {
             case KAFKA -> onKafka(directory, "kafka", this::kafka);
             case HELD -> onKafka(directory, "held", this::held);
             case EAGER -> eager() & onKafka(directory, "eager", this::alarms);
+            case CROWD -> crowds.cells(report) & onKafka(directory, "crowd", this::crowd);
+            case BACKLOG -> onKafka(directory, "backlog", measurement -> backlogs.run(measurement, report));
             case FIELDS -> fields();
         };
     }
@@ -245,6 +257,10 @@ final class AnalyticsBench implements Callable<Integer> {
                 "alarms", delays.getTotalCount());
         report.add("eagerFromKafka", figures);
         return true;
+    }
+
+    private boolean crowd(TopicMeasurement measurement) throws Exception {
+        return crowds.job(measurement, most(cores), Duration.ofSeconds(warmUp), report);
     }
 
     private boolean fields() throws Exception {

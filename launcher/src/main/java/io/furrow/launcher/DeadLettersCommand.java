@@ -74,7 +74,7 @@ final class DeadLettersCommand {
                             hideParamSyntax = true,
                             description =
                                     "Only those that one of these set aside. Default: all but ingest-images, missions, "
-                                            + "temperature and collision: the event went on, to feed it again would double it.")
+                                            + "temperature, collision and presence: the event went on, to feed it again would double it.")
                     Set<String> stages,
             @Option(names = "--again", description = "Also those that this command has brought back before.")
                     boolean again,

@@ -33,6 +33,7 @@ public final class KafkaAccess implements AutoCloseable {
             Topics.COLLISION_LATE,
             Topics.PRESENCE,
             Topics.PRESENCE_LATE,
+            Topics.CLOCKS,
             Topics.CONTEXT);
 
     private final String bootstrapServers;

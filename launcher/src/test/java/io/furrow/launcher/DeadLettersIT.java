@@ -6,6 +6,7 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
@@ -26,6 +27,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.Original;
 import io.furrow.model.ngsi.Reason;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -154,6 +156,27 @@ class DeadLettersIT {
     }
 
     @Test
+    void bringsBackTheWholeOfWhatALetterStandsFor() {
+        byte[] whole = new byte[2_000_000];
+        whole[whole.length - 1] = 7;
+        letter("large", "other", new byte[] {1}, Map.of());
+        Original place = place("large", "robot", whole, Map.of("trace", "7"));
+        standIn("large.dead", "robot", place);
+        standIn("large.dead", "another", place);
+        standIn("large.dead", "robot", new Original("large", place.partition(), 99, 2_000_000));
+        standIn("large.dead", "robot", new Original("nowhere", 0, 0, 2_000_000));
+
+        assertThat(refeed("--topic", "large.dead", "--to", "whole"))
+                .isEqualTo("brought 1 dead letters from large.dead to whole: 1 not-json\n"
+                        + "left where they are: 3 original gone");
+        assertThat(recordsOf("whole")).singleElement().satisfies(record -> {
+            assertThat(record.value()).isEqualTo(whole);
+            assertThat(record.timestamp()).isEqualTo(TIME);
+            assertThat(headers(record)).isEqualTo(Map.of("trace", "7"));
+        });
+    }
+
+    @Test
     void saysWhatIsMissing() {
         assertThat(refeed("--topic", "nowhere.dead")).contains("there is no topic nowhere.dead");
         assertThat(refeed("--topic", "data.raw")).contains("--to");
@@ -166,6 +189,20 @@ class DeadLettersIT {
         PrintWriter printer = new PrintWriter(said, true);
         Furrow.commandLine().setOut(printer).setErr(printer).execute(words.toArray(String[]::new));
         return said.toString().strip();
+    }
+
+    /** Where the record is afterwards. */
+    private static Original place(String topic, String key, byte[] value, Map<String, String> headers) {
+        letter(topic, key, value, headers);
+        return recordsOf(topic).stream()
+                .filter(record -> Arrays.equals(record.value(), value))
+                .map(record -> new Original(topic, record.partition(), record.offset(), value.length))
+                .findFirst()
+                .orElseThrow();
+    }
+
+    private static void standIn(String topic, String key, Original original) {
+        letter(topic, key, new byte[] {0}, Reason.NOT_JSON, "why", original.headers());
     }
 
     private static void letterOf(String stage, String topic, int value, Reason reason) {
@@ -183,7 +220,8 @@ class DeadLettersIT {
         byte[] keyBytes = key == null ? null : key.getBytes(StandardCharsets.UTF_8);
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, TIME, keyBytes, value);
         headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
-        Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "max.request.size", 4_000_000);
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             producer.send(record).get();
         } catch (InterruptedException | ExecutionException e) {

@@ -4,15 +4,16 @@ import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.function.UnaryOperator;
 
 import org.HdrHistogram.Histogram;
 
 import io.furrow.analytics.collision.Cell;
 import io.furrow.analytics.collision.CellUpdate;
 import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.Matching;
 import io.furrow.analytics.collision.Pair;
 import io.furrow.analytics.collision.PositionFix;
-import io.furrow.analytics.collision.Proximity;
 import io.furrow.analytics.collision.Sighting;
 import io.furrow.analytics.collision.Track;
 import io.furrow.analytics.collision.Tracker;
@@ -23,8 +24,9 @@ import io.furrow.analytics.collision.Tracker;
  */
 final class BareLoop {
     private final Tracker tracker = new Tracker(CollisionRules.DEFAULT);
-    private final Proximity proximity = new Proximity(CollisionRules.DEFAULT);
+    private final Matching matching = new Matching(CollisionRules.DEFAULT);
     private final Fleet fleet;
+    private final UnaryOperator<PositionFix> told;
     private final Track[] tracks;
     private final Map<Long, Cell> cells = new HashMap<>();
     private final Map<Long, List<CellUpdate>> instant = new HashMap<>();
@@ -34,6 +36,12 @@ final class BareLoop {
     private long starts;
 
     BareLoop(int devices) {
+        this(devices, UnaryOperator.identity());
+    }
+
+    /** @param told what a report tells of where a device is */
+    BareLoop(int devices, UnaryOperator<PositionFix> told) {
+        this.told = told;
         fleet = new Fleet(devices, 0, 1);
         tracks = new Track[devices];
     }
@@ -42,7 +50,7 @@ final class BareLoop {
     long second(long second) {
         starts = 0;
         for (long part = 0; part < Fleet.TICKS_PER_SECOND; part++) {
-            fleet.tick(second * Fleet.TICKS_PER_SECOND + part, this::take);
+            fleet.tick(second * Fleet.TICKS_PER_SECOND + part, fix -> take(told.apply(fix)));
         }
         apply();
         return starts;
@@ -80,7 +88,7 @@ final class BareLoop {
 
     private void apply() {
         instant.forEach((cell, updates) ->
-                cells.computeIfAbsent(cell, id -> Cell.empty()).apply(updates, proximity, this::see));
+                cells.computeIfAbsent(cell, id -> Cell.empty()).apply(updates, matching, this::see));
         instant.clear();
         changes.forEach((pair, change) -> {
             if (change > 0) {

@@ -3,6 +3,7 @@ package io.furrow.bench.analytics;
 import java.io.IOException;
 import java.lang.management.ManagementFactory;
 import java.time.Duration;
+import java.util.List;
 import java.util.Map;
 import java.util.function.Consumer;
 
@@ -19,10 +20,12 @@ import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
 
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.presence.FollowDevices;
+import io.furrow.analytics.presence.Passage;
 import io.furrow.analytics.presence.PresenceFix;
 import io.furrow.analytics.presence.PresenceRules;
 import io.furrow.analytics.temperature.AssignFields;
 import io.furrow.analytics.temperature.Reading;
+import io.furrow.flink.BroadcastLatenessOperator;
 import io.furrow.flink.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Position;
@@ -122,8 +125,12 @@ public final class FieldMeasurement {
                         WatermarkStrategy.<PresenceFix>forBoundedOutOfOrderness(Duration.ofSeconds(1))
                                 .withTimestampAssigner((fix, previous) -> fix.time()))
                 .keyBy(PresenceFix::key)
-                .connect(changes(env).broadcast(KnownFields.BROADCAST))
-                .process(new FollowDevices(PRESENCE, fields))
+                .connect(changes(env).broadcast())
+                .transform(
+                        "FollowDevices",
+                        TypeInformation.of(Passage.class),
+                        new BroadcastLatenessOperator<>(
+                                new FollowDevices(PRESENCE, fields), List.of(KnownFields.BROADCAST)))
                 .sinkTo(new DiscardingSink<>());
         env.execute();
     }

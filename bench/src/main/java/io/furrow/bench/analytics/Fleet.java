@@ -17,8 +17,8 @@ final class Fleet {
     /** Of the square, in metres, where nothing else is said. */
     static final double SIDE = 2000;
 
-    private static final double LATITUDE = 40.3125;
-    private static final double LONGITUDE = -3.4821;
+    static final double LATITUDE = 40.3125;
+    static final double LONGITUDE = -3.4821;
     private static final double METERS_PER_DEGREE = 6_371_000 * Math.PI / 180;
     private static final double METERS_PER_DEGREE_EAST = METERS_PER_DEGREE * Math.cos(Math.toRadians(LATITUDE));
     private static final String TOPIC = "data.raw";

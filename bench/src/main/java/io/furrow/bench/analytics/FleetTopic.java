@@ -6,6 +6,7 @@ import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.atomic.AtomicReference;
 import java.util.concurrent.locks.LockSupport;
+import java.util.function.Consumer;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -19,6 +20,8 @@ import io.furrow.analytics.collision.PositionFix;
 final class FleetTopic implements AutoCloseable {
     static final int PARTITIONS = 4;
     private static final short REPLICAS = 1;
+    private static final String FOUND = ".found";
+    private static final String OVERFLOWS = ".overflows";
 
     private final String name;
     private final Properties kafka;
@@ -26,6 +29,13 @@ final class FleetTopic implements AutoCloseable {
     private final AtomicReference<Exception> failed = new AtomicReference<>();
     private volatile boolean stopped;
     private volatile long sent;
+    private volatile long begin;
+
+    /** Devices that report. */
+    interface Reports {
+        /** What they report within a tick of {@link Fleet}, in the order of time. */
+        void tick(long tick, Consumer<PositionFix> out);
+    }
 
     private FleetTopic(String name, Properties kafka) {
         this.name = name;
@@ -39,12 +49,19 @@ final class FleetTopic implements AutoCloseable {
     }
 
     static FleetTopic create(String name, Properties kafka) throws InterruptedException, ExecutionException {
+        return create(name, PARTITIONS, kafka);
+    }
+
+    /** @param partitions of the topic into which the fleet reports */
+    static FleetTopic create(String name, int partitions, Properties kafka)
+            throws InterruptedException, ExecutionException {
         try (Admin admin = Admin.create(kafka)) {
             // What the fleet reports is of a time long past.
             Map<String, String> kept = Map.of("retention.ms", "-1");
             admin.createTopics(List.of(
-                            new NewTopic(name, PARTITIONS, REPLICAS).configs(kept),
-                            new NewTopic(name + ".found", PARTITIONS, REPLICAS).configs(kept)))
+                            new NewTopic(name, partitions, REPLICAS).configs(kept),
+                            new NewTopic(name + FOUND, PARTITIONS, REPLICAS).configs(kept),
+                            new NewTopic(name + OVERFLOWS, PARTITIONS, REPLICAS).configs(kept)))
                     .all()
                     .get();
         }
@@ -56,7 +73,11 @@ final class FleetTopic implements AutoCloseable {
     }
 
     String results() {
-        return name + ".found";
+        return name + FOUND;
+    }
+
+    String overflows() {
+        return name + OVERFLOWS;
     }
 
     Properties kafka() {
@@ -77,10 +98,29 @@ final class FleetTopic implements AutoCloseable {
         check();
     }
 
+    /**
+     * The same for two partitions: devices of even number on the first, those of odd number on the second, with so long an
+     * attribute beside the others that these take longer to read.
+     */
+    void fillUnevenly(int devices, long records, int padding) {
+        Fleet fleet = new Fleet(devices, 0, 1);
+        for (long tick = 0; sent < records; tick++) {
+            fleet.tick(tick, fix -> {
+                int partition = Fleet.number(fix) % 2;
+                send(RobotJson.padded(name, partition, fix, fix.time(), partition * padding));
+            });
+        }
+        producer.flush();
+        check();
+    }
+
     /** Each device once a second at the time of sending, until {@link #stop}. */
     void report(int devices, double side) {
-        Fleet fleet = new Fleet(devices, 0, 1, side);
-        long begin = System.currentTimeMillis();
+        report(new Fleet(devices, 0, 1, side)::tick);
+    }
+
+    void report(Reports fleet) {
+        begin = System.currentTimeMillis();
         for (long tick = 0; !stopped; tick++) {
             fleet.tick(tick, fix -> {
                 long due = begin + fix.time() - Fleet.START;
@@ -92,13 +132,21 @@ final class FleetTopic implements AutoCloseable {
         }
     }
 
+    /** The time that stands for {@link Fleet#START}; 0 before anything is reported. */
+    long begin() {
+        return begin;
+    }
+
     void stop() {
         stopped = true;
     }
 
-    @SuppressWarnings("NonAtomicOperationOnVolatileField") // one thread sends
     private void send(PositionFix fix, long time) {
-        ProducerRecord<byte[], byte[]> record = RobotJson.record(name, fix, time);
+        send(RobotJson.record(name, fix, time));
+    }
+
+    @SuppressWarnings("NonAtomicOperationOnVolatileField") // one thread sends
+    private void send(ProducerRecord<byte[], byte[]> record) {
         producer.send(record, (done, failure) -> failed.compareAndSet(null, failure));
         sent++;
     }
@@ -114,7 +162,7 @@ final class FleetTopic implements AutoCloseable {
         stop();
         producer.close();
         try (Admin admin = Admin.create(kafka)) { // waits for what it was asked
-            admin.deleteTopics(List.of(name, results()));
+            admin.deleteTopics(List.of(name, results(), overflows()));
         }
         check();
     }

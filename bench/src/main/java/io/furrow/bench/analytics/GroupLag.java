@@ -31,6 +31,15 @@ final class GroupLag implements AutoCloseable {
         return written(topic) - done;
     }
 
+    /** Records of a partition that the group has committed; 0 before it has. */
+    long committed(int partition) throws InterruptedException, ExecutionException {
+        OffsetAndMetadata offset = admin.listConsumerGroupOffsets(group)
+                .partitionsToOffsetAndMetadata()
+                .get()
+                .get(new TopicPartition(topic, partition));
+        return offset == null ? 0 : offset.offset();
+    }
+
     /** Records of a topic from which nothing was deleted. */
     long written(String topic) throws InterruptedException, ExecutionException {
         Map<TopicPartition, OffsetSpec> ends = IntStream.range(0, FleetTopic.PARTITIONS)

@@ -22,6 +22,8 @@ final class RobotJson {
             + "\"Time\":{\"type\":\"Integer\",\"value\":");
     private static final byte[] TAIL = ascii(",\"metadata\":{}}}");
 
+    private static final String NOTES = ",\"Notes\":{\"type\":\"Text\",\"value\":\"%s\",\"metadata\":{}}}";
+
     private static final int TIME_DIGITS = 13;
     /** A sign and three digits. */
     private static final int WHOLE_WIDTH = 4;
@@ -44,6 +46,19 @@ final class RobotJson {
         ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, null, time, id, bytes(id, fix, time));
         record.headers().add(HeaderNames.SERVICE, SERVICE).add(HeaderNames.SERVICE_PATH, SERVICE_PATH);
         return record;
+    }
+
+    /** The same with an attribute {@code Notes} of as many characters, on a partition. */
+    static ProducerRecord<byte[], byte[]> padded(
+            String topic, int partition, PositionFix fix, long time, int characters) {
+        ProducerRecord<byte[], byte[]> plain = record(topic, fix, time);
+        byte[] value = plain.value();
+        if (characters > 0) {
+            byte[] notes = ascii(NOTES.formatted("x".repeat(characters)));
+            value = Arrays.copyOf(value, value.length - 1 + notes.length); // the last brace is that of the notes
+            System.arraycopy(notes, 0, value, value.length - notes.length, notes.length);
+        }
+        return new ProducerRecord<>(topic, partition, time, plain.key(), value, plain.headers());
     }
 
     private static byte[] bytes(byte[] id, PositionFix fix, long time) {

@@ -128,6 +128,27 @@ public final class TopicMeasurement {
         return least;
     }
 
+    /** A job that starts when all of a backlog is there. */
+    public void backlog(Backlog plan, Figures figures) throws Exception {
+        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, 2, cluster.kafka())) {
+            topic.fillUnevenly(plan.devices(), plan.records(), plan.padding());
+            progress.accept("%,d records of %,d devices written".formatted(plan.records(), plan.devices()));
+            Backlog.Reading reading = new Backlog.Reading(plan);
+            long begin = System.nanoTime();
+            Running job = start(topic, 2, List.of("--max-drift", plan.maxDrift()));
+            try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), false);
+                    GroupLag lag = new GroupLag(cluster.kafka(), topic.name(), jobName())) {
+                while (found.newest() < plan.end() - BEHIND_MS) {
+                    TimeUnit.SECONDS.sleep(Backlog.LOOK_SECONDS);
+                    progress.accept(reading.look(lag));
+                }
+                reading.addTo(figures, (System.nanoTime() - begin) / 1e9, found.count());
+            } finally {
+                job.cancel();
+            }
+        }
+    }
+
     /** How long after a position its alarm is in the topic of results, in whole milliseconds. */
     public Histogram alarms(int devices, int parallelism, Duration measured) throws Exception {
         try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
@@ -157,6 +178,39 @@ public final class TopicMeasurement {
                 && (found.alarms().getTotalCount() == 0 || found.alarms().getValueAtPercentile(99) > PROMPT_MS));
     }
 
+    /**
+     * Devices on one spot beside a fleet, and how far the job's results are behind, second by second.
+     *
+     * @param plan the devices on the spot
+     * @param others devices of the fleet, each with a report a second too
+     */
+    public CrowdHeld crowd(CrowdHeld.Plan plan, int others, int parallelism) throws Exception {
+        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
+            CrowdedFleet fleet = new CrowdedFleet(plan.devices(), others);
+            Thread reports = new Thread(() -> topic.report(fleet::tick), "bench-fleet");
+            List<String> options = new ArrayList<>(List.of("--overflow-output", topic.overflows()));
+            options.addAll(plan.eager() ? List.of("--eager") : List.of());
+            Running job = start(topic, parallelism, options);
+            reports.start();
+            try (CrowdReader found = new CrowdReader(cluster.kafka(), topic)) {
+                List<Long> lags = new ArrayList<>();
+                TimeUnit.MILLISECONDS.sleep(plan.warmUp().toMillis());
+                for (long second = 1; second <= plan.measured().toSeconds(); second++) {
+                    TimeUnit.SECONDS.sleep(1);
+                    lags.add(found.lag());
+                    progress.accept("%d s: lag %,d ms, %,d records".formatted(second, found.lag(), found.count()));
+                }
+                topic.stop();
+                TimeUnit.MILLISECONDS.sleep(2 * BEHIND_MS);
+                return found.held(plan, others, lags);
+            } finally {
+                topic.stop();
+                reports.join();
+                job.cancel();
+            }
+        }
+    }
+
     private static Reading await(FoundReader found, long event) throws InterruptedException {
         long end = System.nanoTime() + PATIENCE.toNanos();
         while (found.newest() < event) {
@@ -174,7 +228,7 @@ public final class TopicMeasurement {
     }
 
     /** Under a name of its own each reads from the beginning. */
-    private Running start(FleetTopic topic, int parallelism, List<String> more) throws Exception {
+    Running start(FleetTopic topic, int parallelism, List<String> more) throws Exception {
         List<String> args = new ArrayList<>(more);
         args.addAll(List.of("--bootstrap-servers", cluster.kafka().getProperty("bootstrap.servers")));
         args.addAll(List.of("--input", topic.name(), "--output", topic.results()));

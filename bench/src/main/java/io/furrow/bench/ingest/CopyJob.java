@@ -7,13 +7,13 @@ import org.apache.flink.api.common.typeinfo.TypeHint;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.PipelineOptions;
-import org.apache.flink.connector.kafka.sink.KafkaRecordSerializationSchema;
 import org.apache.flink.connector.kafka.source.reader.deserializer.KafkaRecordDeserializationSchema;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.ProducerRecord;
 
+import io.furrow.flink.AnyTopicSerializer;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.JobOptions;
 import io.furrow.flink.KafkaEnds;
@@ -84,7 +84,7 @@ final class CopyJob {
         }
     }
 
-    private static final class AsWasReceived implements KafkaRecordSerializationSchema<Copy> {
+    private static final class AsWasReceived implements AnyTopicSerializer<Copy> {
         private static final long serialVersionUID = 1L;
 
         @Override

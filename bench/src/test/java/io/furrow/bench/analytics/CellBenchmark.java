@@ -22,7 +22,7 @@ import org.openjdk.jmh.infra.Blackhole;
 import io.furrow.analytics.collision.Cell;
 import io.furrow.analytics.collision.CellUpdate;
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.Proximity;
+import io.furrow.analytics.collision.Matching;
 import io.furrow.analytics.collision.Track;
 import io.furrow.analytics.collision.Tracker;
 
@@ -38,7 +38,7 @@ public class CellBenchmark {
     @Param({"10000", "50000"})
     private int devices;
 
-    private final Proximity proximity = new Proximity(CollisionRules.DEFAULT);
+    private final Matching matching = new Matching(CollisionRules.DEFAULT);
     private List<CellUpdate> updates;
     private Cell cell;
     private int next;
@@ -69,7 +69,7 @@ public class CellBenchmark {
 
     @Benchmark
     public void move(Blackhole out) {
-        cell.apply(List.of(updates.get(next)), proximity, out::consume);
+        cell.apply(List.of(updates.get(next)), matching, out::consume);
         next = next + 1 == updates.size() ? 0 : next + 1;
     }
 }

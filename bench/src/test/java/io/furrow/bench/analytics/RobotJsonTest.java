@@ -1,5 +1,7 @@
 package io.furrow.bench.analytics;
 
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
@@ -26,5 +28,17 @@ class RobotJsonTest {
         PositionReading.Located located = (PositionReading.Located) PositionReading.of(entity);
         assertThat(located.position().latitude()).isCloseTo(latitude, within(HALF_OF_THE_LAST_DECIMAL));
         assertThat(located.position().longitude()).isCloseTo(longitude, within(HALF_OF_THE_LAST_DECIMAL));
+    }
+
+    @Test
+    void staysAnEntityWithNotes() throws Exception {
+        PositionFix fix = Fleet.fix("farm|/|robot-1", "robot-1", 1, 2, 0);
+
+        ProducerRecord<byte[], byte[]> record = RobotJson.padded("t", 1, fix, 1_700_000_000_123L, 20);
+
+        assertThat(record.partition()).isEqualTo(1);
+        assertThat(Entity.parse(record.value()).text("Notes")).contains("x".repeat(20));
+        assertThat(RobotJson.padded("t", 0, fix, 1_700_000_000_123L, 0).value())
+                .isEqualTo(RobotJson.record("t", fix, 1_700_000_000_123L).value());
     }
 }

@@ -11,7 +11,7 @@ import java.util.List;
 import java.util.Random;
 import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.atomic.AtomicLong;
+import java.util.concurrent.atomic.AtomicReference;
 import java.util.stream.LongStream;
 import java.util.stream.Stream;
 
@@ -73,23 +73,22 @@ public final class JournalComparison {
         long end = System.nanoTime() + howLong.toNanos();
         long[][] nanos = new long[appenders][];
         CountDownLatch done = new CountDownLatch(appenders);
-        AtomicLong failed = new AtomicLong();
+        AtomicReference<Exception> failed = new AtomicReference<>();
         for (int i = 0; i < appenders; i++) {
             int appender = i;
             new Thread(() -> {
                         try {
                             nanos[appender] = append(journal, end);
                         } catch (Exception e) { // a candidate may throw anything; the measure is void then
-                            e.printStackTrace();
-                            failed.incrementAndGet();
+                            failed.compareAndSet(null, e);
                         } finally {
                             done.countDown();
                         }
                     })
                     .start();
         }
-        if (!done.await(howLong.toSeconds() + 60, TimeUnit.SECONDS) || failed.get() > 0) {
-            throw new IllegalStateException("an appender failed or hangs");
+        if (!done.await(howLong.toSeconds() + 60, TimeUnit.SECONDS) || failed.get() != null) {
+            throw new IllegalStateException("an appender failed or hangs", failed.get());
         }
         return Arrays.stream(nanos).flatMapToLong(LongStream::of).sorted().toArray();
     }

@@ -3,9 +3,9 @@ package io.furrow.launcher.dead;
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
 import java.util.TreeMap;
@@ -24,22 +24,29 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.Original;
 
 /**
  * Brings dead letters back to a topic as they were: key, bytes, time and headers, without those that say why they were set
- * aside. What is written and the memory of it are one transaction, so that no letter is fed twice. Reads up to the end that the
- * topic had at the beginning: a letter that dies again waits for the next time.
+ * aside; in the place of a letter that stands for a large record, that record from where it is. What is written and the memory of
+ * it are one transaction, so that no letter is fed twice. Reads up to the end that the topic had at the beginning: a letter that
+ * dies again waits for the next time.
  */
 public final class Refeed {
     /**
      * Who sets aside a copy: the event went on without its image, to its topics though not to MongoDB, or to the other jobs.
      * Fed again it would be there twice, so these letters must be asked for by name.
      */
-    public static final Set<String> WENT_ON = Set.of("ingest-images", "missions", "temperature", "collision");
+    public static final Set<String> WENT_ON =
+            Set.of("ingest-images", "missions", "temperature", "collision", "presence");
 
-    private static final Duration PATIENCE = Duration.ofSeconds(30);
+    static final Duration PATIENCE = Duration.ofSeconds(30);
+    /** Of a transaction with large originals. A broker's own limit is 15 minutes, if not set otherwise. */
+    private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
+
     private static final String OTHER = "no dead letter";
     private static final String TRUNCATED = "truncated";
+    private static final String GONE = "original gone";
 
     /**
      * What is wanted.
@@ -86,6 +93,7 @@ public final class Refeed {
     private final Map<String, Long> fed = new TreeMap<>();
     private final Map<String, Long> left = new TreeMap<>();
     private RefeedMemory memory;
+    private Originals originals;
 
     /** @param kafka what every client needs, {@code bootstrap.servers} at least */
     public Refeed(Properties kafka, Wish wish) {
@@ -96,7 +104,9 @@ public final class Refeed {
     /** @throws IOException if the topic is not there, or its end is not reached */
     public Outcome run() throws IOException {
         try (var consumer = consumer();
+                var found = new Originals(consumer());
                 var producer = wish.dryRun() ? null : producer()) {
+            originals = found;
             assign(consumer);
             Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment(), PATIENCE);
             if (producer != null) {
@@ -133,28 +143,38 @@ public final class Refeed {
         return ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue());
     }
 
+    /** Originals may be large: each is sent before the next is read. */
     private void feed(
             ConsumerRecords<byte[], byte[]> records,
             Map<TopicPartition, Long> ends,
-            KafkaProducer<byte[], byte[]> producer) {
-        List<ProducerRecord<byte[], byte[]>> originals = new ArrayList<>();
+            KafkaProducer<byte[], byte[]> producer)
+            throws IOException {
+        boolean begun = false;
         for (ConsumerRecord<byte[], byte[]> letter : records) {
             boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
-            if (!isNew && isWanted(letter)) {
-                originals.add(original(letter));
+            Optional<ConsumerRecord<byte[], byte[]>> original =
+                    isNew || !isWanted(letter) ? Optional.empty() : original(letter);
+            if (original.isPresent()) {
+                memory.add(letter.partition(), kind(letter), letter.offset());
+                fed.merge(kind(letter).reason(), 1L, Long::sum);
+                if (producer != null) {
+                    if (!begun) {
+                        producer.beginTransaction();
+                        begun = true;
+                    }
+                    producer.send(broughtBack(original.get()));
+                }
             }
         }
         List<ProducerRecord<byte[], byte[]>> done = memory.changes();
-        if (producer != null && !originals.isEmpty()) {
-            producer.beginTransaction();
-            originals.forEach(producer::send);
+        if (begun) {
             done.forEach(producer::send);
             producer.commitTransaction();
         }
     }
 
     private boolean isWanted(ConsumerRecord<byte[], byte[]> letter) {
-        Kind kind = new Kind(header(letter, DeadLetter.REASON), header(letter, DeadLetter.STAGE));
+        Kind kind = kind(letter);
         if (kind.reason().isEmpty()) {
             left.merge(OTHER, 1L, Long::sum);
             return false;
@@ -166,19 +186,35 @@ public final class Refeed {
             left.merge(kind.told(), 1L, Long::sum);
             return false;
         }
-        if (header(letter, DeadLetter.MESSAGE).contains("(truncated")) {
-            left.merge(TRUNCATED, 1L, Long::sum);
-            return false;
-        }
-        memory.add(letter.partition(), kind, letter.offset());
-        fed.merge(kind.reason(), 1L, Long::sum);
         return true;
     }
 
-    private ProducerRecord<byte[], byte[]> original(ConsumerRecord<byte[], byte[]> letter) {
+    /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
+    private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> letter)
+            throws IOException {
+        Optional<Original> elsewhere = Original.of(header(letter, Original.POSITION), header(letter, Original.BYTES));
+        if (elsewhere.isPresent()) {
+            Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), letter);
+            if (found.isEmpty()) {
+                left.merge(GONE, 1L, Long::sum);
+            }
+            return found;
+        }
+        if (header(letter, DeadLetter.MESSAGE).contains("(truncated")) {
+            left.merge(TRUNCATED, 1L, Long::sum);
+            return Optional.empty();
+        }
+        return Optional.of(letter);
+    }
+
+    private static Kind kind(ConsumerRecord<byte[], byte[]> letter) {
+        return new Kind(header(letter, DeadLetter.REASON), header(letter, DeadLetter.STAGE));
+    }
+
+    private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
         ProducerRecord<byte[], byte[]> record =
-                new ProducerRecord<>(wish.to(), null, letter.timestamp(), letter.key(), letter.value());
-        for (Header header : letter.headers()) {
+                new ProducerRecord<>(wish.to(), null, Originals.timeOf(original), original.key(), original.value());
+        for (Header header : original.headers()) {
             if (!DeadLetter.HEADERS.contains(header.key())) {
                 record.headers().add(header);
             }
@@ -203,6 +239,7 @@ public final class Refeed {
         Properties settings = new Properties();
         settings.putAll(kafka);
         settings.setProperty(ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-refeed-" + wish.from() + "-" + wish.to());
+        settings.setProperty(ProducerConfig.TRANSACTION_TIMEOUT_CONFIG, Long.toString(TRANSACTION_TIMEOUT.toMillis()));
         settings.setProperty(ProducerConfig.MAX_REQUEST_SIZE_CONFIG, Integer.toString(16 * 1024 * 1024));
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
     }
