@@ -14,7 +14,7 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 # shellcheck source=parts/flink.sh
 . "$soak/parts/flink.sh"
 
-seconds=60
+seconds=120
 parallelism=1
 restore_parallelism=
 delivery=at-least-once
@@ -23,11 +23,11 @@ window=5
 usage() {
     cat <<USAGE
 Usage: ./furrow soak flink-run [OPTION VALUE]…
-Runs ingest, temperature and collision with flink run on a standalone Flink $flink_version beside a Kafka broker, both started
-for this; while numbered events come in, stops all jobs with a savepoint and goes on from it. Then everything that the
-jobs wrote must be there once. FLINK_HOME names a distribution; without it one is fetched once, some 315 MB.
+Runs every job with flink run on a standalone Flink $flink_version beside a Kafka broker, both started for this: ingest, normalise,
+presence, temperature twice (blue and green) and collision twice (two thresholds). While numbered events come in, stops all
+with a savepoint and goes on from it. Then everything that the jobs wrote must be there once, and green must be as blue. FLINK_HOME names a distribution; without it one is fetched once, some 315 MB.
 
-  --seconds N              How long events come in, at least 40 s. Default: $seconds.
+  --seconds N              How long events come in, at least 90 s. Default: $seconds.
   --parallelism N          Subtasks before the savepoint, 1 or 2. Default: $parallelism.
   --restore-parallelism N  Subtasks after it, 1 or 2. Default: as before.
   --delivery MODE          at-least-once or exactly-once. Default: $delivery.
@@ -47,15 +47,16 @@ while (($# > 0)); do
     shift 2
 done
 restore_parallelism=${restore_parallelism:-$parallelism}
-[[ $seconds =~ ^[0-9]+$ && $seconds -ge 40 ]] || fail "--seconds must be a whole number from 40, not '$seconds'."
-[[ $parallelism =~ ^[12]$ && $restore_parallelism =~ ^[12]$ ]] || fail "The parallelism must be 1 or 2: the cluster has 6 slots for three jobs."
+[[ $seconds =~ ^[0-9]+$ && $seconds -ge 90 ]] || fail "--seconds must be a whole number from 90, not '$seconds'."
+[[ $parallelism =~ ^[12]$ && $restore_parallelism =~ ^[12]$ ]] || fail "The parallelism must be 1 or 2: the cluster has 14 slots for seven jobs."
 [[ $delivery == at-least-once || $delivery == exactly-once ]] || fail "--delivery must be at-least-once or exactly-once, not '$delivery'."
 command -v curl >/dev/null || fail "No curl found, which asks Flink whether it is ready. Install curl."
 
 run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-flink-run.XXXXXX")
 logs=$home/target/soak/flink-run
 classes=$home/launcher/target/test-classes:$home/launcher/target/furrow/lib/*
-jobs=(ingest temperature collision)
+# An instance is a job, or a job and what its name adds.
+instances=(ingest normalise presence temperature temperature-green collision collision-wide)
 ids=()
 savepoints=()
 
@@ -79,31 +80,39 @@ mkdir -p "$logs"
 
 jar_of() {
     local module=analytics
-    [[ $1 == ingest ]] && module=ingest
+    [[ $1 == ingest || $1 == normalise ]] && module=ingest
     ls "$home/$module/target/furrow-$module"-*-job.jar
 }
 
 # Each job explains itself where Flink is not.
 check_help() {
-    for name in "${jobs[@]}"; do
+    for name in ingest normalise presence temperature collision; do
         "$java" -jar "$(jar_of "$name")" "$name" --help >"$logs/$name.help" 2>&1 || fail "$name --help fails: $logs/$name.help"
         grep -q -- '--bootstrap-servers' "$logs/$name.help" || fail "$name --help shows no options: $logs/$name.help"
     done
 }
 
-# run_job NAME PARALLELISM FLINK-OPTIONS…: appends its id to ids.
+# run_job INSTANCE PARALLELISM FLINK-OPTIONS…: appends its id to ids.
 run_job() {
-    local name=$1 subtasks=$2 own_options=()
+    local instance=$1 name=${1%%-*} subtasks=$2 own_options=(--name "$1")
     shift 2
-    [[ $name == temperature ]] && own_options=(--fields "$soak/fields.geojson" --window "${window}s")
+    case $name in
+        normalise) own_options+=(--input orion.native --output data.raw.native) ;;
+        temperature) own_options+=(--fields "$soak/fields.geojson" --window "${window}s") ;;
+        presence) own_options+=(--fields "$soak/fields.geojson") ;;
+    esac
+    case $instance in
+        temperature-green) own_options+=(--output data.temperature.green --late-output data.temperature.green.late) ;;
+        collision-wide) own_options+=(--threshold 8 --output data.collision.wide --late-output data.collision.wide.late --overflow-output data.collision.wide.overflow) ;;
+    esac
     "$FLINK_HOME/bin/flink" run -d "$@" "$(jar_of "$name")" "$name" --bootstrap-servers "$bootstrap" --checkpoint-interval 5s \
-        --delivery "$delivery" --parallelism "$subtasks" ${own_options[@]+"${own_options[@]}"} >"$logs/run-$name.out" 2>&1 ||
-        { tail -n 5 "$logs/run-$name.out" >&2; fail "flink run of $name failed."; }
-    ids+=("$(sed -n 's/.*submitted with JobID \([0-9a-f]*\).*/\1/p' "$logs/run-$name.out")")
-    say "flink run $* $name: ${ids[${#ids[@]} - 1]}"
+        --delivery "$delivery" --parallelism "$subtasks" "${own_options[@]}" >"$logs/run-$instance.out" 2>&1 ||
+        { tail -n 5 "$logs/run-$instance.out" >&2; fail "flink run of $instance failed."; }
+    ids+=("$(sed -n 's/.*submitted with JobID \([0-9a-f]*\).*/\1/p' "$logs/run-$instance.out")")
+    say "flink run $* $instance: ${ids[${#ids[@]} - 1]}"
 }
 
-# stop_job NAME ID: appends its savepoint to savepoints.
+# stop_job INSTANCE ID: appends its savepoint to savepoints.
 stop_job() {
     "$FLINK_HOME/bin/flink" stop --savepointPath "file://$run/savepoints" "$2" >"$logs/stop-$1.out" 2>&1 ||
         { tail -n 5 "$logs/stop-$1.out" >&2; fail "flink stop of $1 failed."; }
@@ -120,7 +129,7 @@ say "--help of all jobs works without Flink"
 provide_flink
 start_kafka
 say "Kafka at $bootstrap"
-start_flink
+task_slots=14 task_manager_memory=3072m start_flink
 say "Flink at $rest, from $FLINK_HOME"
 
 "$java" -Xmx128m -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.NumberedEvents "$bootstrap" "$seconds" \
@@ -130,15 +139,15 @@ own "$events"
 began=$SECONDS
 until_true 30 "The topic data.raw" writing
 say "events come in for $seconds s"
-for name in "${jobs[@]}"; do run_job "$name" "$parallelism"; done
+for instance in "${instances[@]}"; do run_job "$instance" "$parallelism"; done
 
 # Late enough for results, early enough for as long a time after it.
 while ((SECONDS < began + seconds * 2 / 5)); do sleep 0.5; done
 show_jobs || fail "The cluster does not show the jobs as they should be."
-for i in "${!jobs[@]}"; do stop_job "${jobs[i]}" "${ids[i]}"; done
+for i in "${!instances[@]}"; do stop_job "${instances[i]}" "${ids[i]}"; done
 sleep 4
 ids=()
-for i in "${!jobs[@]}"; do run_job "${jobs[i]}" "$restore_parallelism" -s "${savepoints[i]}"; done
+for i in "${!instances[@]}"; do run_job "${instances[i]}" "$restore_parallelism" -s "${savepoints[i]}"; done
 
 wait "$events" || { cat "$logs/events.out" >&2; fail "The events could not be written."; }
 say "$(tail -n 1 "$logs/events.out")"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes the reading of notifications, of journals and of their records with Jazzer, at 512 MB of heap.
+# Fuzzes the reading of notifications, journals, their records and a context broker's answers with Jazzer, at 512 MB of heap.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -12,7 +12,7 @@ java=${JAVA_HOME:+$JAVA_HOME/bin/}java
 
 jazzer_version=0.30.0
 seconds=600
-targets=(bodies journal records)
+targets=(bodies journal records pages answers gzip)
 
 usage() {
     cat <<USAGE
@@ -21,7 +21,7 @@ Runs Jazzer $jazzer_version, one target after the other. It passes where none fi
 out of 512 MB. What it finds belongs into ngsi-connector/src/test/resources/fuzz, where every build tries it again.
 
   --seconds N    For each target, at least 10. Default: $seconds.
-  --target NAME  Only bodies, journal or records.
+  --target NAME  Only bodies, journal, records, pages, answers or gzip.
 USAGE
 }
 
@@ -36,7 +36,7 @@ while (($# > 0)); do
     shift 2
 done
 [[ $seconds =~ ^[0-9]+$ && $seconds -ge 10 ]] || fail "--seconds must be a whole number from 10, not '$seconds'."
-[[ ${targets[0]} =~ ^(bodies|journal|records)$ ]] || fail "--target must be bodies, journal or records, not '${targets[0]}'."
+[[ ${targets[0]} =~ ^(bodies|journal|records|pages|answers|gzip)$ ]] || fail "--target must be bodies, journal, records, pages, answers or gzip, not '${targets[0]}'."
 
 run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-fuzz.XXXXXX")
 logs=$home/target/soak/fuzz
@@ -57,6 +57,9 @@ class_of() {
         bodies) echo io.furrow.connect.source.FuzzBodies ;;
         journal) echo io.furrow.connect.journal.FuzzJournal ;;
         records) echo io.furrow.connect.source.FuzzRecords ;;
+        pages) echo io.furrow.connect.repair.FuzzPages ;;
+        answers) echo io.furrow.connect.sink.FuzzAnswers ;;
+        gzip) echo io.furrow.connect.source.FuzzGzip ;;
     esac
 }
 

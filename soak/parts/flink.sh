@@ -53,6 +53,7 @@ fetch() {
 }
 
 # start_flink [SETTING…]: a job manager and a task manager below $run; sets rest. A setting is a line of config.yaml.
+# The task manager has $task_slots slots (6) and $task_manager_memory (1536m).
 start_flink() {
     local port rpc opens
     free_port && rest=http://127.0.0.1:$port
@@ -71,8 +72,8 @@ jobmanager.bind-host: 127.0.0.1
 jobmanager.memory.process.size: 1024m
 taskmanager.host: 127.0.0.1
 taskmanager.bind-host: 127.0.0.1
-taskmanager.memory.process.size: 1536m
-taskmanager.numberOfTaskSlots: 6
+taskmanager.memory.process.size: ${task_manager_memory:-1536m}
+taskmanager.numberOfTaskSlots: ${task_slots:-6}
 io.tmp.dirs: $run/flink-tmp
 execution.checkpointing.dir: file://$run/checkpoints
 YAML

@@ -18,8 +18,10 @@ clean_up() {
     local code=$?
     trap - EXIT INT TERM
     stop_own
-    for log in "$run"/*/worker.log; do
-        [[ -f $log ]] && cp "$log" "$logs/$(basename "$(dirname "$log")")-worker.log"
+    local log name
+    for log in "$run"/*/worker.{log,out} "$run"/*/*/worker.{log,out}; do
+        name=${log#"$run/"}
+        [[ -f $log ]] && cp "$log" "$logs/${name//\//-}"
     done
     rm -rf "$run"
     case $code in

@@ -2,8 +2,11 @@ package io.furrow.soak;
 
 import java.time.Instant;
 import java.util.ArrayList;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Locale;
+import java.util.Map;
+import java.util.Set;
 import java.util.TreeMap;
 
 import io.furrow.model.ngsi.Entity;
@@ -12,7 +15,6 @@ import io.furrow.model.ngsi.PositionReading;
 
 /** What the jobs must make of the events on {@code data.raw}, by their definitions and without any of their code. */
 final class Expected {
-    private static final double THRESHOLD_METERS = 5;
     private static final long ONGOING_EVERY_MILLIS = 1_000;
     private static final double EARTH_RADIUS_METERS = 6_371_000;
 
@@ -77,8 +79,10 @@ final class Expected {
     /**
      * The encounters of the two robots: the distance of their latest positions at each instant at which one reported; at the
      * end of an encounter the last at which they were close.
+     *
+     * @param threshold up to which distance they are close, in metres
      */
-    List<Result> encounters() {
+    List<Result> encounters(double threshold) {
         List<Result> results = new ArrayList<>();
         Position first = null;
         Position second = null;
@@ -92,7 +96,7 @@ final class Expected {
                 continue;
             }
             double distance = meters(first, second);
-            boolean now = distance <= THRESHOLD_METERS;
+            boolean now = distance <= threshold;
             if (now != close || now && time(event) - reported >= ONGOING_EVERY_MILLIS) {
                 String phase = now ? close ? "ongoing" : "started" : "ended";
                 results.add(encounter(phase, time(event), now ? distance : lastClose));
@@ -102,6 +106,24 @@ final class Expected {
             lastClose = distance;
         }
         return results;
+    }
+
+    /** The first report of each device, by the fields in which it stands from then on. */
+    List<Result> entries(Map<String, List<String>> fieldsOf) {
+        List<Result> results = new ArrayList<>();
+        Set<String> seen = new HashSet<>();
+        for (Entity event : events.values()) {
+            if (seen.add(event.id())) {
+                fieldsOf.get(event.id())
+                        .forEach(field -> results.add(passage("entered", event.id(), field, time(event))));
+            }
+        }
+        return results;
+    }
+
+    static Result passage(String phase, String device, String field, long time) {
+        return new Result(
+                device + " " + phase + " " + field, Instant.ofEpochMilli(time).toString(), time);
     }
 
     static Result encounter(String phase, long time, double distance) {

@@ -9,6 +9,7 @@ import java.util.Properties;
 import java.util.concurrent.ExecutionException;
 import java.util.concurrent.atomic.AtomicReference;
 import java.util.concurrent.locks.LockSupport;
+import java.util.stream.Stream;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -20,12 +21,18 @@ import org.apache.kafka.common.serialization.StringSerializer;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
-/** Makes {@code data.raw} and writes the reports of the {@link Farm} to it, numbered from 1, at a steady rate. */
+/**
+ * Makes {@code data.raw} and {@value #NATIVE}, and writes the reports of the {@link Farm} to both, numbered from 1, at a steady
+ * rate: as events, and as the context broker's own notifications.
+ */
 public final class NumberedEvents {
+    static final String NATIVE = "orion.native";
+
     private static final int PARTITIONS = 4;
     private static final int EVENTS_PER_SECOND = 40;
     private static final Duration STEP = Duration.ofSeconds(1).dividedBy(EVENTS_PER_SECOND);
@@ -49,8 +56,10 @@ public final class NumberedEvents {
 
     private static void makeTopic(Properties kafka) throws ExecutionException, InterruptedException {
         try (Admin admin = Admin.create(kafka)) {
-            NewTopic raw = new NewTopic(Topics.RAW, Optional.of(PARTITIONS), Optional.empty());
-            admin.createTopics(List.of(raw)).all().get();
+            List<NewTopic> topics = Stream.of(Topics.RAW, NATIVE)
+                    .map(topic -> new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty()))
+                    .toList();
+            admin.createTopics(topics).all().get();
         }
     }
 
@@ -62,7 +71,9 @@ public final class NumberedEvents {
         for (long number = 1; number <= events; number++) {
             LockSupport.parkNanos(begin + number * STEP.toNanos() - System.nanoTime());
             time = Math.max(time + 1, System.currentTimeMillis());
-            producer.send(record(number, time), (written, failure) -> lost.compareAndSet(null, failure));
+            Entity entity = Farm.report(number, time);
+            producer.send(event(entity, time), (written, failure) -> lost.compareAndSet(null, failure));
+            producer.send(notification(entity, time), (written, failure) -> lost.compareAndSet(null, failure));
         }
         producer.flush();
         if (lost.get() != null) {
@@ -71,8 +82,15 @@ public final class NumberedEvents {
         return events;
     }
 
-    private static ProducerRecord<String, byte[]> record(long number, long time) {
-        Entity entity = Farm.report(number, time);
+    private static ProducerRecord<String, byte[]> notification(Entity entity, long time) {
+        String body =
+                "{\"subscriptionId\":\"soak\",\"data\":[" + new String(entity.toBytes(), StandardCharsets.UTF_8) + "]}";
+        var record = new ProducerRecord<>(NATIVE, null, time, entity.id(), body.getBytes(StandardCharsets.UTF_8));
+        record.headers().add(HeaderNames.SERVICE, SCOPE.service().getBytes(StandardCharsets.UTF_8));
+        return record;
+    }
+
+    private static ProducerRecord<String, byte[]> event(Entity entity, long time) {
         Instant now = Instant.ofEpochMilli(time);
         EntityEvent event =
                 EntityEvent.of(entity, SCOPE, now, EventTimeRule.within(Duration.ZERO), Origin.NOTIFICATION);

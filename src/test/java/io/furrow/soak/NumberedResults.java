@@ -21,6 +21,20 @@ public final class NumberedResults {
 
     private static final int SHOWN = 10;
 
+    /** Topics that {@code flink-run} names. */
+    private static final String NORMALISED = "data.raw.native";
+
+    private static final String GREEN = "data.temperature.green";
+    private static final String WIDE = "data.collision.wide";
+    private static final double USUAL_THRESHOLD_METERS = 5;
+    private static final double WIDE_THRESHOLD_METERS = 8;
+    /** Where the devices stand in {@code fields.geojson}, however the second robot goes. */
+    private static final Map<String, List<String>> FIELDS_OF = Map.of(
+            Farm.FIRST_THERMOMETER, List.of("farm"),
+            Farm.SECOND_THERMOMETER, List.of("farm", "corner"),
+            Farm.FIRST_ROBOT, List.of("farm"),
+            Farm.SECOND_ROBOT, List.of("farm"));
+
     private final Expected expected;
     private final String bootstrapServers;
     private final long windowMillis;
@@ -40,22 +54,33 @@ public final class NumberedResults {
 
     private boolean isClean() throws UnreadableException {
         Map<String, Comparison> comparisons = new LinkedHashMap<>();
-        for (String topic : List.of(Topics.realtime(Farm.DOMAIN), Topics.realtime(Farm.DOMAIN, Farm.MISSION))) {
+        for (String topic :
+                List.of(Topics.realtime(Farm.DOMAIN), Topics.realtime(Farm.DOMAIN, Farm.MISSION), NORMALISED)) {
             try (TopicLog log = new TopicLog(bootstrapServers, topic)) {
                 comparisons.put(topic, compared(log, expected.numbers(), Long.MAX_VALUE));
                 System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.longestSilence() / 1000.0);
             }
         }
-        for (String topic : List.of(Topics.TEMPERATURE, Topics.COLLISION)) {
-            try (TopicLog log = new TopicLog(bootstrapServers, topic)) {
-                List<Result> results = topic.equals(Topics.COLLISION) ? expected.encounters() : windows();
-                comparisons.put(topic, compared(log, results, expected.lastTime() - OPEN_MILLIS));
+        for (Map.Entry<String, List<Result>> topic : results().entrySet()) {
+            try (TopicLog log = new TopicLog(bootstrapServers, topic.getKey())) {
+                comparisons.put(topic.getKey(), compared(log, topic.getValue(), expected.lastTime() - OPEN_MILLIS));
             }
         }
         long aside = TopicLog.count(bootstrapServers, List.of(".dead", ".late"));
         comparisons.forEach(NumberedResults::print);
         System.out.printf("%-32s %5d records%n", "late and dead", aside);
         return aside == 0 && comparisons.values().stream().allMatch(Comparison::isClean);
+    }
+
+    /** Of each topic of results; blue and green tell the same, another threshold tells something else. */
+    private Map<String, List<Result>> results() {
+        Map<String, List<Result>> results = new LinkedHashMap<>();
+        results.put(Topics.TEMPERATURE, windows());
+        results.put(GREEN, windows());
+        results.put(Topics.COLLISION, expected.encounters(USUAL_THRESHOLD_METERS));
+        results.put(WIDE, expected.encounters(WIDE_THRESHOLD_METERS));
+        results.put(Topics.PRESENCE, expected.entries(FIELDS_OF));
+        return results;
     }
 
     private List<Result> windows() {
@@ -92,6 +117,12 @@ public final class NumberedResults {
                         entity.text("phase").orElseThrow(),
                         integer(entity, "time"),
                         entity.number("distance").orElseThrow());
+            case "Analytics:Presence" ->
+                Expected.passage(
+                        entity.text("phase").orElseThrow(),
+                        entity.text("device").orElseThrow(),
+                        entity.text("field").orElseThrow(),
+                        integer(entity, "time"));
             default -> Expected.numbered(entity);
         };
     }

@@ -53,7 +53,7 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
-    /** They share the fields, how to act in event time and how state is written. */
+    /** They share the fields, the clocks of devices, how to act in event time and how state is written. */
     @ParameterizedTest
     @ValueSource(strings = "io.furrow.analytics.(*)..")
     void keepsJobsApart(String jobs) {
@@ -64,6 +64,7 @@ class ArchitectureTest {
                 .ignoreDependency(
                         resideInAnyPackage("io.furrow.analytics.."),
                         resideInAnyPackage(
+                                "io.furrow.analytics.clock",
                                 "io.furrow.analytics.eventtime",
                                 "io.furrow.analytics.field",
                                 "io.furrow.analytics.format"))

@@ -1,0 +1,105 @@
+package io.furrow.soak.source;
+
+import java.net.URI;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.atomic.AtomicIntegerArray;
+import java.util.concurrent.locks.LockSupport;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** Changes entities at a context broker, one after another at a rate, each entity from one thread. */
+final class EntityChanges implements AutoCloseable {
+    private static final int THREADS = 4;
+    private static final String FILLING = "x".repeat(700);
+
+    private final URI entities;
+    private final long nanosPerChange;
+    private final AtomicIntegerArray newest;
+    private final List<Thread> threads = new ArrayList<>();
+    private volatile boolean held = true;
+    private volatile boolean ended;
+
+    private EntityChanges(URI contextBroker, int entityCount, int perSecond) {
+        entities = URI.create(contextBroker + "/v2/entities?options=upsert");
+        nanosPerChange = Duration.ofSeconds(1).toNanos() * THREADS / perSecond;
+        newest = new AtomicIntegerArray(entityCount);
+    }
+
+    /** Nothing changes before {@link #goOn}. */
+    static EntityChanges prepare(URI contextBroker, int entityCount, int perSecond) {
+        EntityChanges changes = new EntityChanges(contextBroker, entityCount, perSecond);
+        for (int i = 0; i < THREADS; i++) {
+            int first = i;
+            Thread thread = new Thread(() -> changes.change(first), "changes-" + i);
+            thread.setDaemon(true);
+            thread.start();
+            changes.threads.add(thread);
+        }
+        return changes;
+    }
+
+    private void change(int first) {
+        int entity = first;
+        long next = System.nanoTime();
+        while (!ended) {
+            if (held) {
+                LockSupport.parkNanos(Duration.ofMillis(20).toNanos());
+                next = System.nanoTime();
+                continue;
+            }
+            LockSupport.parkNanos(next - System.nanoTime());
+            next += nanosPerChange;
+            synchronized (Thread.currentThread()) {
+                if (!held) {
+                    post(new Change(entity, newest.get(entity) + 1));
+                }
+            }
+            entity = entity + THREADS < newest.length() ? entity + THREADS : first;
+        }
+    }
+
+    private void post(Change change) {
+        ObjectNode body =
+                JsonNodeFactory.instance.objectNode().put("id", change.id()).put("type", Change.TYPE);
+        body.putObject("Number").put("type", "Integer").put("value", change.number());
+        body.putObject("Filling").put("type", "String").put("value", FILLING);
+        int status = Json.send("POST", entities, body);
+        if (status / 100 != 2) {
+            throw new IllegalStateException("the context broker answered " + status + " to " + change);
+        }
+        newest.set(change.entity(), change.number());
+    }
+
+    void goOn() {
+        held = false;
+    }
+
+    /** Returns when no change is under way any more. */
+    void hold() {
+        held = true;
+        for (Thread thread : threads) {
+            synchronized (thread) {
+                if (!thread.isAlive()) {
+                    throw new IllegalStateException("a change was refused; see the output above");
+                }
+            }
+        }
+    }
+
+    /** The newest state of each entity; {@link #hold} first. */
+    List<Change> newest() {
+        List<Change> all = new ArrayList<>();
+        for (int i = 0; i < newest.length(); i++) {
+            all.add(new Change(i, newest.get(i)));
+        }
+        return all;
+    }
+
+    @Override
+    public void close() {
+        ended = true;
+    }
+}
