@@ -122,7 +122,7 @@ public final class BadAmongGood implements AutoCloseable {
 
     /** Good and bad ones in turn; half of the good ones as native notifications, half as records of {@code data.raw}. */
     void write(int good, int bad) {
-        Map<String, Object> settings = new HashMap<>(client());
+        Map<String, Object> settings = new HashMap<>(kafka.producerSettings());
         settings.put("linger.ms", "20");
         settings.put("batch.size", "262144");
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {

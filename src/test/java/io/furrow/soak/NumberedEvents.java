@@ -47,6 +47,7 @@ public final class NumberedEvents {
         makeTopic(kafka);
         kafka.setProperty("enable.idempotence", "true");
         kafka.setProperty("acks", "all");
+        kafka.setProperty("max.in.flight.requests.per.connection", "1"); // the topic was made just now
         try (var producer = new KafkaProducer<>(kafka, new StringSerializer(), new ByteArraySerializer())) {
             System.out.println("writing");
             long written = write(producer, Duration.ofSeconds(Long.parseLong(args[1])));

@@ -4,6 +4,7 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -146,8 +147,8 @@ class LargeRecordsIT {
     }
 
     private static void write(EmbeddedKafka kafka, List<ProducerRecord<byte[], byte[]>> records) {
-        Map<String, Object> settings =
-                Map.of("bootstrap.servers", kafka.bootstrapServers(), "max.request.size", 2 * IMAGE);
+        Map<String, Object> settings = new HashMap<>(kafka.producerSettings());
+        settings.put("max.request.size", 2 * IMAGE);
         try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             records.forEach(producer::send);
         }

@@ -61,6 +61,14 @@ public final class EmbeddedKafka implements AutoCloseable {
         return HOST + ":" + port;
     }
 
+    /**
+     * For a producer of topics that were made just now, with one request at a time: of two under way the broker could refuse the
+     * first, whose partition is not there yet, and take the second, and would then refuse the first for ever (KAFKA-15591).
+     */
+    public Map<String, Object> producerSettings() {
+        return Map.of("bootstrap.servers", bootstrapServers(), "max.in.flight.requests.per.connection", 1);
+    }
+
     @Override
     public void close() {
         server.shutdown();

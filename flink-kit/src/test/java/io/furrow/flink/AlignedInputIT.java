@@ -61,7 +61,8 @@ class AlignedInputIT {
             try (Admin admin = Admin.create(client);
                     KafkaConsumer<String, String> consumer =
                             new KafkaConsumer<>(client, new StringDeserializer(), new StringDeserializer())) {
-                producer = new KafkaProducer<>(client, new ByteArraySerializer(), new ByteArraySerializer());
+                producer = new KafkaProducer<>(
+                        kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
                 admin.createTopics(List.of(new NewTopic("in", 2, (short) 1), new NewTopic("out", 1, (short) 1)))
                         .all()
                         .get();

@@ -184,9 +184,8 @@ class KafkaEndsIT {
     }
 
     private static void write(String topic, List<Copied> records) {
-        Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
         try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
+                new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer())) {
             for (Copied each : records) {
                 var record = new ProducerRecord<>(topic, null, each.timestamp(), utf8(each.key()), utf8(each.value()));
                 each.headers().forEach((name, text) -> record.headers().add(name, utf8(text)));

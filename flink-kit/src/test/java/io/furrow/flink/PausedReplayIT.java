@@ -50,7 +50,8 @@ class PausedReplayIT {
                         .all()
                         .get();
             }
-            try (var producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+            try (var producer = new KafkaProducer<>(
+                            kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
                     var consumer =
                             new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
                 consumer.assign(List.of(SEEN));

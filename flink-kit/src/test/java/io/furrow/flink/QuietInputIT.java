@@ -39,8 +39,8 @@ class QuietInputIT {
         try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
             List<Long> seen = new ArrayList<>();
             Map<String, Object> settings = Map.of("bootstrap.servers", kafka.bootstrapServers());
-            try (KafkaProducer<byte[], byte[]> producer =
-                            new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+            try (KafkaProducer<byte[], byte[]> producer = new KafkaProducer<>(
+                            kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
                     KafkaConsumer<byte[], byte[]> consumer =
                             new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
                 for (String topic : List.of("events", "changes", "seen")) {

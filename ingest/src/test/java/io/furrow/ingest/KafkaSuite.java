@@ -33,6 +33,7 @@ import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.flink.JobCommandLine;
 
+import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** A Kafka broker and a Flink cluster for the time of a test, and the job {@code ingest} on them. */
@@ -44,12 +45,15 @@ final class KafkaSuite implements AutoCloseable {
     private final EmbeddedFlink flink;
     private final KafkaProducer<byte[], byte[]> producer;
     private final Admin admin;
+    /** Why a record was not written, the last that was not; else null. */
+    private volatile Exception unwritten;
 
     private KafkaSuite(EmbeddedKafka kafka, EmbeddedFlink flink) {
         this.kafka = kafka;
         this.flink = flink;
         Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
-        this.producer = new KafkaProducer<>(client, new ByteArraySerializer(), new ByteArraySerializer());
+        this.producer =
+                new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
         this.admin = Admin.create(client);
     }
 
@@ -82,7 +86,11 @@ final class KafkaSuite implements AutoCloseable {
         ProducerRecord<byte[], byte[]> record =
                 new ProducerRecord<>(topic, partition, time, utf8(key), value == null ? null : utf8(value));
         headers.forEach((name, text) -> record.headers().add(name, utf8(text)));
-        producer.send(record);
+        producer.send(record, (written, failure) -> {
+            if (failure != null) {
+                unwritten = failure;
+            }
+        });
     }
 
     /** Starts the job, from a savepoint where one is given; a part of it from a savepoint of more. */
@@ -123,6 +131,8 @@ final class KafkaSuite implements AutoCloseable {
     /** The same of the records that count. */
     List<ConsumerRecord<byte[], byte[]>> awaitRecords(
             String topic, Predicate<ConsumerRecord<byte[], byte[]>> counts, int atLeast) {
+        producer.flush();
+        assertThat(unwritten).as("a record that was not written").isNull();
         List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
         Map<String, Object> settings = Map.of(
                 "bootstrap.servers", kafka.bootstrapServers(),

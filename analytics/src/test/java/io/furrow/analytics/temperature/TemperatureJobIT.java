@@ -158,10 +158,8 @@ class TemperatureJobIT {
     }
 
     private static void write(EmbeddedKafka kafka, List<TopicRecord> records) {
-        try (var producer = new KafkaProducer<>(
-                Map.of("bootstrap.servers", kafka.bootstrapServers()),
-                new ByteArraySerializer(),
-                new ByteArraySerializer())) {
+        try (var producer =
+                new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer())) {
             for (TopicRecord record : records) {
                 var out = new ProducerRecord<>(record.topic(), null, record.timestamp(), record.key(), record.value());
                 record.headers()

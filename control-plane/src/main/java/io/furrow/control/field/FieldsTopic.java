@@ -92,6 +92,7 @@ public final class FieldsTopic {
         ensure();
         Properties properties = settings();
         properties.setProperty("acks", "all");
+        properties.setProperty("max.in.flight.requests.per.connection", "1"); // the topic may have been made just now
         properties.setProperty("delivery.timeout.ms", "30000");
         properties.setProperty("max.block.ms", Long.toString(PATIENCE.toMillis()));
         try (KafkaProducer<String, byte[]> producer =

@@ -240,6 +240,8 @@ public final class Refeed {
         settings.putAll(kafka);
         settings.setProperty(ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-refeed-" + wish.from() + "-" + wish.to());
         settings.setProperty(ProducerConfig.TRANSACTION_TIMEOUT_CONFIG, Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        // The topic may have been made just now, see KAFKA-15591.
+        settings.setProperty(ProducerConfig.MAX_IN_FLIGHT_REQUESTS_PER_CONNECTION, "1");
         settings.setProperty(ProducerConfig.MAX_REQUEST_SIZE_CONFIG, Integer.toString(16 * 1024 * 1024));
         return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
     }

@@ -126,7 +126,7 @@ class NgsiSinkIT {
 
     private static void produce(String topic, int count) {
         try (KafkaProducer<String, byte[]> producer = new KafkaProducer<>(
-                Map.of("bootstrap.servers", rig.bootstrapServers()),
+                Map.of("bootstrap.servers", rig.bootstrapServers(), "max.in.flight.requests.per.connection", 1),
                 new StringSerializer(),
                 new ByteArraySerializer())) {
             for (int i = 0; i < count; i++) {
