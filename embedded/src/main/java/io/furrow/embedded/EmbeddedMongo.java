@@ -4,6 +4,10 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.concurrent.locks.Lock;
+import java.util.concurrent.locks.ReadWriteLock;
+import java.util.concurrent.locks.ReentrantReadWriteLock;
+import java.util.function.Supplier;
 
 import de.bwaldvogel.mongo.MongoBackend;
 import de.bwaldvogel.mongo.MongoServer;
@@ -22,8 +26,6 @@ import org.h2.mvstore.MVStore;
 public final class EmbeddedMongo implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
     private static final int CACHE_MEGABYTES = 64;
-    /** Room for what one bulk changes, so that the file is written once for it. */
-    private static final int BUFFER_KILOBYTES = 16 * 1024;
 
     private final MongoServer server;
     private final int port;
@@ -59,7 +61,8 @@ public final class EmbeddedMongo implements AutoCloseable {
         MVStore store = new MVStore.Builder()
                 .fileName(directory.resolve("mongo.mv").toString())
                 .cacheSize(CACHE_MEGABYTES)
-                .autoCommitBufferSize(BUFFER_KILOBYTES)
+                .autoCommitDisabled()
+                .autoCommitBufferSize(0)
                 .open();
         return serve(new CommittingBackend(store), bound);
     }
@@ -80,8 +83,13 @@ public final class EmbeddedMongo implements AutoCloseable {
         server.shutdownNow();
     }
 
-    /** Writes to its file before it answers; by itself the store would do so within a second. */
+    /**
+     * Writes to its file before it answers, and while no other request is half done: a document and its entry in the index are
+     * two changes, of which a sudden end may not leave one.
+     */
     private static final class CommittingBackend extends H2Backend {
+        private final ReadWriteLock whole = new ReentrantReadWriteLock(true);
+
         CommittingBackend(MVStore store) {
             super(store);
             version(ServerVersion.MONGO_5_0);
@@ -89,11 +97,23 @@ public final class EmbeddedMongo implements AutoCloseable {
 
         @Override
         public Document handleMessage(MongoMessage message) {
-            Document answer = super.handleMessage(message);
+            Document answer = locked(whole.readLock(), () -> super.handleMessage(message));
             if (getMvStore().hasUnsavedChanges()) {
-                commit();
+                locked(whole.writeLock(), () -> {
+                    commit();
+                    return null;
+                });
             }
             return answer;
+        }
+
+        private static <T> T locked(Lock lock, Supplier<T> action) {
+            lock.lock();
+            try {
+                return action.get();
+            } finally {
+                lock.unlock();
+            }
         }
     }
 }
