@@ -115,6 +115,20 @@ class WatchTopologyTest {
     }
 
     @Test
+    void countsNoWindowAgainThatASoundOneHasFollowed() throws Exception {
+        byte[] first = farm.temperature("f", 18, List.of(THERMOMETER));
+        farm.pass(WINDOW);
+        byte[] second = farm.temperature("f", 18, List.of(THERMOMETER));
+        farm.pass(WINDOW);
+        farm.temperature("f", 18, List.of());
+        farm.pipe(Topics.TEMPERATURE, "f", first);
+        farm.pipe(Topics.TEMPERATURE, "f", second);
+        farm.pass(WINDOW);
+        suspectFor(2);
+        assertThat(farm.read(Topics.ALARMS)).isEmpty();
+    }
+
+    @Test
     void raisesAnAlarmOfADeviceWhosePositionsComeTooLate() throws Exception {
         farm.want(WatchedFarm.ROBOT, "ROBOT", true);
         farm.clockBehind(WatchedFarm.ROBOT, 999);

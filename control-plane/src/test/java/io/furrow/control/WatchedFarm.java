@@ -62,9 +62,9 @@ final class WatchedFarm implements AutoCloseable {
         pipe(Topics.COLLISION, ROBOT + "-robot-2", entity.toBytes());
     }
 
-    /** A window of half a minute that ends now. */
-    void temperature(String field, double average, List<String> suspects) {
-        temperature(field, average, suspects, "robust");
+    /** A window of half a minute that ends now, as it is written. */
+    byte[] temperature(String field, double average, List<String> suspects) {
+        return temperature(field, average, suspects, "robust");
     }
 
     /** The same with too few devices to tell which are suspects. */
@@ -72,7 +72,7 @@ final class WatchedFarm implements AutoCloseable {
         temperature(field, 18, List.of(), "unverified");
     }
 
-    private void temperature(String field, double average, List<String> suspects, String quality) {
+    private byte[] temperature(String field, double average, List<String> suspects, String quality) {
         EntityBuilder entity = Entity.builder("Analytics:FieldTemperature:" + field, "Analytics:FieldTemperature")
                 .text("field", field)
                 .number("averageTemperature", average)
@@ -81,6 +81,7 @@ final class WatchedFarm implements AutoCloseable {
                 .integer("windowStart", now.toEpochMilli() - 30_000)
                 .integer("windowEnd", now.toEpochMilli());
         pipe(Topics.TEMPERATURE, field, entity.toBytes());
+        return entity.toBytes();
     }
 
     void clockBehind(String device, long late) {

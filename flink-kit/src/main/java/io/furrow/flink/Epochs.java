@@ -55,9 +55,9 @@ public final class Epochs {
     }
 
     /**
-     * The event time of a record.
+     * The event time of a record; a replay's without a header is of epoch 0, or of the time of its timestamp.
      *
-     * @throws UnreadableException if the record is a replay's and its headers tell no epoch or original time
+     * @throws UnreadableException if the record is a replay's and a header cannot be its epoch or offset
      */
     public static long timeOf(TopicRecord record) throws UnreadableException {
         if (!Topics.isReplay(record.topic())) {

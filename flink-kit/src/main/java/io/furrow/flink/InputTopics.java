@@ -10,7 +10,7 @@ import io.furrow.model.topic.Topics;
 /**
  * What {@code --input} names: topics, or where one of the names could not be a topic's, a pattern that takes the topics named
  * in full and every topic whose whole name a regular expression matches, also those that come later. Of the latter it takes none
- * that a job writes: it would read its own results and set aside again what it has set aside. A mission's own topic is
+ * of dead letters or of what analytics find: a job would read its own results and set aside again what it has set aside. A mission's own topic is
  * taken whatever the mission is called. Neither does it take a replay, now or later: an event time of its own needs an instance of
  * its own, so that a replay is the only topic, named in full.
  *

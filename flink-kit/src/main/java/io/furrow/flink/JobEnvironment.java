@@ -101,7 +101,9 @@ public final class JobEnvironment {
                 Duration longest = faults.restartDelayMax().compareTo(delay) < 0 ? delay : faults.restartDelayMax();
                 settings.set(RestartStrategyOptions.RESTART_STRATEGY_EXPONENTIAL_DELAY_MAX_BACKOFF, longest, origin);
                 settings.set(
-                        RestartStrategyOptions.RESTART_STRATEGY_EXPONENTIAL_DELAY_ATTEMPTS, faults.restartAttempts());
+                        RestartStrategyOptions.RESTART_STRATEGY_EXPONENTIAL_DELAY_ATTEMPTS,
+                        faults.restartAttempts().orElse(Integer.MAX_VALUE),
+                        origin);
             }
             case FIXED_DELAY -> {
                 settings.set(RestartStrategyOptions.RESTART_STRATEGY, "fixed-delay", origin);

@@ -65,7 +65,7 @@ public abstract class JobOptions {
             defaultValue = "data.raw",
             description =
                     "Topics to read, or regular expressions for whole names, for instance"
-                            + " 'data[.]north[.]realtime[.].*': then also topics that come later, but none that a job writes. A"
+                            + " 'data[.]north[.]realtime[.].*': then also topics that come later, but none of dead letters or of what analytics find. A"
                             + " replay's topic stands alone and is named in full: each replay has an instance of its own, called"
                             + " <job>-<replay> without --name, whose results go to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
     private List<String> input;

@@ -45,6 +45,7 @@ class JobEnvironmentTest {
             -                          | restart-strategy.type                            | failure-rate
             -                          | restart-strategy.exponential-delay.max-backoff   | -
             --restart-delay 3s         | restart-strategy.type                            | exponential-delay
+            --restart-delay 3s         | restart-strategy.exponential-delay.attempts-before-reset-backoff | 2147483647
             -                          | pipeline.object-reuse                            | false
             -                          | pipeline.name                                    | cluster's
             --name mine                | pipeline.name                                    | mine
@@ -84,6 +85,7 @@ class JobEnvironmentTest {
     private static final Map<String, String> CLUSTER = Map.of(
             "execution.checkpointing.interval", "42 s",
             "restart-strategy.type", "failure-rate",
+            "restart-strategy.exponential-delay.attempts-before-reset-backoff", "2",
             "pipeline.object-reuse", "false",
             "pipeline.name", "cluster's",
             "pipeline.max-parallelism", "8",

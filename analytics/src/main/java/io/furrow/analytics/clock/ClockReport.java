@@ -37,7 +37,6 @@ public record ClockReport(
 
     /** The tenant and service path that the identity begins with. */
     FiwareScope scope() {
-        String[] parts = identity.split("\\|", 3);
-        return new FiwareScope(parts[0], parts[1]);
+        return FiwareScope.ofIdentity(identity);
     }
 }

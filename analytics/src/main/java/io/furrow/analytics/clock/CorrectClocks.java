@@ -25,7 +25,7 @@ import io.furrow.model.event.HeaderNames;
  * <p><b>State</b>: the offset learned of the device's clock, see {@link ClockOffset}. It depends on the device's records alone, in
  * their order, and not on the wall clock, so that a restart and a second pass give the same.
  *
- * <p><b>Cleared</b>: a day of event time after the last records.
+ * <p><b>Cleared</b>: a day of event time after the receipt with which the current span began.
  *
  * <p><b>Late</b>: nothing is.
  *

@@ -98,8 +98,7 @@ public record PositionFix(Reporter reporter, double latitude, double longitude, 
 
     /** The tenant and service path that the identity begins with. */
     public FiwareScope scope() {
-        String[] parts = identity().split("\\|", 3);
-        return new FiwareScope(parts[0], parts[1]);
+        return FiwareScope.ofIdentity(identity());
     }
 
     /** The same device at the same place, carried by another. */

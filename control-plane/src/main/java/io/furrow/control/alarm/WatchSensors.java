@@ -42,7 +42,7 @@ public final class WatchSensors {
         if (run == known) {
             return;
         }
-        runs.put(run.field(), run.windows().isEmpty() ? null : run);
+        runs.put(run.field(), run); // also without a suspect: what comes of an earlier window must not count
         Duration holds = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
         for (String suspect : window.suspects()) {
             if (run.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, suspect)) {

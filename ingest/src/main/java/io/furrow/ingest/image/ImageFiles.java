@@ -13,7 +13,6 @@ import org.apache.flink.core.fs.FileStatus;
 import org.apache.flink.core.fs.FileSystem;
 import org.apache.flink.core.fs.FileSystem.WriteMode;
 import org.apache.flink.core.fs.Path;
-import org.apache.flink.core.fs.local.LocalFileSystem;
 
 /**
  * Images as files on a Flink file system. A file appears whole or not at all: it is written under another name and renamed,
@@ -36,8 +35,9 @@ final class ImageFiles implements ImageStore {
     ImageFiles(String root, FileSystem files) {
         this.root = root;
         this.files = files;
-        this.local = files instanceof LocalFileSystem;
-        this.atomicPut = OBJECT_STORES.contains(URI.create(root).getScheme());
+        String scheme = URI.create(root).getScheme();
+        this.local = "file".equals(scheme); // what the file system is cannot be told: in a task Flink wraps it
+        this.atomicPut = OBJECT_STORES.contains(scheme);
     }
 
     /** @throws IOException if there is no file system for this kind of URI */

@@ -1,6 +1,7 @@
 package io.furrow.ingest.mission;
 
 import java.util.Set;
+import java.util.regex.Pattern;
 
 import com.mongodb.MongoConfigurationException;
 import com.mongodb.MongoException;
@@ -25,6 +26,8 @@ enum MongoFailure {
     UNKNOWN;
 
     private static final int DUPLICATE_KEY = 11000;
+    /** The index of {@code _id}, and no other whose name has this in it, such as {@code device_id_1}. */
+    private static final Pattern OF_ID = Pattern.compile("(?<!\\w)_id_(?!\\w)");
 
     /** By which a server says that the same may pass later; the last two of servers under load. */
     private static final Set<String> PASSING =
@@ -51,7 +54,7 @@ enum MongoFailure {
     }
 
     static MongoFailure of(int code, String message) {
-        if (code == DUPLICATE_KEY && message.contains("_id_")) {
+        if (code == DUPLICATE_KEY && OF_ID.matcher(message).find()) {
             return AWAY; // two upserts of one new id at once: the second try finds the document and replaces it
         }
         if (MongoCodes.OF_TIME.contains(code)) {

@@ -11,6 +11,8 @@ import java.util.List;
 import java.util.Set;
 import java.util.stream.Stream;
 
+import org.apache.flink.core.fs.FileSystem;
+import org.apache.flink.core.fs.LimitedConnectionsFileSystem;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -95,6 +97,16 @@ class ImageFilesTest {
 
         assertThat(calls).containsExactly("write", "sync", "close", "rename");
         assertThat(folder.resolve(FIRST)).hasBinaryContent(Pictures.png(1));
+    }
+
+    @Test
+    void hasItOnTheDiskThroughAWrapperOfFlinkAsTasksGetIt() throws Exception {
+        List<String> calls = new ArrayList<>();
+        FileSystem wrapped = new LimitedConnectionsFileSystem(new RecordingFiles(calls), 1);
+
+        new ImageFiles("file://" + folder, wrapped).store(NAME, image(Pictures.png(1)));
+
+        assertThat(calls).containsExactly("write", "sync", "close", "rename");
     }
 
     @Test

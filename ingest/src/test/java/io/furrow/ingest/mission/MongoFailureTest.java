@@ -36,7 +36,9 @@ class MongoFailureTest {
         10107 | not primary                             | AWAY
         14031 | out of disk space                       | AWAY
         11000 | E11000 duplicate key index: _id_ dup    | AWAY
+        11000 | E11000 index: persistence.m.$_id_ dup   | AWAY
         11000 | E11000 duplicate key index: serial dup  | REFUSED
+        11000 | E11000 index: device_id_1 dup           | REFUSED
         13    | not authorized                          | SETTING
         18    | authentication failed                   | SETTING
         166   | is a view                               | SETTING

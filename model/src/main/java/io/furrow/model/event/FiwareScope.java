@@ -21,8 +21,18 @@ public record FiwareScope(String service, String servicePath) {
         return escaped(service) + "|" + escaped(servicePath) + "|" + entityId;
     }
 
+    /** The scope of which {@link #identity} made this text. */
+    public static FiwareScope ofIdentity(String identity) {
+        String[] parts = identity.split("\\|", 3);
+        return new FiwareScope(plain(parts[0]), plain(parts[1]));
+    }
+
     /** The context broker allows neither sign, but a header may hold anything. */
     private static String escaped(String part) {
         return part.replace("%", "%25").replace("|", "%7C");
+    }
+
+    private static String plain(String escaped) {
+        return escaped.replace("%7C", "|").replace("%25", "%");
     }
 }

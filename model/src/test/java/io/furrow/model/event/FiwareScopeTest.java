@@ -25,4 +25,15 @@ class FiwareScopeTest {
                         new FiwareScope("", "/").identity("a|/|b|c")))
                 .doesNotHaveDuplicates();
     }
+
+    @Test
+    void isFoundInTheIdentitiesOfItsEntities() {
+        for (FiwareScope scope : List.of(
+                FiwareScope.DEFAULT,
+                new FiwareScope("agri", "/p"),
+                new FiwareScope("a|b", "/100%"),
+                new FiwareScope("a%7Cb", "/%25"))) {
+            assertThat(FiwareScope.ofIdentity(scope.identity("urn:x|1"))).isEqualTo(scope);
+        }
+    }
 }

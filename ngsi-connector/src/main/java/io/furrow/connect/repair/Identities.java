@@ -9,15 +9,10 @@ final class Identities {
     private Identities() {}
 
     static FiwareScope scope(String identity) {
-        String[] parts = identity.split("\\|", PARTS);
-        return new FiwareScope(plain(parts[0]), plain(parts[1]));
+        return FiwareScope.ofIdentity(identity);
     }
 
     static String id(String identity) {
         return identity.split("\\|", PARTS)[2];
-    }
-
-    private static String plain(String escaped) {
-        return escaped.replace("%7C", "|").replace("%25", "%");
     }
 }
