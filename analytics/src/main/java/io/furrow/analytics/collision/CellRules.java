@@ -20,7 +20,7 @@ public record CellRules(double meters, int crowd) implements Serializable {
             throw new IllegalArgumentException("the cell must be at least as high as the threshold, not " + meters);
         }
         if (crowd < 0) {
-            throw new IllegalArgumentException("the devices of a crowd must not be negative: " + crowd);
+            throw new IllegalArgumentException("--crowd must be 0, which follows all, or more: " + crowd);
         }
     }
 

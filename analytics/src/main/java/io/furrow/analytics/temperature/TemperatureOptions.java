@@ -146,8 +146,10 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
 
     /** Two attributes are two jobs, which must share neither a consumer group nor transactions. */
     @Override
-    protected String defaultName() {
-        return attribute().equals(TEMPERATURE) ? super.defaultName() : super.defaultName() + "-" + attribute();
+    protected String defaultName() { // in transactional ids a colon ends the name
+        return attribute().equals(TEMPERATURE)
+                ? super.defaultName()
+                : super.defaultName() + "-" + attribute().replace(':', '.');
     }
 
     public String attribute() {

@@ -68,6 +68,8 @@ class TemperatureOptionsTest {
     void nameTheJobAfterAnyOtherAttribute() {
         assertThat(Farm.options(Farm.FIELDS, "--attribute", "soilMoisture").jobName())
                 .isEqualTo("temperature-soilMoisture");
+        assertThat(Farm.options(Farm.FIELDS, "--attribute", "soil:moisture").jobName())
+                .isEqualTo("temperature-soil.moisture");
         assertThatThrownBy(() -> Farm.options(Farm.FIELDS, "--attribute", "soil moisture")
                         .attribute())
                 .isInstanceOf(ParameterException.class)
