@@ -31,8 +31,9 @@ class ArchitectureTest {
                     io.furrow.http       |
                     io.furrow.embedded   | io.furrow.http
                     io.furrow.flink      | io.furrow.model
+                    io.furrow.mission    | io.furrow.model
                     io.furrow.connect    | io.furrow.model, io.furrow.http
-                    io.furrow.ingest     | io.furrow.model, io.furrow.flink
+                    io.furrow.ingest     | io.furrow.model, io.furrow.flink, io.furrow.mission
                     io.furrow.analytics  | io.furrow.model, io.furrow.flink
                     io.furrow.control    | io.furrow.model, io.furrow.http
                     io.furrow.simulators | io.furrow.model, io.furrow.http
@@ -138,6 +139,7 @@ class ArchitectureTest {
                         "io.furrow.http",
                         "io.furrow.embedded",
                         "io.furrow.flink",
+                        "io.furrow.mission",
                         "io.furrow.connect.source",
                         "io.furrow.ingest.route",
                         "io.furrow.analytics.collision",

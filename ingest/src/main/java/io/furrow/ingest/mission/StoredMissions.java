@@ -25,6 +25,13 @@ import org.bson.BsonDocument;
 import org.bson.BsonValue;
 import org.bson.RawBsonDocument;
 
+import io.furrow.mission.ArchiveLine;
+import io.furrow.mission.DocumentForm;
+import io.furrow.mission.EventOrder;
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
+import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 

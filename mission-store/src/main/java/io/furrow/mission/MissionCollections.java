@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.time.Clock;
 import java.time.Duration;
@@ -33,10 +33,10 @@ import io.furrow.model.topic.TopicName;
  * entity and event time. Retention is the server's business where it removes expired documents itself; {@link #purge} does it
  * where it does not.
  */
-final class MissionCollections {
+public final class MissionCollections {
     private static final Logger LOG = LoggerFactory.getLogger(MissionCollections.class);
 
-    static final String PREFIX = "mission_";
+    public static final String PREFIX = "mission_";
     private static final String BY_TIME = "event-time";
     private static final String BY_ENTITY = "entity-and-event-time";
     /** An index of the same name with other options, and one of the same keys under another name. */
@@ -48,12 +48,12 @@ final class MissionCollections {
     private final Set<String> prepared = new HashSet<>();
     private Boolean expires;
 
-    MissionCollections(MongoClient client, Retention retention, Clock clock) {
+    public MissionCollections(MongoClient client, Retention retention, Clock clock) {
         this(client, retention, clock, null);
     }
 
     /** @param expires whether the server removes what has expired; null to ask it */
-    MissionCollections(MongoClient client, Retention retention, Clock clock, Boolean expires) {
+    public MissionCollections(MongoClient client, Retention retention, Clock clock, Boolean expires) {
         this.expires = expires;
         this.database = client.getDatabase(MongoAccess.DATABASE);
         this.retention = retention;
@@ -61,16 +61,16 @@ final class MissionCollections {
     }
 
     /** The mission's name is encoded as in topics, so that no two missions share a collection. */
-    static String nameOf(String mission) {
+    public static String nameOf(String mission) {
         return PREFIX + TopicName.of(mission);
     }
 
-    MongoCollection<RawBsonDocument> get(String name) {
+    public MongoCollection<RawBsonDocument> get(String name) {
         return database.getCollection(name, RawBsonDocument.class);
     }
 
     /** All that exist, in alphabetical order. */
-    List<String> names() {
+    public List<String> names() {
         return StreamSupport.stream(database.listCollectionNames().spliterator(), false)
                 .filter(name -> name.startsWith(PREFIX))
                 .sorted()
@@ -78,7 +78,7 @@ final class MissionCollections {
     }
 
     /** The collection with its indexes, which are made at the first use. */
-    MongoCollection<RawBsonDocument> prepared(String name) {
+    public MongoCollection<RawBsonDocument> prepared(String name) {
         MongoCollection<RawBsonDocument> collection = get(name);
         if (!prepared.contains(name)) {
             IndexOptions byTime = new IndexOptions().name(BY_TIME);
@@ -107,8 +107,8 @@ final class MissionCollections {
     }
 
     /** The indexes of a collection by name, and of each after what time it removes documents, if at all. */
-    Map<String, Optional<Duration>> indexes(String collection) {
-        Map<String, Optional<Duration>> indexes = new TreeMap<>();
+    public Map<String, Optional<Duration>> indexes(String collection) {
+        public Map<String, Optional<Duration>> indexes = new TreeMap<>();
         for (Document index : database.getCollection(collection).listIndexes()) {
             Object seconds = index.get("expireAfterSeconds");
             indexes.put(
@@ -121,7 +121,7 @@ final class MissionCollections {
     }
 
     /** Of a collection's documents; −1 where the server does not tell. */
-    long bytes(String collection) {
+    public long bytes(String collection) {
         try {
             Object size =
                     database.runCommand(new Document("collStats", collection)).get("size");
@@ -133,7 +133,7 @@ final class MissionCollections {
     }
 
     /** Whether it can be reached at this moment. */
-    boolean serverAnswers() {
+    public boolean serverAnswers() {
         try {
             database.runCommand(new Document("ping", 1));
             return true;
@@ -143,7 +143,7 @@ final class MissionCollections {
     }
 
     /** Whether the server has an index that removes what has expired; a server that keeps its data by other means has not. */
-    boolean serverExpires() {
+    public boolean serverExpires() {
         if (expires == null) {
             expires = database.runCommand(new Document("buildInfo", 1)).containsKey("storageEngines");
         }
@@ -155,7 +155,7 @@ final class MissionCollections {
      *
      * @return how many documents
      */
-    long purge() {
+    public long purge() {
         long removed = 0;
         for (String name : names()) {
             Optional<Duration> kept = retention.of(name);

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.util.Map;
 import java.util.TreeMap;
@@ -25,10 +25,10 @@ import io.furrow.model.ngsi.UnreadableException;
  * are written as {@link FieldName} says, numbers as {@link BsonNumbers} says; {@link #read} gives back what
  * {@link #write} was given.
  */
-final class DocumentForm {
-    static final String ID = "_id";
-    static final String TIME = "_time";
-    static final String ENTITY_ID = "id";
+public final class DocumentForm {
+    public static final String ID = "_id";
+    public static final String TIME = "_time";
+    public static final String ENTITY_ID = "id";
 
     private static final String HEADERS = "_headers";
     private static final String DELETED = "_deleted";
@@ -43,7 +43,7 @@ final class DocumentForm {
     /**
      * @throws UnreadableException with {@link Reason#REFUSED} or {@link Reason#TOO_LARGE} for what no document can hold
      */
-    static byte[] write(StoredEvent event) throws UnreadableException {
+    public static byte[] write(StoredEvent event) throws UnreadableException {
         try (BasicOutputBuffer buffer = new BasicOutputBuffer(2048);
                 BsonBinaryWriter out = new BsonBinaryWriter(buffer)) {
             out.writeStartDocument();
@@ -117,7 +117,7 @@ final class DocumentForm {
     /**
      * @throws UnreadableException with {@link Reason#NOT_AN_EVENT} for a document that was not written by {@link #write}
      */
-    static StoredEvent read(BsonDocument document) throws UnreadableException {
+    public static StoredEvent read(BsonDocument document) throws UnreadableException {
         BsonReader in = document.asBsonReader();
         String id = null;
         long time = Long.MIN_VALUE;
@@ -185,7 +185,7 @@ final class DocumentForm {
     }
 
     /** The headers that are kept: those that the document does not say otherwise. */
-    static Map<String, String> kept(Map<String, String> headers) {
+    public static Map<String, String> kept(Map<String, String> headers) {
         Map<String, String> kept = new TreeMap<>(headers);
         kept.remove(HeaderNames.CE_ID);
         kept.remove(HeaderNames.CE_TIME);

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.io.Serializable;
 import java.time.Duration;
@@ -15,22 +15,22 @@ import com.mongodb.client.MongoClients;
  *
  * @param uri a connection string; what it says of timeouts and of the write concern goes before what is set here
  */
-record MongoAccess(String uri, Waits waits) implements Serializable {
+public record MongoAccess(String uri, Waits waits) implements Serializable {
     /**
      * How long documents are tried again.
      *
      * @param away while the server is away
      * @param unknown where it does not take them for a reason that may or may not pass
      */
-    record Waits(Duration away, Duration unknown) implements Serializable {
+    public record Waits(Duration away, Duration unknown) implements Serializable {
         /** The same for both. */
-        static Waits of(Duration patience) {
+        public static Waits of(Duration patience) {
             return new Waits(patience, patience);
         }
     }
 
     /** The database of all missions. */
-    static final String DATABASE = "persistence";
+    public static final String DATABASE = "persistence";
 
     private static final int CONNECT_SECONDS = 5;
     private static final int ANSWER_SECONDS = 60;
@@ -40,7 +40,7 @@ record MongoAccess(String uri, Waits waits) implements Serializable {
      *
      * @throws IllegalArgumentException if the URI is none
      */
-    MongoClient open() {
+    public MongoClient open() {
         ConnectionString given = new ConnectionString(uri);
         MongoClientSettings.Builder settings = MongoClientSettings.builder()
                 .applicationName("furrow")

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.io.Serializable;
 import java.time.Duration;
@@ -13,26 +13,26 @@ import java.util.TreeMap;
  * @param everywhere for missions that are not named; null to keep them for ever
  * @param byCollection for those that are
  */
-record Retention(Duration everywhere, TreeMap<String, Duration> byCollection) implements Serializable {
-    static final Retention FOR_EVER = new Retention(null, new TreeMap<>());
+public record Retention(Duration everywhere, TreeMap<String, Duration> byCollection) implements Serializable {
+    public static final Retention FOR_EVER = new Retention(null, new TreeMap<>());
 
-    static Retention of(Duration everywhere, Map<String, Duration> byMission) {
+    public static Retention of(Duration everywhere, Map<String, Duration> byMission) {
         TreeMap<String, Duration> named = new TreeMap<>();
         byMission.forEach((mission, kept) -> named.put(MissionCollections.nameOf(mission), kept));
         return new Retention(everywhere, named);
     }
 
     /** Empty for ever. */
-    Optional<Duration> of(String collection) {
+    public Optional<Duration> of(String collection) {
         return Optional.ofNullable(byCollection.getOrDefault(collection, everywhere));
     }
 
-    boolean isForEver() {
+    public boolean isForEver() {
         return everywhere == null && byCollection.isEmpty();
     }
 
     /** The shortest that is asked for. */
-    Optional<Duration> shortest() {
+    public Optional<Duration> shortest() {
         Collection<Duration> named = byCollection.values();
         return java.util.stream.Stream.concat(Optional.ofNullable(everywhere).stream(), named.stream())
                 .min(Duration::compareTo);

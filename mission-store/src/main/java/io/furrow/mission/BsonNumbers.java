@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.math.BigDecimal;
 import java.math.BigInteger;

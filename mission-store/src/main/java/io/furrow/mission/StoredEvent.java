@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.util.Map;
 
@@ -14,4 +14,4 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  *     nothing more
  * @param entity in normalized form; null where the event is the entity's deletion
  */
-record StoredEvent(String id, long time, String entityId, Map<String, String> headers, ObjectNode entity) {}
+public record StoredEvent(String id, long time, String entityId, Map<String, String> headers, ObjectNode entity) {}

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.util.ArrayList;
 import java.util.Comparator;
@@ -8,14 +8,14 @@ import java.util.NoSuchElementException;
 import java.util.PriorityQueue;
 
 /** Events in the order of archives: by event time, those of one millisecond by event id. */
-final class EventOrder {
-    static final Comparator<StoredEvent> COMPARATOR =
+public final class EventOrder {
+    public static final Comparator<StoredEvent> COMPARATOR =
             Comparator.comparingLong(StoredEvent::time).thenComparing(StoredEvent::id);
 
     private EventOrder() {}
 
     /** Brings what is in order of time into the whole order; holds the events of one millisecond. */
-    static Iterator<StoredEvent> within(Iterator<StoredEvent> byTime) {
+    public static Iterator<StoredEvent> within(Iterator<StoredEvent> byTime) {
         return new Iterator<>() {
             private final List<StoredEvent> sameTime = new ArrayList<>();
             private int next;
@@ -51,7 +51,7 @@ final class EventOrder {
     }
 
     /** One ordered stream out of several. */
-    static Iterator<StoredEvent> merged(List<Iterator<StoredEvent>> ordered) {
+    public static Iterator<StoredEvent> merged(List<Iterator<StoredEvent>> ordered) {
         record Head(StoredEvent event, Iterator<StoredEvent> rest) {}
         PriorityQueue<Head> heads = new PriorityQueue<>(Comparator.comparing(Head::event, COMPARATOR));
         ordered.stream().filter(Iterator::hasNext).forEach(rest -> heads.add(new Head(rest.next(), rest)));

@@ -1,4 +1,4 @@
-package io.furrow.ingest.mission;
+package io.furrow.mission;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
@@ -17,13 +17,13 @@ import io.furrow.model.ngsi.UnreadableException;
  * time in epoch ms, the record's headers and the entity as it was reported; of a deletion {@code entity} is null and {@code
  * entityId} says of which. An event is always the same line.
  */
-final class ArchiveLine {
+public final class ArchiveLine {
     private static final JsonNodeFactory NODES = new JsonNodeFactory(true);
 
     private ArchiveLine() {}
 
     /** Without the line's end. */
-    static byte[] write(StoredEvent event) {
+    public static byte[] write(StoredEvent event) {
         ObjectNode line = NODES.objectNode();
         line.put("id", event.id());
         line.put("time", event.time());
@@ -39,7 +39,7 @@ final class ArchiveLine {
     /**
      * @throws UnreadableException with {@link Reason#NOT_JSON} or {@link Reason#NOT_AN_EVENT}
      */
-    static StoredEvent read(String text) throws UnreadableException {
+    public static StoredEvent read(String text) throws UnreadableException {
         JsonNode line = NgsiJson.read(text.getBytes(StandardCharsets.UTF_8));
         JsonNode entity = line.path("entity");
         JsonNode entityId = entity.isNull() ? line.path("entityId") : entity.path("id");
