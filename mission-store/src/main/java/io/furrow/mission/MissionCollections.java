@@ -108,7 +108,7 @@ public final class MissionCollections {
 
     /** The indexes of a collection by name, and of each after what time it removes documents, if at all. */
     public Map<String, Optional<Duration>> indexes(String collection) {
-        public Map<String, Optional<Duration>> indexes = new TreeMap<>();
+        Map<String, Optional<Duration>> indexes = new TreeMap<>();
         for (Document index : database.getCollection(collection).listIndexes()) {
             Object seconds = index.get("expireAfterSeconds");
             indexes.put(
