@@ -65,6 +65,12 @@ public final class MissionCollections {
         return PREFIX + TopicName.of(mission);
     }
 
+    /** The collections that may hold a mission, the likeliest first: by its name, or by what stands for it in topics. */
+    public static List<String> candidates(String mission) {
+        boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
+        return looksEncoded ? List.of(nameOf(mission), PREFIX + mission) : List.of(nameOf(mission));
+    }
+
     public MongoCollection<RawBsonDocument> get(String name) {
         return database.getCollection(name, RawBsonDocument.class);
     }
