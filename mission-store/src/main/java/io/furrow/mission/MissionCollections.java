@@ -65,6 +65,12 @@ public final class MissionCollections {
         return PREFIX + TopicName.of(mission);
     }
 
+    /** The collections that may hold a mission, the likeliest first: by its name, or by what stands for it in topics. */
+    public static List<String> candidates(String mission) {
+        boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
+        return looksEncoded ? List.of(nameOf(mission), PREFIX + mission) : List.of(nameOf(mission));
+    }
+
     public MongoCollection<RawBsonDocument> get(String name) {
         return database.getCollection(name, RawBsonDocument.class);
     }
@@ -108,7 +114,7 @@ public final class MissionCollections {
 
     /** The indexes of a collection by name, and of each after what time it removes documents, if at all. */
     public Map<String, Optional<Duration>> indexes(String collection) {
-        public Map<String, Optional<Duration>> indexes = new TreeMap<>();
+        Map<String, Optional<Duration>> indexes = new TreeMap<>();
         for (Document index : database.getCollection(collection).listIndexes()) {
             Object seconds = index.get("expireAfterSeconds");
             indexes.put(

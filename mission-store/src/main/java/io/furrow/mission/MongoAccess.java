@@ -32,6 +32,9 @@ public record MongoAccess(String uri, Waits waits) implements Serializable {
     /** The database of all missions. */
     public static final String DATABASE = "persistence";
 
+    /** How long a command waits for a server that is away. */
+    static final Duration SELECTION_TIMEOUT = Duration.ofSeconds(5);
+
     private static final int CONNECT_SECONDS = 5;
     private static final int ANSWER_SECONDS = 60;
 
@@ -41,12 +44,17 @@ public record MongoAccess(String uri, Waits waits) implements Serializable {
      * @throws IllegalArgumentException if the URI is none
      */
     public MongoClient open() {
+        return open(uri, SELECTION_TIMEOUT);
+    }
+
+    static MongoClient open(String uri, Duration selectionTimeout) {
         ConnectionString given = new ConnectionString(uri);
         MongoClientSettings.Builder settings = MongoClientSettings.builder()
                 .applicationName("furrow")
                 // Acknowledged means on the disk of most members: a checkpoint passes over what was acknowledged.
                 .writeConcern(WriteConcern.MAJORITY.withJournal(true))
-                .applyToClusterSettings(it -> it.serverSelectionTimeout(CONNECT_SECONDS, TimeUnit.SECONDS))
+                .applyToClusterSettings(
+                        it -> it.serverSelectionTimeout(selectionTimeout.toMillis(), TimeUnit.MILLISECONDS))
                 .applyToSocketSettings(it -> it.connectTimeout(CONNECT_SECONDS, TimeUnit.SECONDS)
                         .readTimeout(ANSWER_SECONDS, TimeUnit.SECONDS))
                 .applyConnectionString(given);

@@ -18,6 +18,8 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class DocumentFormTest {
+    private static final long TIME = 1_700_000_000_000L;
+
     private static final Map<String, String> HEADERS = new TreeMap<>(Map.of(
             "origin", "notification", "ts-device", "1700000000000", "ts-source", "1700000000007", "ts-x", "007"));
 
@@ -74,7 +76,7 @@ class DocumentFormTest {
 
     @Test
     void keepsADeletion() throws Exception {
-        StoredEvent deletion = new StoredEvent("e1", Events.TIME, "t1", HEADERS, null);
+        StoredEvent deletion = new StoredEvent("e1", TIME, "t1", HEADERS, null);
 
         assertThat(DocumentForm.read(new RawBsonDocument(DocumentForm.write(deletion))))
                 .isEqualTo(deletion);
@@ -86,7 +88,7 @@ class DocumentFormTest {
 
     private static StoredEvent event(String json) throws Exception {
         JsonNode entity = NgsiJson.read(json.getBytes(StandardCharsets.UTF_8));
-        return new StoredEvent("e1", Events.TIME, "t1", HEADERS, (ObjectNode) entity);
+        return new StoredEvent("e1", TIME, "t1", HEADERS, (ObjectNode) entity);
     }
 
     private static String json(StoredEvent event) {

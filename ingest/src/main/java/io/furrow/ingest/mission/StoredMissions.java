@@ -121,10 +121,8 @@ public final class StoredMissions implements AutoCloseable {
 
     /** The collection of a mission by its name, or by what stands for it in topics and collections where there is that. */
     String collection(String mission) {
-        String byName = MissionCollections.nameOf(mission);
-        String asItStands = MissionCollections.PREFIX + mission;
-        boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
-        return looksEncoded && isEmpty(byName) && !isEmpty(asItStands) ? asItStands : byName;
+        List<String> candidates = MissionCollections.candidates(mission);
+        return candidates.stream().filter(name -> !isEmpty(name)).findFirst().orElse(candidates.get(0));
     }
 
     private boolean isEmpty(String collection) {
