@@ -64,7 +64,8 @@ public record WantedReplay(
     private static boolean belong(String replay, String mission, String topic) {
         return ReplayCommand.REPLAY.matcher(replay).matches()
                 && replay.substring(0, replay.lastIndexOf('.')).equals(mission)
-                && Topics.replay(mission, replay.substring(replay.lastIndexOf('.') + 1)).equals(topic);
+                && Topics.replay(mission, replay.substring(replay.lastIndexOf('.') + 1))
+                        .equals(topic);
     }
 
     /**
