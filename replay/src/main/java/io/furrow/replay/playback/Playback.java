@@ -113,7 +113,8 @@ public final class Playback {
 
     /** Of an epoch that has begun. */
     private Optional<Played> end(String reason) {
-        boolean begun = at.phase() == Phase.PLAYING || at.phase() == Phase.PRIMING && (primes != null || at.number() > 0);
+        boolean begun =
+                at.phase() == Phase.PLAYING || at.phase() == Phase.PRIMING && (primes != null || at.number() > 0);
         return begun ? Optional.of(played(Played.Kind.END, null, reason, at.position())) : Optional.empty();
     }
 
@@ -161,8 +162,7 @@ public final class Playback {
         } else if (fetched instanceof Fetched.Opened opened) {
             at = opened.span()
                     .map(span -> Moves.opened(at, span, wanted))
-                    .orElseGet(() ->
-                            Moves.over(at, Phase.ENDED, "mission '" + wanted.mission() + "' has no event"));
+                    .orElseGet(() -> Moves.over(at, Phase.ENDED, "mission '" + wanted.mission() + "' has no event"));
             startOver(now);
         } else if (fetched instanceof Fetched.Begun begun) {
             primes = begun.primes().stream()
@@ -192,8 +192,7 @@ public final class Playback {
             begin(null, now);
         } else if (at.phase() == Phase.PRIMING && primes != null) {
             if (at.primes() < primes.size()) {
-                return Optional.of(
-                        played(Played.Kind.PRIME, primes.get((int) at.primes()), null, at.point()));
+                return Optional.of(played(Played.Kind.PRIME, primes.get((int) at.primes()), null, at.point()));
             }
             at = Moves.playing(at);
         }
