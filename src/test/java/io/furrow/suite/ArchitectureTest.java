@@ -35,6 +35,7 @@ class ArchitectureTest {
                     io.furrow.connect    | io.furrow.model, io.furrow.http
                     io.furrow.ingest     | io.furrow.model, io.furrow.flink, io.furrow.mission
                     io.furrow.analytics  | io.furrow.model, io.furrow.flink
+                    io.furrow.replay     | io.furrow.model, io.furrow.flink, io.furrow.mission
                     io.furrow.control    | io.furrow.model, io.furrow.http
                     io.furrow.simulators | io.furrow.model, io.furrow.http
                     io.furrow.bench      | io.furrow.model, io.furrow.flink, io.furrow.connect, io.furrow.ingest, io.furrow.analytics, io.furrow.simulators
@@ -91,6 +92,18 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
+    /** When what is due can be tested without a cluster. */
+    @Test
+    void keepsTheRulesOfReplaysFreeOfEngines() {
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.replay.playback")
+                .should()
+                .dependOnClassesThat()
+                .resideInAnyPackage("org.apache..", "com.mongodb..", "io.furrow.replay.source")
+                .check(CLASSES);
+    }
+
     @Test
     void givesNoPackageANameThatSaysNothing() {
         ArchRule rule = ArchRuleDefinition.noClasses()
@@ -143,6 +156,7 @@ class ArchitectureTest {
                         "io.furrow.connect.source",
                         "io.furrow.ingest.route",
                         "io.furrow.analytics.collision",
+                        "io.furrow.replay.playback",
                         "io.furrow.control.field",
                         "io.furrow.simulators.fiware",
                         "io.furrow.bench.load",
