@@ -6,9 +6,9 @@ import java.util.Optional;
 import java.util.function.Supplier;
 
 import com.mongodb.MongoException;
+import com.mongodb.MongoNamespace;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoCollection;
-import com.mongodb.client.MongoDatabase;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.Projections;
 import com.mongodb.client.model.Sorts;
@@ -31,21 +31,26 @@ final class MongoRecording implements Recording {
 
     private final String mission;
     private final MongoClient client;
-    private final MongoDatabase database;
     private final MongoCollection<RawBsonDocument> collection;
     private final String where;
+    private final OrderedDocuments.Sizes sizes;
     /** What the next page may go on with; null where it begins anew. */
     private OrderedDocuments documents;
 
     private Cursor position = Cursor.START;
 
     /** @param where for messages */
-    MongoRecording(String mission, MongoClient client, MongoDatabase database, String collection, String where) {
+    MongoRecording(
+            String mission,
+            MongoClient client,
+            MongoCollection<RawBsonDocument> collection,
+            String where,
+            OrderedDocuments.Sizes sizes) {
         this.mission = mission;
         this.client = client;
-        this.database = database;
-        this.collection = database.getCollection(collection, RawBsonDocument.class);
+        this.collection = collection;
         this.where = where;
+        this.sizes = sizes;
     }
 
     @Override
@@ -97,7 +102,7 @@ final class MongoRecording implements Recording {
     private Page begun(Cursor after, PageLimits limits) throws RecordingException {
         begin();
         return answer(() -> {
-            documents = new OrderedDocuments(collection, after);
+            documents = new OrderedDocuments(collection, after, sizes);
             return page(after, limits);
         });
     }
@@ -143,7 +148,8 @@ final class MongoRecording implements Recording {
     }
 
     private boolean exists() {
-        return MongoRecordings.exists(database, collection.getNamespace().getCollectionName());
+        MongoNamespace name = collection.getNamespace();
+        return MongoRecordings.exists(client.getDatabase(name.getDatabaseName()), name.getCollectionName());
     }
 
     private <T> T answer(Supplier<T> question) throws RecordingException {

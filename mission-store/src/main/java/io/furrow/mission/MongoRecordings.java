@@ -7,6 +7,7 @@ import com.mongodb.ConnectionString;
 import com.mongodb.MongoException;
 import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoDatabase;
+import org.bson.RawBsonDocument;
 
 /**
  * The missions that {@code ingest} keeps in MongoDB. Each recording has its own client.
@@ -36,7 +37,12 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
                     .filter(name -> exists(missions, name))
                     .findFirst();
             known = collection.isPresent();
-            return collection.map(name -> new MongoRecording(mission, client, missions, name, where() + "." + name));
+            return collection.map(name -> new MongoRecording(
+                    mission,
+                    client,
+                    missions.getCollection(name, RawBsonDocument.class),
+                    where() + "." + name,
+                    OrderedDocuments.Sizes.DEFAULT));
         } catch (MongoException e) {
             throw unreadable(mission, where(), e);
         } finally {

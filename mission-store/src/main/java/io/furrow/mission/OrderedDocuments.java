@@ -21,17 +21,11 @@ import org.bson.conversions.Bson;
  * Holds the documents of one millisecond, and of a crowded one their ids.
  */
 final class OrderedDocuments implements AutoCloseable {
-    /** Documents of one query. The embedded server sorts in memory what a query may return. */
-    static final int PER_QUERY = 10_000;
-
     private static final int BATCH = 500;
-    /** A millisecond with more documents, or more bytes, is read by ids. */
-    static final int CROWD = 1_000;
-
-    private static final long CROWD_BYTES = 8 * 1024 * 1024;
 
     private final MongoCollection<RawBsonDocument> collection;
     private final Cursor after;
+    private final Sizes sizes;
     private final Deque<Ordered> ready = new ArrayDeque<>();
     private Bson range;
     /** Null between queries. */
@@ -42,6 +36,17 @@ final class OrderedDocuments implements AutoCloseable {
     private RawBsonDocument ahead;
     /** Null unless a crowded millisecond is being read. */
     private CrowdedMillisecond crowd;
+
+    /**
+     * How much is read at once.
+     *
+     * @param perQuery documents of one query; the embedded server sorts in memory what a query may return
+     * @param crowd more documents of one millisecond than these are read by ids; less than {@code perQuery}
+     * @param crowdBytes as are more bytes of one millisecond than these
+     */
+    record Sizes(int perQuery, int crowd, long crowdBytes) {
+        static final Sizes DEFAULT = new Sizes(10_000, 1_000, 8L * 1024 * 1024);
+    }
 
     /**
      * A document and its place in the order.
@@ -64,9 +69,10 @@ final class OrderedDocuments implements AutoCloseable {
         }
     }
 
-    OrderedDocuments(MongoCollection<RawBsonDocument> collection, Cursor after) {
+    OrderedDocuments(MongoCollection<RawBsonDocument> collection, Cursor after, Sizes sizes) {
         this.collection = collection;
         this.after = after;
+        this.sizes = sizes;
         this.range = Filters.gte(DocumentForm.TIME, new BsonDateTime(after.time()));
     }
 
@@ -101,7 +107,7 @@ final class OrderedDocuments implements AutoCloseable {
             query = collection
                     .find(range)
                     .sort(Sorts.ascending(DocumentForm.TIME))
-                    .limit(PER_QUERY)
+                    .limit(sizes.perQuery())
                     .batchSize(BATCH)
                     .cursor();
             fetched = 0;
@@ -124,7 +130,7 @@ final class OrderedDocuments implements AutoCloseable {
         int read = 0;
         long bytes = 0;
         while (ahead != null && time(ahead) == time) {
-            if (read == CROWD || bytes > CROWD_BYTES) {
+            if (read == sizes.crowd() || bytes > sizes.crowdBytes()) {
                 closeQuery();
                 crowd = new CrowdedMillisecond(collection, time, after);
                 range = Filters.gt(DocumentForm.TIME, new BsonDateTime(time));
@@ -138,7 +144,7 @@ final class OrderedDocuments implements AutoCloseable {
             read++;
             advance();
         }
-        boolean cutOff = ahead == null && fetched == PER_QUERY;
+        boolean cutOff = ahead == null && fetched == sizes.perQuery();
         if (cutOff) {
             closeQuery();
             range = Filters.gte(DocumentForm.TIME, new BsonDateTime(time));
