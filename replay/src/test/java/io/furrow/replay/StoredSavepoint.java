@@ -34,7 +34,9 @@ final class StoredSavepoint {
         JobID job = suite.run(null, "--parallelism", "1");
         await().until(() -> {
             ReplayStatus status = suite.status(MISSION);
-            return status != null && status.progress() != null && status.progress().events() == PLAYED;
+            return status != null
+                    && status.progress() != null
+                    && status.progress().events() == PLAYED;
         });
         Path written = ReplaySuite.path(suite.stop(job, work));
         requireOneFile(written);

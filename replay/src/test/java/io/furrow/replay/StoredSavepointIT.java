@@ -67,9 +67,7 @@ class StoredSavepointIT {
             return status != null && status.state() == State.ENDED;
         });
 
-        List<Integer> numbers = suite
-                .records(Topics.replay(StoredSavepoint.MISSION, "0a1b2c3d"))
-                .stream()
+        List<Integer> numbers = suite.records(Topics.replay(StoredSavepoint.MISSION, "0a1b2c3d")).stream()
                 .filter(record ->
                         ReplaySuite.header(record, HeaderNames.REPLAY_KIND).equals("event"))
                 .map(record -> Integer.valueOf(ReplaySuite.header(record, HeaderNames.REPLAY_SEQUENCE)))

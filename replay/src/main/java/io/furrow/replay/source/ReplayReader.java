@@ -104,7 +104,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
             replays.values().forEach(ReplayReader::requireSuccess);
             return InputStatus.END_OF_INPUT;
         }
-        return next <= now ? InputStatus.MORE_AVAILABLE : rest(next);
+        return next <= now ? goOn() : rest(next);
     }
 
     /** Nobody reads a status of a job that ends: it fails in its replay's stead. */
@@ -115,6 +115,11 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         });
     }
 
+    private InputStatus goOn() {
+        available.complete(null);
+        return InputStatus.MORE_AVAILABLE;
+    }
+
     private InputStatus rest(long until) {
         available = new CompletableFuture<>();
         if (alarm != null) {
@@ -122,7 +127,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
             alarm = null;
         }
         if (wokenUp.get()) { // after the future was made: who wakes from now on completes it
-            return InputStatus.MORE_AVAILABLE;
+            return goOn();
         }
         if (until != Long.MAX_VALUE) {
             alarm = timer.schedule(this::wakeUp, Math.max(1, until - now()), TimeUnit.MILLISECONDS);

@@ -8,6 +8,7 @@ import java.util.function.BooleanSupplier;
 
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
+import org.apache.flink.runtime.execution.SuppressRestartsException;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
@@ -22,6 +23,7 @@ import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class ReplayReaderTest {
     private static final long TIME = 1_700_000_000_000L;
@@ -111,13 +113,14 @@ class ReplayReaderTest {
     @Test
     void wakesUpWhenTheNextEventIsDue() throws Exception {
         missions.with("m", TIME, TIME + 200, TIME + 400, TIME + 600);
+        long started = System.nanoTime();
 
         start(wanted("m", 1, State.RUNNING, 1));
         play("m", "end", 1);
 
         List<TopicRecord> events = played("m", "event");
         assertThat(events).extracting(TopicRecord::timestamp).containsExactly(TIME, TIME + 200, TIME + 400, TIME + 600);
-        long took = times.get(records.indexOf(events.get(3))) - times.get(records.indexOf(events.get(0)));
+        long took = times.get(records.indexOf(events.get(3))) - started;
         assertThat(took).as("never early").isGreaterThan(TimeUnit.MILLISECONDS.toNanos(598));
         assertThat(status("m").state()).isEqualTo(State.ENDED);
         assertThat(status("m").progress().skipped()).isEqualTo(2);
@@ -219,5 +222,34 @@ class ReplayReaderTest {
         play("m", "end", 1);
 
         assertThat(reader.snapshotState(1)).isEmpty();
+    }
+
+    private InputStatus lastStatus() throws Exception {
+        reader.notifyNoMoreSplits();
+        InputStatus status = InputStatus.MORE_AVAILABLE;
+        while (status != InputStatus.END_OF_INPUT) {
+            reader.isAvailable().get(1, TimeUnit.MINUTES);
+            status = reader.pollNext(new FakeContext.Output(records::add));
+        }
+        return status;
+    }
+
+    @Test
+    void endsWithItsReplayWhereNothingElseIsToCome() throws Exception {
+        missions.with("m", TIME, TIME + 1);
+        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+
+        assertThat(lastStatus()).isEqualTo(InputStatus.END_OF_INPUT);
+
+        assertThat(played("m", "end")).hasSize(1);
+    }
+
+    @Test
+    void failsWithItsReplayWhereNothingElseIsToCome() {
+        start(wanted("unknown", 1, State.RUNNING, 1));
+
+        assertThatThrownBy(this::lastStatus)
+                .isInstanceOf(SuppressRestartsException.class)
+                .hasRootCauseMessage("replay unknown.0a1b2c3d failed: there is no mission 'unknown'");
     }
 }
