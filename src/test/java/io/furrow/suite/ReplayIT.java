@@ -1,5 +1,7 @@
 package io.furrow.suite;
 
+import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
@@ -11,6 +13,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.TreeMap;
 
+import com.fasterxml.jackson.core.type.TypeReference;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.Test;
@@ -104,9 +107,13 @@ class ReplayIT {
     /** Equal texts for equal entities. */
     private static String sorted(String json) {
         try {
-            return json.isEmpty() ? "" : new TreeMap<>(NgsiJson.mapper().readValue(json, Map.class)).toString();
-        } catch (java.io.IOException e) {
-            throw new java.io.UncheckedIOException(e);
+            return json.isEmpty()
+                    ? ""
+                    : NgsiJson.mapper()
+                            .readValue(json, new TypeReference<TreeMap<String, Object>>() {})
+                            .toString();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
         }
     }
 
