@@ -38,6 +38,8 @@ final class MongoRecording implements Recording {
     private OrderedDocuments documents;
 
     private Cursor position = Cursor.START;
+    /** Counted once, as no index helps; −1 until then. */
+    private long untimed = -1;
 
     /** @param where for messages */
     MongoRecording(
@@ -111,7 +113,7 @@ final class MongoRecording implements Recording {
         List<StoredEvent> events = new ArrayList<>();
         List<Skipped> skipped = new ArrayList<>();
         if (after.equals(Cursor.START)) {
-            long untimed = collection.countDocuments(UNTIMED);
+            untimed = untimed < 0 ? collection.countDocuments(UNTIMED) : untimed;
             if (untimed > 0) {
                 skipped.add(new Skipped("documents", "no event time: _time is missing or no date", untimed));
             }

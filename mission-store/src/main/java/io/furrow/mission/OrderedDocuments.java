@@ -6,6 +6,7 @@ import java.util.Comparator;
 import java.util.Deque;
 import java.util.List;
 
+import com.mongodb.MongoException;
 import com.mongodb.client.MongoCollection;
 import com.mongodb.client.MongoCursor;
 import com.mongodb.client.model.Filters;
@@ -14,6 +15,8 @@ import org.bson.BsonDateTime;
 import org.bson.BsonValue;
 import org.bson.RawBsonDocument;
 import org.bson.conversions.Bson;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 /**
  * Reads the documents of a mission in the order of events, beginning after a cursor. Queries ask for event time alone, which has
@@ -21,6 +24,7 @@ import org.bson.conversions.Bson;
  * Holds the documents of one millisecond, and of a crowded one their ids.
  */
 final class OrderedDocuments implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(OrderedDocuments.class);
     private static final int BATCH = 500;
 
     private final MongoCollection<RawBsonDocument> collection;
@@ -163,9 +167,14 @@ final class OrderedDocuments implements AutoCloseable {
     }
 
     private void closeQuery() {
-        if (query != null) {
-            query.close();
-            query = null;
+        MongoCursor<RawBsonDocument> open = query;
+        query = null;
+        try {
+            if (open != null) {
+                open.close();
+            }
+        } catch (MongoException e) {
+            LOG.debug("a query could not be ended; the server forgets it by itself", e);
         }
     }
 
