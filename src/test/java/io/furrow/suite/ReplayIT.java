@@ -46,8 +46,7 @@ class ReplayIT {
 
             JsonNode replay = send(suite, "POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
             try (TopicLog played = running.topic(replay.path("topic").asText())) {
-                await().atMost(PATIENCE)
-                        .until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
+                await().atMost(PATIENCE).until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
 
                 assertThat(byId(played.records(), "event", HeaderNames.REPLAY_CE_ID))
                         .isEqualTo(byId(live.records(), null, HeaderNames.CE_ID))
@@ -78,8 +77,7 @@ class ReplayIT {
     }
 
     private static long stored(Suite suite) throws Exception {
-        Optional<Recording> recording =
-                new MongoRecordings(suite.mongo(), MongoAccess.DATABASE).open("hoeing");
+        Optional<Recording> recording = new MongoRecordings(suite.mongo(), MongoAccess.DATABASE).open("hoeing");
         if (recording.isEmpty()) {
             return 0;
         }
