@@ -31,9 +31,11 @@ class ArchitectureTest {
                     io.furrow.http       |
                     io.furrow.embedded   | io.furrow.http
                     io.furrow.flink      | io.furrow.model
+                    io.furrow.mission    | io.furrow.model
                     io.furrow.connect    | io.furrow.model, io.furrow.http
-                    io.furrow.ingest     | io.furrow.model, io.furrow.flink
+                    io.furrow.ingest     | io.furrow.model, io.furrow.flink, io.furrow.mission
                     io.furrow.analytics  | io.furrow.model, io.furrow.flink
+                    io.furrow.replay     | io.furrow.model, io.furrow.flink, io.furrow.mission
                     io.furrow.control    | io.furrow.model, io.furrow.http
                     io.furrow.simulators | io.furrow.model, io.furrow.http
                     io.furrow.bench      | io.furrow.model, io.furrow.flink, io.furrow.connect, io.furrow.ingest, io.furrow.analytics, io.furrow.simulators
@@ -90,6 +92,18 @@ class ArchitectureTest {
                 .check(CLASSES);
     }
 
+    /** When what is due can be tested without a cluster. */
+    @Test
+    void keepsTheRulesOfReplaysFreeOfEngines() {
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.replay.playback")
+                .should()
+                .dependOnClassesThat()
+                .resideInAnyPackage("org.apache..", "com.mongodb..", "io.furrow.replay.source")
+                .check(CLASSES);
+    }
+
     @Test
     void givesNoPackageANameThatSaysNothing() {
         ArchRule rule = ArchRuleDefinition.noClasses()
@@ -138,9 +152,11 @@ class ArchitectureTest {
                         "io.furrow.http",
                         "io.furrow.embedded",
                         "io.furrow.flink",
+                        "io.furrow.mission",
                         "io.furrow.connect.source",
                         "io.furrow.ingest.route",
                         "io.furrow.analytics.collision",
+                        "io.furrow.replay.playback",
                         "io.furrow.control.field",
                         "io.furrow.simulators.fiware",
                         "io.furrow.bench.load",

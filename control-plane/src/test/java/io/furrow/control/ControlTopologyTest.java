@@ -216,7 +216,11 @@ class ControlTopologyTest {
 
         farm.pipe(
                 Topics.REPLAYS_STATUS, replay, "{\"sequence\":6,\"state\":\"ended\"}".getBytes(StandardCharsets.UTF_8));
-        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+        farm.pipe(
+                Topics.REPLAYS_STATUS,
+                replay,
+                "{\"sequence\":7,\"state\":\"stopped\",\"settled\":false}".getBytes(StandardCharsets.UTF_8));
+        assertThat(farm.read(Topics.REPLAYS)).as("older, or not settled").isEmpty();
         farm.pipe(
                 Topics.REPLAYS_STATUS,
                 replay,

@@ -86,7 +86,12 @@ public final class KafkaEnds {
         return sinkOf(options, form, name, guarantee(options));
     }
 
-    /** The same without transactions: a writer of it can work inside another sink's. */
+    /** The same without transactions: what is written is visible at once, whatever the job's delivery guarantee. */
+    public static KafkaSink<TopicRecord> promptSink(JobOptions options, String name) {
+        return sinkOf(options, new TopicRecordFormat(), name, DeliveryGuarantee.AT_LEAST_ONCE);
+    }
+
+    /** The same: a writer of it can work inside another sink's. */
     static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
         return sinkOf(options, new TopicRecordFormat(), "dead-letters", DeliveryGuarantee.AT_LEAST_ONCE);
     }

@@ -11,6 +11,8 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.common.config.TopicConfig;
 import picocli.CommandLine.Option;
 
+import io.furrow.model.topic.Topics;
+
 /** How topics are made that a job writes to and that are not there; those that exist stay as they are. */
 public final class TopicOptions {
     @Option(
@@ -35,21 +37,39 @@ public final class TopicOptions {
 
     /** What is asked of the broker, without picocli, because it travels with the job. */
     public Settings settings(Set<String> compacted) {
-        return new Settings(partitions, replication, retention == null ? null : retention.toMillis(), compacted);
+        return new Settings(partitions, replication, retention == null ? null : retention.toMillis(), compacted, null);
     }
 
     /**
      * @param partitions null for the broker's default, as are {@code replication} and {@code retentionMillis}
      * @param compacted topics that keep the newest record of each key for ever
+     * @param replayBytes of a partition of a replay's topic, which is bounded by size instead of time: its records are as old as
+     *     what they replay, or stamped ahead; null for no bound
      */
-    public record Settings(Integer partitions, Short replication, Long retentionMillis, Set<String> compacted)
+    public record Settings(
+            Integer partitions, Short replication, Long retentionMillis, Set<String> compacted, Long replayBytes)
             implements Serializable {
+        public Settings(Integer partitions, Short replication, Long retentionMillis, Set<String> compacted) {
+            this(partitions, replication, retentionMillis, compacted, null);
+        }
+
+        /** The same with a bound for each partition of a replay's topic. */
+        public Settings withReplayBytes(long bytes) {
+            return new Settings(partitions, replication, retentionMillis, compacted, bytes);
+        }
+
         /** The topic to be asked for; it takes records as large as the job may write. */
         NewTopic topic(String name) {
             Map<String, String> configs = new HashMap<>();
             configs.put(TopicConfig.MAX_MESSAGE_BYTES_CONFIG, Integer.toString(KafkaEnds.MAX_REQUEST_BYTES));
             if (compacted.contains(name)) {
                 configs.put(TopicConfig.CLEANUP_POLICY_CONFIG, TopicConfig.CLEANUP_POLICY_COMPACT);
+            } else if (Topics.isReplay(name)) {
+                configs.put(TopicConfig.RETENTION_MS_CONFIG, "-1");
+                configs.put(TopicConfig.MESSAGE_TIMESTAMP_AFTER_MAX_MS_CONFIG, Long.toString(Long.MAX_VALUE));
+                if (replayBytes != null) {
+                    configs.put(TopicConfig.RETENTION_BYTES_CONFIG, Long.toString(replayBytes));
+                }
             } else if (retentionMillis != null) {
                 configs.put(TopicConfig.RETENTION_MS_CONFIG, Long.toString(retentionMillis));
             }

@@ -8,7 +8,8 @@ import org.apache.flink.api.common.typeinfo.TypeInfo;
 /**
  * A record read from, or to be written to, a Kafka topic.
  *
- * @param partition −1 and {@code offset} −1 where the record was not read from a topic
+ * @param partition −1 and {@code offset} −1 where the record was not read from a topic; a partition without an offset is that to
+ *     which the record shall be written, else the key decides
  * @param timestamp event time, epoch ms
  * @param key null where there is none
  * @param value null for a deletion
@@ -34,6 +35,11 @@ public record TopicRecord(
     /** The same record for another topic. */
     public TopicRecord to(String other) {
         return new TopicRecord(other, partition, offset, timestamp, key, value, headers);
+    }
+
+    /** The same record for one partition of its topic, whatever its key. */
+    public TopicRecord toPartition(int one) {
+        return new TopicRecord(topic, one, NOWHERE, timestamp, key, value, headers);
     }
 
     /** The same record with another value. */

@@ -22,7 +22,7 @@ final class TopicRecordFormat
     public ProducerRecord<byte[], byte[]> serialize(TopicRecord record, KafkaSinkContext context, Long timestamp) {
         return new ProducerRecord<>(
                 record.topic(),
-                null,
+                record.offset() < 0 && record.partition() >= 0 ? record.partition() : null,
                 Math.max(0, record.timestamp()),
                 record.key(),
                 record.value(),

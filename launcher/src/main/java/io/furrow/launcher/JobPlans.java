@@ -20,6 +20,8 @@ import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.ingest.normalise.NormaliseJob;
 import io.furrow.ingest.normalise.NormaliseOptions;
+import io.furrow.replay.ReplayJob;
+import io.furrow.replay.ReplayOptions;
 
 /** The jobs of a suite, set up with the same words that one would say to {@code flink run}. */
 final class JobPlans {
@@ -74,6 +76,7 @@ final class JobPlans {
                         "--horizon",
                         settings.watch().horizon())));
         plans.put("presence", PresenceJob.assemble(parsed("presence", new PresenceOptions())));
+        plans.put("replay", ReplayJob.assemble(parsed("replay", new ReplayOptions(), "--mongo", mongo)));
         return plans;
     }
 

@@ -22,6 +22,7 @@ import io.furrow.ingest.mission.MissionArchive;
 import io.furrow.ingest.mission.MissionFiles;
 import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.launcher.control.MissionControl;
+import io.furrow.mission.export.Exported;
 
 /** {@code ./furrow mission}. */
 @Command(
@@ -73,8 +74,7 @@ final class MissionCommand extends MissionControl {
     @Command(
             name = "export",
             description =
-                    "Writes all events of a mission in the order of their times, one JSON object a line. The same "
-                            + "events are always the same bytes.")
+                    "Writes all events of a mission in the order of their times. The same events are always the same bytes.")
     int export(
             @Mixin Kept kept,
             @Parameters(paramLabel = "MISSION", description = MISSION) String mission,
@@ -82,17 +82,32 @@ final class MissionCommand extends MissionControl {
                             paramLabel = "FILE",
                             description =
                                     "Where to" + FILES + " Compressed where the name ends in .gz; - for the terminal.")
-                    String file) {
+                    String file,
+            @Option(
+                            names = "--format",
+                            paramLabel = "FORMAT",
+                            defaultValue = "jsonl",
+                            description = "jsonl, a JSON object a line, which import reads; mcap, a channel for each "
+                                    + "entity, for Foxglove; geojson, a track or point for each entity, for maps. "
+                                    + "Default: ${DEFAULT-VALUE}.")
+                    ExportFormat format) {
         return run(kept, missions -> {
             known(missions, mission);
             if (file.equals("-")) {
                 OutputStream terminal = new java.io.BufferedOutputStream(System.out);
-                missions.export(mission, terminal, ignored -> {});
+                format.write(new ExportFormat.Source(missions, kept.mongo, mission), terminal, ignored -> {});
                 terminal.flush();
                 return;
             }
-            long count = MissionFiles.export(missions, mission, new Path(file), told("exported"));
-            out().printf("%,d events of %s in %s%n", count, mission, file);
+            ExportFormat.Source source = new ExportFormat.Source(missions, kept.mongo, mission);
+            Exported[] done = new Exported[1];
+            MissionFiles.write(new Path(file), out -> {
+                done[0] = format.write(source, out, told("exported"));
+                return done[0].events();
+            });
+            out().printf("%,d events of %s in %s%n", done[0].events(), mission, file);
+            done[0].example()
+                    .ifPresent(example -> out().printf("%,d left out, the first: %s%n", done[0].leftOut(), example));
         });
     }
 

@@ -30,7 +30,7 @@ public final class Suite implements AutoCloseable {
     /** Its password; good enough for a broker that only this machine reaches. */
     public static final String MQTT_PASSWORD = "furrow";
 
-    private static final int SLOTS = 8;
+    private static final int SLOTS = 9;
 
     private final SuiteSettings settings;
     private final RunDirectory directory;

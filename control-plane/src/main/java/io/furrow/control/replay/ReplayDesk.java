@@ -110,10 +110,16 @@ final class ReplayDesk {
         };
     }
 
-    /** Forgets a replay that is over, unless something was asked of it since. */
+    /**
+     * Forgets a replay that is over for good, unless something was asked of it since. What is told of a replay that goes on, several
+     * times a second, is not looked up.
+     */
     void reported(String replay, ReplayStatus told) {
+        if (!told.state().isOver() || !told.settled()) {
+            return;
+        }
         Replay known = replays.get(replay);
-        if (known != null && told.state().isOver() && told.sequence() >= known.sequence()) {
+        if (known != null && told.sequence() >= known.sequence()) {
             quota.use(-known.toBytes().length);
             replays.put(replay, null);
             outbox.put(Topics.REPLAYS, replay, null);

@@ -26,6 +26,10 @@ import org.bson.RawBsonDocument;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.mission.DocumentForm;
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+
 /**
  * Sends documents in unordered bulks of upserts by {@code _id}: sent again they change nothing. What the server refuses is
  * found and given back, the rest is written; while the server is away the rest is tried again. What it does not take for a

@@ -14,6 +14,9 @@ import java.util.List;
 
 import org.apache.flink.core.fs.Path;
 
+import io.furrow.mission.ArchiveLine;
+import io.furrow.mission.EventOrder;
+import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**

@@ -31,7 +31,7 @@ public final class MissionFiles {
     private MissionFiles() {}
 
     /** What writes a file. */
-    interface Content {
+    public interface Content {
         long writeTo(OutputStream out) throws IOException;
     }
 
@@ -79,7 +79,7 @@ public final class MissionFiles {
     }
 
     /** Replaces what has the name; where a file cannot take another's place at once, that one goes just before. */
-    static long write(Path file, Content content) throws IOException {
+    public static long write(Path file, Content content) throws IOException {
         FileSystem files = file.getFileSystem();
         RecoverableFsDataOutputStream out = files.createRecoverableWriter().open(file);
         boolean whole = false;

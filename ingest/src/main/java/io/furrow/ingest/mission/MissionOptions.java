@@ -13,6 +13,8 @@ import picocli.CommandLine.Spec;
 import picocli.CommandLine.TypeConversionException;
 
 import io.furrow.flink.DurationConverter;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
 
 /** The options of the branch that keeps missions in MongoDB. */
 public final class MissionOptions {

@@ -12,6 +12,9 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
 
 import io.furrow.flink.TopicRecord;
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
 
 /**
  * Documents to MongoDB: after any restart the same collections as without it, because a document's {@code _id} is its event's

@@ -11,6 +11,10 @@ import com.mongodb.client.MongoClient;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
+
 /** Removes expired documents from time to time where the server does not do it by itself; a failure is tried again later. */
 final class Purge implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Purge.class);

@@ -25,6 +25,13 @@ import org.bson.BsonDocument;
 import org.bson.BsonValue;
 import org.bson.RawBsonDocument;
 
+import io.furrow.mission.ArchiveLine;
+import io.furrow.mission.DocumentForm;
+import io.furrow.mission.EventOrder;
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
+import io.furrow.mission.StoredEvent;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 
@@ -114,10 +121,8 @@ public final class StoredMissions implements AutoCloseable {
 
     /** The collection of a mission by its name, or by what stands for it in topics and collections where there is that. */
     String collection(String mission) {
-        String byName = MissionCollections.nameOf(mission);
-        String asItStands = MissionCollections.PREFIX + mission;
-        boolean looksEncoded = mission.startsWith("_x-") || mission.startsWith("_h-");
-        return looksEncoded && isEmpty(byName) && !isEmpty(asItStands) ? asItStands : byName;
+        List<String> candidates = MissionCollections.candidates(mission);
+        return candidates.stream().filter(name -> !isEmpty(name)).findFirst().orElse(candidates.get(0));
     }
 
     private boolean isEmpty(String collection) {

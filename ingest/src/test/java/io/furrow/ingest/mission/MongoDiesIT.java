@@ -30,6 +30,10 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MongoDiesIT {

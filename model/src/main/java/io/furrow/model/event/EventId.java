@@ -65,6 +65,20 @@ public final class EventId {
         return parts.digest();
     }
 
+    /**
+     * The id of an event that is played back: differs from the original's and between epochs.
+     *
+     * @param original id of the event that was stored
+     * @param replay {@code <mission>.<id8>}
+     */
+    public static String ofReplay(String original, String replay, long epoch) {
+        Parts parts = new Parts();
+        parts.addText(original);
+        parts.addText(replay);
+        parts.add(Long.toString(epoch));
+        return parts.digest();
+    }
+
     /** What the digest is over, gathered first: one large step of a digest costs a fraction of many small ones. */
     private static final class Parts {
         private final StringBuilder text = new StringBuilder(TYPICAL_LENGTH);

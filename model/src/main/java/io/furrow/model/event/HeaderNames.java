@@ -27,6 +27,14 @@ public final class HeaderNames {
     public static final String REPLAY_KIND = "replay-kind";
     /** Of a replay's record: ms that its timestamp is ahead of the original event time. */
     public static final String REPLAY_OFFSET = "replay-offset";
+    /** Of a replay's record: {@code <mission>.<id8>}. */
+    public static final String REPLAY_ID = "replay-id";
+    /** Of a replay's record: its timestamp less the offset, ISO 8601; of an event the original event time. */
+    public static final String REPLAY_TIME = "replay-time";
+    /** Of a replay's record: from 0 in each epoch, contiguous; copies of an {@code end} have one number. */
+    public static final String REPLAY_SEQUENCE = "replay-sequence";
+    /** Of a replay's record: event id of the original event. */
+    public static final String REPLAY_CE_ID = "replay-ce_id";
 
     public static final String SPECVERSION = "1.0";
     public static final String TYPE_CHANGED = "ngsi.entity.changed";

@@ -1,0 +1,16 @@
+package io.furrow.mission;
+
+import java.io.IOException;
+
+/** A recording cannot be read. The message says what happened, where, and what to do. */
+public class RecordingException extends IOException {
+    private static final long serialVersionUID = 1L;
+
+    public RecordingException(String message, Throwable cause) {
+        super(message, cause);
+    }
+
+    public RecordingException(String message) {
+        super(message);
+    }
+}

@@ -1,0 +1,119 @@
+package io.furrow.mission.export;
+
+import java.io.IOException;
+import java.io.OutputStream;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.TreeMap;
+import java.util.function.LongConsumer;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.mission.Recording;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * MCAP, for Foxglove and the like: a schema for each entity type, a channel {@code <type>/<entity id>} for each entity, a message
+ * for each event with its time in nanoseconds and the entity as JSON; {@code {"id", "deleted": true}} for a deletion.
+ */
+public final class McapExport implements MissionExport {
+    private static final long NANOS = 1_000_000;
+    /** Nanoseconds are unsigned 64 bits: until 2554. */
+    private static final long LAST_MILLIS = Long.divideUnsigned(-1L, NANOS);
+
+    @Override
+    public Exported write(String mission, Recording recording, OutputStream out, LongConsumer progress)
+            throws IOException {
+        Channels channels = new Channels(mission, new McapWriter(out, "furrow"));
+        Exported exported = new ExportRun(progress).over(recording, channels::write);
+        channels.file.finish();
+        return exported;
+    }
+
+    /** The channels and schemas of one file. */
+    private static final class Channels {
+        private final String mission;
+        private final McapWriter file;
+        private final Map<String, Integer> schemas = new HashMap<>();
+        /** By identity and type. */
+        private final Map<String, Integer> byEntity = new HashMap<>();
+        /** By identity; a deletion names no type. */
+        private final Map<String, String> types = new HashMap<>();
+
+        Channels(String mission, McapWriter file) {
+            this.mission = mission;
+            this.file = file;
+        }
+
+        Optional<String> write(StoredEvent event) throws IOException {
+            if (event.time() < 0 || event.time() > LAST_MILLIS) {
+                return Optional.of("MCAP has no times before 1970 or after 2554");
+            }
+            FiwareScope scope = FiwareScope.of(
+                    event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
+            String identity = scope.identity(event.entityId());
+            String type = event.entity() == null
+                    ? types.getOrDefault(identity, "Thing")
+                    : event.entity().path("type").asText("Thing");
+            types.put(identity, type);
+            String key = type + "|" + identity;
+            Integer channel = byEntity.get(key);
+            if (channel == null) {
+                if (byEntity.size() == McapWriter.MOST_CHANNELS) {
+                    return Optional.of("MCAP has no more than 65,535 channels, and each entity takes one");
+                }
+                channel = channel(type, event.entityId(), scope);
+                byEntity.put(key, channel);
+            }
+            ObjectNode data = event.entity() == null
+                    ? JsonNodeFactory.instance
+                            .objectNode()
+                            .put("id", event.entityId())
+                            .put("deleted", true)
+                    : event.entity();
+            file.message(channel, event.time() * NANOS, NgsiJson.write(data));
+            return Optional.empty();
+        }
+
+        private int channel(String type, String entityId, FiwareScope scope) {
+            Integer schema = schemas.get(type);
+            if (schema == null) {
+                schema = file.schema(type, "jsonschema", NgsiJson.write(schemaOf(type)));
+                schemas.put(type, schema);
+            }
+            TreeMap<String, String> metadata = new TreeMap<>(Map.of(
+                    "mission",
+                    mission,
+                    "entity",
+                    entityId,
+                    HeaderNames.SERVICE,
+                    scope.service(),
+                    HeaderNames.SERVICE_PATH,
+                    scope.servicePath()));
+            return file.channel(schema, type + "/" + entityId, "json", metadata);
+        }
+
+        /** An entity in normalized form; which attributes there are it does not say. */
+        private static ObjectNode schemaOf(String type) {
+            ObjectNode schema = JsonNodeFactory.instance.objectNode();
+            schema.put("$schema", "https://json-schema.org/draft/2020-12/schema");
+            schema.put("title", type).put("type", "object");
+            ObjectNode properties = schema.putObject("properties");
+            properties.putObject("id").put("type", "string");
+            properties.putObject("type").put("type", "string");
+            properties.putObject("deleted").put("type", "boolean");
+            ObjectNode attribute = schema.putObject("additionalProperties").put("type", "object");
+            ObjectNode members = attribute.putObject("properties");
+            members.putObject("type").put("type", "string");
+            members.putObject("value");
+            members.putObject("metadata").put("type", "object");
+            schema.putArray("required").add("id");
+            return schema;
+        }
+    }
+}

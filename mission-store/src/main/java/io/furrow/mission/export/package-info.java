@@ -1,0 +1,2 @@
+/** Recordings in the formats of other tools. */
+package io.furrow.mission.export;

@@ -1,0 +1,40 @@
+package io.furrow.mission;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** Events of few times, with ids of which Java's order is not that of UTF-8. */
+final class RandomEvents {
+    static final long TIME = 1_700_000_000_000L;
+
+    private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
+
+    private RandomEvents() {}
+
+    static List<StoredEvent> of(Random random, int number) {
+        int times = 1 + random.nextInt(2 * number + 1);
+        List<StoredEvent> events = new ArrayList<>();
+        for (int i = 0; i < number; i++) {
+            StringBuilder id = new StringBuilder();
+            for (int sign = 0; sign < 3; sign++) {
+                id.append(SIGNS[random.nextInt(SIGNS.length)]);
+            }
+            events.add(event(id.toString() + i, TIME + random.nextInt(times), random.nextInt(300)));
+        }
+        return events;
+    }
+
+    /** @param padding bytes of a value that says nothing */
+    static StoredEvent event(String id, long time, int padding) {
+        JsonNodeFactory nodes = JsonNodeFactory.instance;
+        ObjectNode entity = nodes.objectNode();
+        entity.put("id", "t1").put("type", "Thermometer");
+        entity.putObject("Note").put("type", "Text").put("value", "x".repeat(padding));
+        return new StoredEvent(id, time, "t1", Map.of("fiware-service", "farm"), entity);
+    }
+}

@@ -1,0 +1,107 @@
+package io.furrow.mission.export;
+
+import java.io.ByteArrayOutputStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.mission.FileRecordings;
+import io.furrow.mission.Recording;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class McapExportTest {
+    private static final Path RESOURCES = Path.of("src/test/resources/export");
+
+    @TempDir
+    Path folder;
+
+    /** The file was read with mcap 1.6.0 of PyPI, its checksums checked: {@code ./furrow soak mcap} does that again. */
+    @Test
+    void writesTheBytesThatAnIndependentReaderUnderstands() throws Exception {
+        byte[] written = exported(RESOURCES.resolve("mission.ndjson"), new Exported(10, 0, Optional.empty()));
+
+        assertThat(written).isEqualTo(Files.readAllBytes(RESOURCES.resolve("mission.mcap")));
+    }
+
+    @Test
+    void givesEachEntityAChannelAndEachTypeASchema() throws Exception {
+        McapFile file =
+                new McapFile(exported(RESOURCES.resolve("mission.ndjson"), new Exported(10, 0, Optional.empty())));
+
+        assertThat(file.channels.values())
+                .extracting(McapFile.Channel::topic)
+                .containsExactly(
+                        "Robot/urn:ngsi-ld:Robot:1",
+                        "Thermometer/urn:ngsi-ld:Thermometer:1",
+                        "Robot/urn:ngsi-ld:Robot:1",
+                        "Gate/Gate äöü",
+                        "Thing/never seen");
+        assertThat(file.channels.get(3).metadata())
+                .containsEntry("fiware-service", "field")
+                .containsEntry("mission", "hoeing")
+                .containsEntry("entity", "urn:ngsi-ld:Robot:1");
+        assertThat(file.schemas).hasSize(4);
+        assertThat(file.schemas.get(2)).startsWith("Thermometer jsonschema {");
+        assertThat(file.messages.get(8))
+                .isEqualTo(new McapFile.Message(
+                        "Gate/Gate äöü", 1_700_000_006_000_000_000L, "{\"id\":\"Gate äöü\",\"deleted\":true}"));
+        assertThat(file.messages.get(1).data()).contains("\"value\":21.50");
+    }
+
+    @Test
+    void indexesAMissionOfManyChunks() throws Exception {
+        List<String> lines = new ArrayList<>();
+        for (int i = 0; i < 9_000; i++) {
+            lines.add(
+                    "{\"id\":\"e%05d\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t%d\",\"type\":\"T\",\"n\":{\"value\":\"%s\"}}}"
+                            .formatted(i, 1_000 + i / 7, i % 11, "x".repeat(i % 700)));
+        }
+        Path mission = folder.resolve("mission.ndjson");
+        Files.write(mission, lines);
+
+        McapFile file = new McapFile(exported(mission, new Exported(9_000, 0, Optional.empty())));
+
+        assertThat(file.chunks).isGreaterThan(3);
+        assertThat(file.messages).hasSize(9_000);
+        assertThat(file.channels).hasSize(11);
+    }
+
+    @Test
+    void writesAMissionWithoutEventsAndLeavesOutTimesThatMcapDoesNotHave() throws Exception {
+        Path mission = folder.resolve("mission.ndjson");
+        Files.write(mission, List.of());
+        assertThat(new McapFile(exported(mission, new Exported(0, 0, Optional.empty()))).messages)
+                .isEmpty();
+
+        String line = "{\"id\":\"e\",\"time\":%d,\"headers\":{},\"entity\":{\"id\":\"t\"}}";
+        Files.write(
+                mission, List.of(line.formatted(-1), line.formatted(18_446_744_073_709L), line.formatted(1L << 53)));
+        Exported two = new Exported(1, 2, Optional.of("event e: MCAP has no times before 1970 or after 2554"));
+        assertThat(new McapFile(exported(mission, two)).messages)
+                .extracting(McapFile.Message::nanos)
+                .containsExactly(18_446_744_073_709L * 1_000_000);
+    }
+
+    private static byte[] exported(Path lines, Exported expected) throws Exception {
+        ByteArrayOutputStream out = new ByteArrayOutputStream();
+        try (Recording recording =
+                new FileRecordings(lines.toString()).open("hoeing").orElseThrow()) {
+            assertThat(new McapExport().write("hoeing", recording, out, ignored -> {}))
+                    .isEqualTo(expected);
+        }
+        String kept = System.getProperty("furrow.mcap.folder");
+        if (kept != null) { // for ./furrow soak mcap
+            Path copy = Files.createTempFile(Path.of(kept), "mission", ".ndjson");
+            Files.copy(lines, copy, StandardCopyOption.REPLACE_EXISTING);
+            Files.write(Path.of(copy.toString().replace(".ndjson", ".mcap")), out.toByteArray());
+        }
+        return out.toByteArray();
+    }
+}

@@ -1,0 +1,25 @@
+package io.furrow.replay;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.JobCommandLine;
+
+/** The command line of the replay jar: {@code flink run furrow-replay-….jar replay --help}. */
+@Command(
+        name = "furrow-replay",
+        description = "Flink job that plays stored missions back.",
+        subcommands = ReplayOptions.class)
+public final class ReplayJobs {
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    private ReplayJobs() {}
+
+    public static void main(String... args) {
+        JobCommandLine.run(new ReplayJobs(), args);
+    }
+}

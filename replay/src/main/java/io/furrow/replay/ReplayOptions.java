@@ -1,0 +1,211 @@
+package io.furrow.replay;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Optional;
+import java.util.UUID;
+import java.util.concurrent.Callable;
+
+import com.fasterxml.jackson.databind.node.TextNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.JobOptions;
+import io.furrow.flink.TopicOptions;
+import io.furrow.mission.MongoRecordings;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recordings;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.WantedReplay;
+import io.furrow.model.ngsi.Instants;
+import io.furrow.model.topic.Topics;
+import io.furrow.replay.source.ReplaysTopic;
+import io.furrow.replay.source.WantedReplays;
+
+/** The options of the job {@code replay}. */
+@Command(
+        name = "replay",
+        description = "Plays stored missions back, each replay of service.replays on its own topic"
+                + " data.<mission>.replay.<id>; with --once one mission, once.")
+public final class ReplayOptions extends JobOptions implements Callable<Integer> {
+    private static final int ID_DIGITS = 8;
+
+    @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            required = true,
+            description = "MongoDB that holds the missions, for instance mongodb://127.0.0.1:27017.")
+    private String mongo;
+
+    @Option(
+            names = "--mongo-database",
+            paramLabel = "NAME",
+            defaultValue = "persistence",
+            description = "Its database. Default: ${DEFAULT-VALUE}.")
+    private String database;
+
+    @Option(
+            names = "--mongo-timeout",
+            paramLabel = "DURATION",
+            defaultValue = "5s",
+            description = "How long a replay waits for MongoDB before its status says so; it is tried again for as long"
+                    + " as the replay is wanted. Default: ${DEFAULT-VALUE}.")
+    private Duration timeout;
+
+    @Option(
+            names = "--page-events",
+            paramLabel = "N",
+            defaultValue = "1000",
+            description =
+                    "Events of a mission that are read at once; each replay holds two such pages at most. Default:"
+                            + " ${DEFAULT-VALUE}.")
+    private int pageEvents;
+
+    @Option(
+            names = "--page-bytes",
+            paramLabel = "N",
+            defaultValue = "4194304",
+            description = "About how many bytes of events are read at once. Default: ${DEFAULT-VALUE}.")
+    private int pageBytes;
+
+    @Option(
+            names = "--replay-topic-bytes",
+            paramLabel = "N",
+            defaultValue = "1073741824",
+            description = "retention.bytes of the topics of replays, for each partition: beyond, the oldest records are"
+                    + " deleted. Their retention.ms is -1. Default: ${DEFAULT-VALUE}.")
+    private long topicBytes;
+
+    @Option(names = "--once", description = "Play one mission and end, whatever service.replays says; needs --mission.")
+    private boolean once;
+
+    @Option(names = "--mission", paramLabel = "NAME", description = "With --once: the mission.")
+    private String mission;
+
+    @Option(
+            names = "--begin",
+            paramLabel = "TIME",
+            description = "With --once: event time of the first event, ISO 8601. Default: that of the mission.")
+    private String begin;
+
+    @Option(
+            names = "--end",
+            paramLabel = "TIME",
+            description = "With --once: event time after the last event, ISO 8601. Default: the mission's end.")
+    private String end;
+
+    @Option(
+            names = "--speed",
+            paramLabel = "X",
+            defaultValue = "1",
+            description = "With --once: 0.1 to 1000, or max. Default: ${DEFAULT-VALUE}.")
+    private String speed;
+
+    @Option(
+            names = "--topic",
+            paramLabel = "NAME",
+            description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: of new digits.")
+    private String topic;
+
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    boolean isOnce() {
+        return once;
+    }
+
+    long topicBytes() {
+        return topicBytes;
+    }
+
+    PageLimits pages() {
+        if (pageEvents < 1 || pageBytes < 1) {
+            throw refused("--page-events and --page-bytes are at least 1; leave them out or write more", null);
+        }
+        return new PageLimits(pageEvents, pageBytes);
+    }
+
+    Recordings recordings() {
+        try {
+            return new MongoRecordings(mongo, database, timeout);
+        } catch (IllegalArgumentException e) {
+            throw refused(
+                    "--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
+                            .formatted(e.getMessage()),
+                    e);
+        }
+    }
+
+    /** Those of {@code service.replays}, or the one that these options describe. */
+    WantedReplays wanted() {
+        if (!once) {
+            return new ReplaysTopic(this);
+        }
+        if (mission == null) {
+            throw refused("--once has no mission; add --mission NAME", null);
+        }
+        String id8 = UUID.randomUUID().toString().substring(0, ID_DIGITS);
+        String onto = topic == null ? Topics.replay(mission, id8) : topic;
+        String digits = onto.substring(Math.max(0, onto.length() - ID_DIGITS));
+        if (!Topics.replay(mission, digits).equals(onto) || !Topics.isReplay(onto)) {
+            throw refused(
+                    "--topic %s is no topic of a replay of this mission; write for instance %s"
+                            .formatted(onto, Topics.replay(mission, id8)),
+                    null);
+        }
+        String replay = mission + "." + digits;
+        WantedReplay wanted = new WantedReplay(
+                replay,
+                mission,
+                onto,
+                time("--begin", begin).orElse(null),
+                time("--end", end).orElse(null),
+                speed(),
+                false,
+                List.of(),
+                ReplayStatus.State.RUNNING,
+                null,
+                null,
+                0);
+        return new WantedReplays.One(replay, wanted.toBytes());
+    }
+
+    private Optional<Long> time(String option, String text) {
+        if (text == null) {
+            return Optional.empty();
+        }
+        Optional<Instant> time = Instants.of(TextNode.valueOf(text));
+        if (time.isEmpty()) {
+            throw refused(option + " " + text + " is no time; write for instance 2026-05-01T06:00:00Z", null);
+        }
+        return time.map(Instant::toEpochMilli);
+    }
+
+    private double speed() {
+        if (speed.equals("max")) {
+            return ReplayCommand.MAX;
+        }
+        try {
+            double number = Double.parseDouble(speed);
+            if (number >= 0.1 && number <= 1000) {
+                return number;
+            }
+        } catch (NumberFormatException e) {
+            throw refused("--speed " + speed + " is neither a number from 0.1 to 1000 nor max", e);
+        }
+        throw refused("--speed " + speed + " is neither a number from 0.1 to 1000 nor max", null);
+    }
+
+    @Override
+    public Integer call() throws Exception {
+        ReplayJob.assemble(this).execute();
+        return 0;
+    }
+}

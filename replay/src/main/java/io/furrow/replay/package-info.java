@@ -1,0 +1,2 @@
+/** The job that plays stored missions back. */
+package io.furrow.replay;

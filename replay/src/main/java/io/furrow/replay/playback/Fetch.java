@@ -1,0 +1,24 @@
+package io.furrow.replay.playback;
+
+import io.furrow.mission.Cursor;
+
+/** What a playback has to know of its recording before it can go on. */
+public sealed interface Fetch {
+    /** The epoch for which it is; an answer for another epoch comes too late. */
+    long epoch();
+
+    /** The recording's span. */
+    record Open(long epoch) implements Fetch {}
+
+    /**
+     * The entities' last known states before the point, and the first page from there.
+     *
+     * @param point epoch ms
+     * @param first where the page begins
+     * @param primed whether states are wanted: nothing is known before the recording's first event
+     */
+    record Begin(long epoch, long point, Cursor first, boolean primed) implements Fetch {}
+
+    /** The page after the cursor. */
+    record Next(long epoch, Cursor after) implements Fetch {}
+}

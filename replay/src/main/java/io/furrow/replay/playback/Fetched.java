@@ -1,0 +1,27 @@
+package io.furrow.replay.playback;
+
+import java.util.List;
+import java.util.Optional;
+
+import io.furrow.mission.Page;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+
+/** The answer to a {@link Fetch} of the same epoch. */
+public sealed interface Fetched {
+    long epoch();
+
+    /** @param span empty where the recording has no event */
+    record Opened(long epoch, Optional<Span> span) implements Fetched {}
+
+    /** @param primes the entities' last known states, in any order */
+    record Begun(long epoch, List<StoredEvent> primes, Page first) implements Fetched {}
+
+    record More(long epoch, Page page) implements Fetched {}
+
+    /** It cannot be read now and is tried again; the answer is still to come. */
+    record Waiting(long epoch, String reason) implements Fetched {}
+
+    /** It will never be read: the mission is unknown, or was deleted meanwhile. */
+    record Gone(long epoch, String reason) implements Fetched {}
+}

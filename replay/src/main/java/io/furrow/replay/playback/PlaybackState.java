@@ -1,0 +1,93 @@
+package io.furrow.replay.playback;
+
+import io.furrow.mission.Cursor;
+import io.furrow.model.control.ReplayStatus;
+
+/**
+ * Where a replay is; with it a playback goes on at the next record.
+ *
+ * @param sequence of the wanted replay that was applied last
+ * @param phase what is to be done next
+ * @param reason why it is over; null where that needs no reason
+ * @param epoch of the next record
+ * @param number sequence of the next record in its epoch
+ * @param offset ms that timestamps are ahead of event times
+ * @param stamp of the newest record; 0 where there is none
+ * @param start epoch ms at which the epoch shall begin; null for the replay's beginning
+ * @param point epoch ms at which the epoch begins, and from which on its event time counts
+ * @param cursor after the last event that was played or left out
+ * @param position event time that is reached, epoch ms
+ * @param first event time of the recording's first event, epoch ms
+ * @param last event time of the recording's last event, epoch ms
+ * @param steps single steps that are done or obsolete
+ * @param events played in this epoch
+ * @param primes played in this epoch
+ * @param skipped stored documents of this epoch that hold no event
+ */
+public record PlaybackState(
+        long sequence,
+        Phase phase,
+        String reason,
+        long epoch,
+        long number,
+        long offset,
+        long stamp,
+        Long start,
+        long point,
+        Cursor cursor,
+        long position,
+        long first,
+        long last,
+        long steps,
+        long events,
+        long primes,
+        long skipped) {
+    /** What a playback is about. The order of constants is stored. */
+    public enum Phase {
+        /** Learns what the recording spans. */
+        OPENING,
+        /** Plays what is known before the point. */
+        PRIMING,
+        PLAYING,
+        /** Waits until the next pass of a loop may begin. */
+        BETWEEN,
+        ENDED,
+        STOPPED,
+        FAILED;
+
+        public boolean isOver() {
+            return compareTo(ENDED) >= 0;
+        }
+
+        /** How a status calls it. */
+        ReplayStatus.State told(boolean held) {
+            return switch (this) {
+                case ENDED -> ReplayStatus.State.ENDED;
+                case STOPPED -> ReplayStatus.State.STOPPED;
+                case FAILED -> ReplayStatus.State.FAILED;
+                default -> held ? ReplayStatus.State.PAUSED : ReplayStatus.State.RUNNING;
+            };
+        }
+    }
+
+    ReplayStatus.Progress progress(long reached, long lateness, double rate, String waiting) {
+        return new ReplayStatus.Progress(
+                epoch, reached, first, last, offset, lateness, rate, events, primes, skipped, waiting);
+    }
+
+    /** A replay that was never played. */
+    public static PlaybackState fresh() {
+        return before(0, 0);
+    }
+
+    /**
+     * A replay of which nothing is known but what is on its topic.
+     *
+     * @param epoch to begin with
+     * @param stamp epoch ms below which its records' timestamps must not be
+     */
+    public static PlaybackState before(long epoch, long stamp) {
+        return new PlaybackState(
+                -1, Phase.OPENING, null, epoch, 0, 0, stamp, null, 0, Cursor.START, 0, 0, 0, 0, 0, 0, 0);
+    }
+}

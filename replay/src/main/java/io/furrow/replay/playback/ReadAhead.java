@@ -1,0 +1,73 @@
+package io.furrow.replay.playback;
+
+import java.util.ArrayDeque;
+import java.util.Deque;
+import java.util.Set;
+
+import io.furrow.flink.Epochs;
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.Skipped;
+import io.furrow.mission.StoredEvent;
+
+/** The events that come next: at most what is left of one page, and the page after it. */
+final class ReadAhead {
+    private final Set<String> devices;
+    private final Deque<StoredEvent> events = new ArrayDeque<>();
+    private Cursor loaded;
+    private int newest;
+    private boolean complete;
+
+    /**
+     * @param devices ids of the entities whose events count; empty for all
+     * @param from where the first page begins
+     */
+    ReadAhead(Set<String> devices, Cursor from) {
+        this.devices = devices;
+        this.loaded = from;
+    }
+
+    /** @return how many of its records are no events that can be played */
+    long add(Page page) {
+        long skipped = page.skipped().stream().mapToLong(Skipped::count).sum();
+        newest = 0;
+        for (StoredEvent event : page.events()) {
+            if (event.time() < 0 || event.time() >= Epochs.SPAN) { // no timestamp of a record could say it
+                skipped++;
+            } else if (isWanted(event)) {
+                events.add(event);
+                newest++;
+            }
+        }
+        loaded = page.next();
+        complete = page.last();
+        return skipped;
+    }
+
+    boolean isWanted(StoredEvent event) {
+        return devices.isEmpty() || devices.contains(event.entityId());
+    }
+
+    /** Whether the following page should be read. */
+    boolean wantsMore() {
+        return !complete && events.size() <= newest;
+    }
+
+    Cursor loaded() {
+        return loaded;
+    }
+
+    /** The next event; null where it is not known. */
+    StoredEvent peek() {
+        return events.peek();
+    }
+
+    void remove() {
+        events.remove();
+    }
+
+    /** Whether nothing comes any more. */
+    boolean isOver() {
+        return complete && events.isEmpty();
+    }
+}

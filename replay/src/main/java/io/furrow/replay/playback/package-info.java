@@ -1,0 +1,2 @@
+/** When which event of a replay is due: pure rules, without a clock, a thread or Flink. */
+package io.furrow.replay.playback;

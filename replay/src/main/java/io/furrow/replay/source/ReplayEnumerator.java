@@ -1,0 +1,212 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+import org.apache.flink.api.connector.source.SplitEnumerator;
+import org.apache.flink.api.connector.source.SplitEnumeratorContext;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.metrics.Gauge;
+import org.apache.flink.util.FlinkRuntimeException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.WantedReplay;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.replay.playback.PlaybackState;
+
+/**
+ * Gives each wanted replay to the reader that has the fewest, and tells that reader what is wanted of it. Begins when all readers are
+ * there and all wishes are known: readers report the replays that a checkpoint gave them, and whatever nobody wants any more is
+ * removed.
+ */
+final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedReplays> {
+    private static final Logger LOG = LoggerFactory.getLogger(ReplayEnumerator.class);
+    private static final long PAUSE_MILLIS = 1;
+
+    private final SplitEnumeratorContext<ReplaySplit> context;
+    private final WantedReplays source;
+    private final Map<String, byte[]> wanted = new LinkedHashMap<>();
+    private final Map<String, ReplayStatus> told = new HashMap<>();
+    private final Map<String, ReplaySplit> unassigned = new LinkedHashMap<>();
+    private final Map<String, Integer> readers = new HashMap<>();
+    private final Counter rejected;
+    private volatile WantedReplays.Reading wishes;
+    private boolean caughtUp;
+    private boolean ended;
+
+    /** What one call of the reading thread found. */
+    private record Found(List<WantedReplays.Wish> wishes, boolean caughtUp) {}
+
+    ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, WantedReplays source, UnassignedReplays state) {
+        this.context = context;
+        this.source = source;
+        state.splits().forEach(split -> unassigned.put(split.replay(), split));
+        Gauge<Integer> size = wanted::size;
+        context.metricGroup().gauge("replaysWanted", size);
+        rejected = context.metricGroup().counter("rejected");
+    }
+
+    @Override
+    public void start() {
+        context.callAsync(this::open, this::opened);
+    }
+
+    private List<WantedReplays.Told> open() throws IOException {
+        wishes = source.open();
+        return wishes.told();
+    }
+
+    private void opened(List<WantedReplays.Told> before, Throwable failure) {
+        require(failure);
+        before.forEach(one -> told.put(one.replay(), one.status()));
+        context.callAsync(() -> new Found(wishes.poll(), wishes.isCaughtUp()), this::found, 0, PAUSE_MILLIS);
+    }
+
+    private void found(Found found, Throwable failure) {
+        require(failure);
+        for (WantedReplays.Wish wish : found.wishes()) {
+            note(wish);
+        }
+        boolean first = found.caughtUp() && !caughtUp;
+        caughtUp |= found.caughtUp();
+        if (first) {
+            told.keySet().retainAll(wanted.keySet());
+        }
+        if (first || !found.wishes().isEmpty()) {
+            assign();
+        }
+    }
+
+    private static void require(Throwable failure) {
+        if (failure != null) {
+            throw new FlinkRuntimeException("It cannot be read which replays are wanted", failure);
+        }
+    }
+
+    private void note(WantedReplays.Wish wish) {
+        if (wish.replay() == null
+                || !ReplayCommand.REPLAY.matcher(wish.replay()).matches()) {
+            LOG.warn("A record of service.replays is passed over: its key {} is no replay's name", wish.replay());
+            rejected.inc();
+            return;
+        }
+        if (wish.wanted() == null) {
+            wanted.remove(wish.replay());
+        } else {
+            wanted.put(wish.replay(), wish.wanted());
+        }
+        Integer reader = readers.get(wish.replay());
+        if (reader != null) {
+            tell(reader, wish.replay());
+        }
+    }
+
+    /** What is wanted of it by now. */
+    private void tell(int reader, String replay) {
+        if (context.registeredReaders().containsKey(reader)) {
+            context.sendEventToSourceReader(reader, new WantedEvent(replay, wanted.get(replay)));
+        }
+        if (!wanted.containsKey(replay)) {
+            readers.remove(replay);
+            told.remove(replay);
+        }
+    }
+
+    private void assign() {
+        if (!caughtUp || context.registeredReaders().size() < context.currentParallelism()) {
+            return;
+        }
+        wanted.forEach((replay, value) -> {
+            if (!readers.containsKey(replay) && !unassigned.containsKey(replay) && !wasOver(replay, value)) {
+                fresh(replay, value);
+            }
+        });
+        List<ReplaySplit> splits = new ArrayList<>(unassigned.values());
+        unassigned.clear();
+        for (ReplaySplit split : splits) {
+            int reader = leastBusy();
+            readers.put(split.replay(), reader);
+            context.assignSplit(split, reader);
+            tell(reader, split.replay());
+        }
+        if (source.isBounded() && !ended) {
+            ended = true;
+            context.registeredReaders().keySet().forEach(context::signalNoMoreSplits);
+        }
+    }
+
+    /** Whether it was told for good that what is wanted is done: the control plane is about to forget it. */
+    private boolean wasOver(String replay, byte[] value) {
+        ReplayStatus status = told.get(replay);
+        if (status == null || !status.state().isOver() || !status.settled()) {
+            return false;
+        }
+        try {
+            return status.sequence() >= WantedReplay.read(replay, value).sequence();
+        } catch (UnreadableException e) { // its reader will say so
+            return false;
+        }
+    }
+
+    /** One that no checkpoint knows; of what was told of it before, epochs and timestamps go on. */
+    private void fresh(String replay, byte[] value) {
+        ReplayStatus status = told.remove(replay);
+        PlaybackState state = PlaybackState.fresh();
+        if (status != null && status.progress() != null) {
+            ReplayStatus.Progress progress = status.progress();
+            state = PlaybackState.before(progress.epoch() + 1, progress.position() + progress.offset());
+        }
+        unassigned.put(replay, new ReplaySplit(replay, value, state));
+    }
+
+    private int leastBusy() {
+        Map<Integer, Integer> load = new HashMap<>();
+        context.registeredReaders().keySet().forEach(reader -> load.put(reader, 0));
+        readers.values().forEach(reader -> load.computeIfPresent(reader, (id, count) -> count + 1));
+        return load.entrySet().stream()
+                .min(Map.Entry.<Integer, Integer>comparingByValue().thenComparing(Map.Entry.comparingByKey()))
+                .map(Map.Entry::getKey)
+                .orElseThrow();
+    }
+
+    /** The replays that it had are those that it reports, or come back by {@link #addSplitsBack}. */
+    @Override
+    public void addReader(int reader) {
+        readers.values().removeIf(other -> other == reader);
+        List<ReplaySplit> reported = context.registeredReaders().get(reader).getReportedSplitsOnRegistration();
+        addSplitsBack(reported, reader);
+    }
+
+    @Override
+    public void addSplitsBack(List<ReplaySplit> splits, int reader) {
+        for (ReplaySplit split : splits) {
+            readers.remove(split.replay());
+            unassigned.put(split.replay(), split);
+        }
+        assign();
+    }
+
+    @Override
+    public void handleSplitRequest(int reader, String host) {
+        // readers do not ask
+    }
+
+    @Override
+    public UnassignedReplays snapshotState(long checkpoint) {
+        return new UnassignedReplays(List.copyOf(unassigned.values()));
+    }
+
+    @Override
+    public void close() {
+        if (wishes != null) {
+            wishes.close();
+        }
+    }
+}

@@ -1,0 +1,42 @@
+package io.furrow.replay.source;
+
+import java.util.HashMap;
+import java.util.Map;
+
+import org.apache.flink.metrics.Gauge;
+import org.apache.flink.metrics.MetricGroup;
+import org.apache.flink.runtime.metrics.groups.AbstractMetricGroup;
+
+/** Gauges of a reader: {@code replaysRunning}, and of each replay its {@code lateness} in ms and {@code eventsPerSecond}. */
+final class ReplayMetrics {
+    private final MetricGroup reader;
+    private final Map<String, MetricGroup> groups = new HashMap<>();
+
+    private volatile int running;
+
+    ReplayMetrics(MetricGroup reader) {
+        this.reader = reader;
+        Gauge<Integer> replaysRunning = () -> running;
+        reader.gauge("replaysRunning", replaysRunning);
+    }
+
+    void setRunning(int replays) {
+        running = replays;
+    }
+
+    void add(RunningReplay replay) {
+        MetricGroup group = reader.addGroup("replay", replay.name());
+        Gauge<Long> lateness = replay.reports()::lateness;
+        Gauge<Double> rate = replay.reports()::rate;
+        group.gauge("lateness", lateness);
+        group.gauge("eventsPerSecond", rate);
+        groups.put(replay.name(), group);
+    }
+
+    /** Flink keeps the metrics of a group for as long as the task lives, unless it is closed. */
+    void remove(RunningReplay replay) {
+        if (groups.remove(replay.name()) instanceof AbstractMetricGroup<?> group) {
+            group.close();
+        }
+    }
+}

@@ -1,0 +1,19 @@
+package io.furrow.replay.source;
+
+import org.apache.flink.api.connector.source.SourceSplit;
+
+import io.furrow.replay.playback.PlaybackState;
+
+/**
+ * A replay, and where it is.
+ *
+ * @param replay its name
+ * @param wanted value of the record of {@code service.replays} that was applied last; not to be changed
+ * @param state of its playback
+ */
+public record ReplaySplit(String replay, byte[] wanted, PlaybackState state) implements SourceSplit {
+    @Override
+    public String splitId() {
+        return replay;
+    }
+}

@@ -1,0 +1,114 @@
+package io.furrow.replay.source;
+
+import java.util.Map;
+import java.util.Objects;
+import java.util.function.Consumer;
+
+import io.furrow.flink.TopicRecord;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.topic.Topics;
+import io.furrow.replay.playback.Playback;
+import io.furrow.replay.playback.Played;
+
+/**
+ * Tells how it is with a replay: twice a second while it runs, and on each change. A replay that is over is told again, as settled,
+ * when a checkpoint holds that it is over: whoever forgets it then will not see it come back.
+ */
+final class StatusReports {
+    private static final long INTERVAL_MILLIS = 500;
+    private static final long NONE = -1;
+    private static final double MILLIS = 1_000;
+
+    private final String replay;
+    private ReplayStatus told;
+    private long toldAt;
+    private long events;
+    private long worst;
+    private long lateness;
+    private double rate;
+    private long storedIn = NONE;
+    private boolean settled;
+
+    /** @param settled whether the state from which it goes on is that of a replay that is over */
+    StatusReports(String replay, boolean settled) {
+        this.replay = replay;
+        this.settled = settled;
+    }
+
+    void count(Played played, long late) {
+        if (played.kind() == Played.Kind.EVENT) {
+            events++;
+            worst = Math.max(worst, late);
+        }
+    }
+
+    /** By how much the latest event since the last report was behind its schedule, ms. */
+    long lateness() {
+        return Math.max(lateness, worst);
+    }
+
+    /** Events per second, until the last report. */
+    double rate() {
+        return rate;
+    }
+
+    /** @param checkpoint that will hold that the replay is over */
+    void stored(long checkpoint) {
+        if (storedIn == NONE) {
+            storedIn = checkpoint;
+        }
+    }
+
+    void completed(long checkpoint) {
+        settled |= storedIn != NONE && checkpoint >= storedIn;
+    }
+
+    void report(Playback playback, long now, Consumer<TopicRecord> out) {
+        if (!playback.isOver()) {
+            storedIn = NONE;
+            settled = false;
+        }
+        if (told == null || now >= due(playback) || hasChanged(playback, now)) {
+            long millis = Math.max(1, told == null ? INTERVAL_MILLIS : now - toldAt);
+            rate = Math.round(events * MILLIS / millis * 10) / 10.0;
+            lateness = worst;
+            write(playback.status(now, worst, rate), now, out);
+            events = 0;
+            worst = 0;
+        }
+    }
+
+    private boolean hasChanged(Playback playback, long now) {
+        ReplayStatus status = playback.status(now, 0, 0);
+        return told.sequence() != status.sequence()
+                || told.state() != status.state()
+                || told.settled() != (settled && playback.isOver())
+                || told.progress() == null
+                || told.progress().epoch() != status.progress().epoch()
+                || !Objects.equals(told.progress().waiting(), status.progress().waiting());
+    }
+
+    /** Of a replay of which it cannot be read what is wanted. */
+    void reportRefused(long sequence, String reason, long now, Consumer<TopicRecord> out) {
+        if (told == null || told.settled() != settled || !reason.equals(told.reason())) {
+            write(new ReplayStatus(sequence, ReplayStatus.State.FAILED, reason, false, null), now, out);
+        }
+    }
+
+    private void write(ReplayStatus status, long now, Consumer<TopicRecord> out) {
+        told = new ReplayStatus(
+                status.sequence(),
+                status.state(),
+                status.reason(),
+                settled && status.state().isOver(),
+                status.progress());
+        toldAt = now;
+        out.accept(TopicRecord.of(Topics.REPLAYS_STATUS, System.currentTimeMillis(), replay, told.toBytes(), Map.of()));
+    }
+
+    /** When the next report is due, unless something changes before. */
+    long due(Playback playback) {
+        boolean moves = playback.state() == ReplayStatus.State.RUNNING || events > 0;
+        return moves ? toldAt + INTERVAL_MILLIS : Long.MAX_VALUE;
+    }
+}

@@ -1,0 +1,83 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.io.Serializable;
+import java.util.List;
+
+import io.furrow.model.control.ReplayStatus;
+
+/** Where it is said which replays shall be played. Serializable, so that a job can carry it. */
+public interface WantedReplays extends Serializable {
+    /** Whether all that will ever be wanted is known at once. */
+    boolean isBounded();
+
+    /** Begins to read, from the beginning. */
+    Reading open() throws IOException;
+
+    /**
+     * What is wanted of a replay.
+     *
+     * @param wanted value of its record; null where it was removed
+     */
+    record Wish(String replay, byte[] wanted) {}
+
+    /**
+     * What was told of a replay before.
+     *
+     * @param replay its name
+     */
+    record Told(String replay, ReplayStatus status) {}
+
+    /** Used by one thread at a time. */
+    interface Reading extends AutoCloseable {
+        /** What has been told of replays until now; called once. */
+        List<Told> told() throws IOException;
+
+        /** What came since the last call; waits a moment where nothing did. */
+        List<Wish> poll();
+
+        /** Whether everything was returned that was there at the beginning. */
+        boolean isCaughtUp();
+
+        /** From any thread; ends a call that is under way. */
+        @Override
+        void close();
+    }
+
+    /** One replay and no other. */
+    record One(String replay, byte[] wanted) implements WantedReplays {
+        @Override
+        public boolean isBounded() {
+            return true;
+        }
+
+        @Override
+        public Reading open() {
+            return new Reading() {
+                private boolean read;
+
+                @Override
+                public List<Told> told() {
+                    return List.of();
+                }
+
+                @Override
+                public List<Wish> poll() {
+                    List<Wish> wishes = read ? List.of() : List.of(new Wish(replay, wanted));
+                    read = true;
+                    return wishes;
+                }
+
+                @Override
+                public boolean isCaughtUp() {
+                    return read;
+                }
+
+                @Override
+                public void close() {
+                    // holds nothing
+                }
+            };
+        }
+    }
+}

@@ -1,0 +1,2 @@
+/** Replays as a source of Flink: each replay is a split, what is wanted of it comes from the enumerator. */
+package io.furrow.replay.source;

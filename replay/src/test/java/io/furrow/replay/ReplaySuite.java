@@ -1,0 +1,210 @@
+package io.furrow.replay;
+
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.mongodb.client.MongoClient;
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.core.execution.RecoveryClaimMode;
+import org.apache.flink.core.execution.SavepointFormatType;
+import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
+import org.apache.flink.streaming.api.graph.StreamGraph;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.bson.RawBsonDocument;
+
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.embedded.FreePort;
+import io.furrow.flink.JobCommandLine;
+import io.furrow.mission.DocumentForm;
+import io.furrow.mission.MissionCollections;
+import io.furrow.mission.MongoAccess;
+import io.furrow.mission.Retention;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
+import io.furrow.model.control.WantedReplay;
+import io.furrow.model.topic.Topics;
+
+/** Kafka, Flink and MongoDB's stand-in for the time of a test, and the job {@code replay} on them. */
+final class ReplaySuite implements AutoCloseable {
+    static final long TIME = 1_600_000_000_000L;
+
+    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final int SLOTS = 4;
+
+    private final EmbeddedKafka kafka;
+    private final EmbeddedFlink flink;
+    private final Path documents;
+    private final int mongoPort = FreePort.orFree(0);
+    private final KafkaProducer<byte[], byte[]> producer;
+    private EmbeddedMongo mongo;
+
+    private ReplaySuite(Path directory) throws Exception {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        flink = EmbeddedFlink.start(SLOTS, 0);
+        documents = directory.resolve("mongo");
+        producer = new KafkaProducer<>(client(), new ByteArraySerializer(), new ByteArraySerializer());
+        startMongo();
+        try (Admin admin = Admin.create(client())) {
+            NewTopic topic = new NewTopic(Topics.REPLAYS, Optional.of(1), Optional.empty())
+                    .configs(Map.of("cleanup.policy", "compact"));
+            admin.createTopics(List.of(topic)).all().get();
+        }
+    }
+
+    static ReplaySuite start(Path directory) throws Exception {
+        return new ReplaySuite(directory);
+    }
+
+    private Map<String, Object> client() {
+        return Map.of("bootstrap.servers", kafka.bootstrapServers());
+    }
+
+    void startMongo() {
+        mongo = EmbeddedMongo.start(documents, mongoPort);
+    }
+
+    void stopMongo() {
+        mongo.close();
+        mongo = null;
+    }
+
+    EmbeddedFlink flink() {
+        return flink;
+    }
+
+    /** Events of four devices, one after the other, so many ms apart. */
+    void store(String mission, int count, long apart) throws Exception {
+        try (MongoClient client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(PATIENCE)).open()) {
+            MissionCollections missions =
+                    new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
+            List<RawBsonDocument> events = new ArrayList<>();
+            for (int i = 0; i < count; i++) {
+                String id = "urn:d" + i % 4;
+                ObjectNode entity =
+                        JsonNodeFactory.instance.objectNode().put("id", id).put("type", "T");
+                entity.putObject("n").put("type", "Integer").put("value", i).putObject("metadata");
+                events.add(new RawBsonDocument(DocumentForm.write(new StoredEvent(
+                        "e%05d".formatted(i), TIME + i * apart, id, Map.of("ce_source", "/test"), entity))));
+            }
+            missions.prepared(MissionCollections.nameOf(mission)).insertMany(events);
+        }
+    }
+
+    static WantedReplay wanted(String mission, double speed, State state, long sequence) {
+        return new WantedReplay(
+                mission + ".0a1b2c3d",
+                mission,
+                Topics.replay(mission, "0a1b2c3d"),
+                null,
+                null,
+                speed,
+                false,
+                List.of(),
+                state,
+                null,
+                null,
+                sequence);
+    }
+
+    void want(WantedReplay wanted) throws Exception {
+        producer.send(new ProducerRecord<>(
+                        Topics.REPLAYS, wanted.replay().getBytes(StandardCharsets.UTF_8), wanted.toBytes()))
+                .get();
+    }
+
+    /** Starts the job, from a savepoint where one is given. */
+    JobID run(String savepoint, String... args) {
+        ReplayOptions options = new ReplayOptions();
+        List<String> all = new ArrayList<>(List.of(args));
+        all.addAll(List.of("--bootstrap-servers", kafka.bootstrapServers()));
+        all.addAll(List.of("--mongo", "mongodb://127.0.0.1:" + mongoPort, "--mongo-timeout", "500ms"));
+        all.addAll(List.of("--checkpoint-interval", "300ms", "--restart-delay", "100ms", "--topic-partitions", "3"));
+        JobCommandLine.of(options).parseArgs(all.toArray(String[]::new));
+        StreamGraph graph = ReplayJob.assemble(options).getStreamGraph();
+        if (savepoint != null) {
+            graph.setSavepointRestoreSettings(
+                    SavepointRestoreSettings.forPath(savepoint, false, RecoveryClaimMode.NO_CLAIM));
+        }
+        return flink.submit(graph);
+    }
+
+    String stop(JobID job, Path directory) throws Exception {
+        return flink.cluster()
+                .stopWithSavepoint(job, directory.toUri().toString(), false, SavepointFormatType.CANONICAL)
+                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+    }
+
+    static Path path(String savepoint) {
+        return Path.of(URI.create(savepoint));
+    }
+
+    /** The committed records of a topic that is there, in the order of each partition. */
+    List<ConsumerRecord<byte[], byte[]>> records(String topic) {
+        Map<String, Object> settings = new HashMap<>(client());
+        settings.putAll(Map.of("allow.auto.create.topics", "false", "isolation.level", "read_committed"));
+        List<ConsumerRecord<byte[], byte[]>> records = new ArrayList<>();
+        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+            List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+                    .map(info -> new TopicPartition(topic, info.partition()))
+                    .toList();
+            consumer.assign(partitions);
+            consumer.seekToBeginning(partitions);
+            Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
+            while (ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue())) {
+                consumer.poll(Duration.ofMillis(100)).forEach(records::add);
+            }
+        }
+        return records;
+    }
+
+    /** The newest status of a replay; null where there is none. */
+    ReplayStatus status(String mission) throws Exception {
+        ReplayStatus newest = null;
+        for (ConsumerRecord<byte[], byte[]> record : records(Topics.REPLAYS_STATUS)) {
+            if (text(record.key()).equals(mission + ".0a1b2c3d")) {
+                newest = ReplayStatus.read(record.value());
+            }
+        }
+        return newest;
+    }
+
+    static String header(ConsumerRecord<byte[], byte[]> record, String name) {
+        return text(record.headers().lastHeader(name).value());
+    }
+
+    static String text(byte[] bytes) {
+        return new String(bytes, StandardCharsets.UTF_8);
+    }
+
+    @Override
+    public void close() {
+        producer.close(Duration.ofSeconds(1));
+        flink.close();
+        kafka.close();
+        if (mongo != null) {
+            mongo.close();
+        }
+    }
+}

@@ -1,0 +1,49 @@
+package io.furrow.replay;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import picocli.CommandLine.ParameterException;
+
+import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.JobUids;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class ReplayUidsTest {
+    private static ReplayOptions options(String... args) {
+        ReplayOptions options = new ReplayOptions();
+        JobCommandLine.of(options).parseArgs(args);
+        return options;
+    }
+
+    @Test
+    void keepsTheUidsThatSavepointsKnow() {
+        assertThat(JobUids.of(ReplayJob.assemble(options("--mongo", "mongodb://127.0.0.1:27017"))))
+                .isEqualTo(JobUids.checkedIn("replay"));
+    }
+
+    @Test
+    void playsOneMissionOnce() {
+        ReplayOptions once = options("--mongo", "mongodb://h", "--once", "--mission", "m", "--speed", "max");
+
+        assertThat(once.wanted().isBounded()).isTrue();
+        assertThat(JobUids.of(ReplayJob.assemble(once))).doesNotContain("write-statuses");
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
+            --once                                   | --once has no mission
+            --once --mission m --speed 2000          | --speed 2000 is neither
+            --once --mission m --begin yesterday     | --begin yesterday is no time
+            --once --mission m --topic data.raw      | --topic data.raw is no topic of a replay
+            """)
+    void refusesWhatCannotBePlayed(String args, String reason) {
+        ReplayOptions options = options(("--mongo mongodb://h " + args).split(" +"));
+
+        assertThatThrownBy(options::wanted)
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining(reason);
+    }
+}

@@ -1,0 +1,87 @@
+package io.furrow.replay;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.stream.IntStream;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.condition.EnabledIfSystemProperty;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
+
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Savepoints of released states of the job, as {@link StoredSavepoint} writes them, each restored by what the job is now. */
+@Timeout(180)
+class StoredSavepointIT {
+    @TempDir
+    Path directory;
+
+    private ReplaySuite suite;
+
+    @BeforeEach
+    void start() throws Exception {
+        suite = ReplaySuite.start(directory.resolve("suite"));
+    }
+
+    @AfterEach
+    void stop() {
+        suite.close();
+    }
+
+    /** {@code -Dstore.savepoint=0.2.0} writes that of a release. */
+    @Test
+    @EnabledIfSystemProperty(named = "store.savepoint", matches = "[0-9.]+")
+    void isWrittenOncePerRelease() throws Exception {
+        Path target = StoredSavepoint.FOLDER.resolve(System.getProperty("store.savepoint"));
+
+        StoredSavepoint.store(suite, target, directory);
+
+        assertThat(target.resolve("_metadata")).isNotEmptyFile();
+    }
+
+    @ParameterizedTest
+    @MethodSource("releases")
+    void goesOnWithTheNextEvent(Path savepoint) throws Exception {
+        suite.store(StoredSavepoint.MISSION, StoredSavepoint.EVENTS, 1_000);
+        suite.want(StoredSavepoint.paused());
+        suite.want(ReplaySuite.wanted(StoredSavepoint.MISSION, ReplayCommand.MAX, State.RUNNING, 2));
+
+        suite.run(savepoint.toUri().toString(), "--parallelism", "1");
+        await().until(() -> {
+            ReplayStatus status = suite.status(StoredSavepoint.MISSION);
+            return status != null && status.state() == State.ENDED;
+        });
+
+        List<Integer> numbers = suite.records(Topics.replay(StoredSavepoint.MISSION, "0a1b2c3d")).stream()
+                .filter(record ->
+                        ReplaySuite.header(record, HeaderNames.REPLAY_KIND).equals("event"))
+                .map(record -> Integer.valueOf(ReplaySuite.header(record, HeaderNames.REPLAY_SEQUENCE)))
+                .sorted()
+                .toList();
+        assertThat(numbers)
+                .isEqualTo(IntStream.range(StoredSavepoint.PLAYED, StoredSavepoint.EVENTS)
+                        .boxed()
+                        .toList());
+    }
+
+    private static List<Path> releases() throws IOException {
+        try (Stream<Path> folders = Files.list(StoredSavepoint.FOLDER)) {
+            return folders.sorted().toList();
+        }
+    }
+}

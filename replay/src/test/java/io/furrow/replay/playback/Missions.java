@@ -1,0 +1,98 @@
+package io.furrow.replay.playback;
+
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Random;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+
+/** Made-up recordings in memory. */
+final class Missions {
+    static final long TIME = 1_700_000_000_000L;
+
+    private Missions() {}
+
+    static StoredEvent event(String id, long time, String entity) {
+        ObjectNode json =
+                JsonNodeFactory.instance.objectNode().put("id", entity).put("type", "T");
+        return new StoredEvent(id, time, entity, Map.of("ce_type", "ngsi.entity.changed"), json);
+    }
+
+    private static StoredEvent deletion(String id, long time, String entity) {
+        return new StoredEvent(id, time, entity, Map.of("ce_type", "ngsi.entity.deleted"), null);
+    }
+
+    /** 1 to 200 devices that report out of order, at equal times, after gaps, and are deleted now and then; in the stored order. */
+    static List<StoredEvent> random(Random random) {
+        int devices = 1 + random.nextInt(random.nextBoolean() ? 5 : 200);
+        int count = 1 + random.nextInt(300);
+        List<StoredEvent> events = new ArrayList<>();
+        long time = TIME;
+        for (int i = 0; i < count; i++) {
+            time += switch (random.nextInt(10)) {
+                case 0 -> random.nextInt(60_000);
+                case 1, 2, 3 -> 0;
+                default -> random.nextInt(500);
+            };
+            long at = time - random.nextInt(200);
+            String entity = "urn:d" + random.nextInt(devices);
+            String id = "%08x-%d".formatted(random.nextInt(), i);
+            events.add(random.nextInt(40) == 0 ? deletion(id, at, entity) : event(id, at, entity));
+        }
+        events.sort(Comparator.comparingLong(StoredEvent::time).thenComparing(StoredEvent::id));
+        return events;
+    }
+
+    /** What is asked, from the recording, in a page of any size. */
+    static Fetched answer(Fetch fetch, List<StoredEvent> recording, Random random) {
+        if (fetch instanceof Fetch.Begin begin) {
+            List<StoredEvent> primes = begin.primed() ? known(recording, begin.point()) : List.of();
+            return new Fetched.Begun(begin.epoch(), primes, page(recording, begin.first(), random));
+        } else if (fetch instanceof Fetch.Next next) {
+            return new Fetched.More(next.epoch(), page(recording, next.after(), random));
+        }
+        return new Fetched.Opened(fetch.epoch(), span(recording));
+    }
+
+    private static Optional<Span> span(List<StoredEvent> recording) {
+        return recording.isEmpty()
+                ? Optional.empty()
+                : Optional.of(new Span(
+                        recording.get(0).time(),
+                        recording.get(recording.size() - 1).time(),
+                        recording.size()));
+    }
+
+    private static Page page(List<StoredEvent> recording, Cursor after, Random random) {
+        List<StoredEvent> rest = recording.stream()
+                .filter(event -> Cursor.after(event).compareTo(after) > 0)
+                .toList();
+        int size = Math.min(rest.size(), 1 + random.nextInt(40));
+        List<StoredEvent> events = rest.subList(0, size);
+        Cursor next = size == 0 ? after : Cursor.after(events.get(size - 1));
+        return new Page(events, List.of(), next, size == rest.size());
+    }
+
+    /** The newest event of each entity that was there before the point. */
+    static List<StoredEvent> known(List<StoredEvent> recording, long point) {
+        Map<String, StoredEvent> newest = new TreeMap<>();
+        for (StoredEvent event : recording) {
+            if (event.time() < point && event.entity() == null) {
+                newest.remove(event.entityId());
+            } else if (event.time() < point) {
+                newest.put(event.entityId(), event);
+            }
+        }
+        return List.copyOf(newest.values());
+    }
+}

@@ -1,0 +1,147 @@
+package io.furrow.replay.playback;
+
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Random;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
+
+import io.furrow.flink.TopicRecord;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayStatus.State;
+import io.furrow.model.control.WantedReplay;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.replay.ReplayRecords;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** A playback beside {@link SimpleReplay}. */
+class PlaybackModelTest {
+    private static final int MISSIONS = 100;
+    private static final int RUNS_EACH = 5;
+
+    static List<Long> seeds() {
+        return new Random(20261123).longs(MISSIONS).boxed().toList();
+    }
+
+    @ParameterizedTest(name = "seed {0}")
+    @MethodSource("seeds")
+    void writesWhatTheRulesSayWhenTheySay(long seed) {
+        Random random = new Random(seed);
+        List<StoredEvent> mission = Missions.random(random);
+        for (int run = 0; run < RUNS_EACH; run++) {
+            List<Wishes.Wish> wishes = Wishes.random(random, mission);
+
+            assertThat(played(mission, wishes, random)).isEqualTo(SimpleReplay.lines(mission, wishes));
+        }
+    }
+
+    /** That there is something to compare. */
+    @Test
+    void coversWhatReplaysDo() {
+        List<String> all = new ArrayList<>();
+        for (long seed : seeds()) {
+            Random random = new Random(seed);
+            List<StoredEvent> mission = Missions.random(random);
+            all.addAll(SimpleReplay.lines(mission, Wishes.random(random, mission)));
+        }
+
+        for (String kind : List.of("event", "prime", "end stopped", "end seek", "end loop", "end ended", "epoch 4")) {
+            assertThat(all).as(kind).filteredOn(line -> line.contains(kind)).hasSizeGreaterThan(20);
+        }
+    }
+
+    @ParameterizedTest(name = "seed {0}")
+    @MethodSource("seeds")
+    void goesOnWithTheNextRecordAfterARestart(long seed) {
+        Random random = new Random(seed);
+        List<StoredEvent> mission = Missions.random(random);
+        WantedReplay wanted = Wishes.with(
+                Wishes.start(random.nextBoolean() ? 1000 : ReplayCommand.MAX),
+                State.RUNNING,
+                1000,
+                Missions.TIME + random.nextInt(20_000),
+                0);
+        List<String> whole = untimed(played(mission, List.of(new Wishes.Wish(0, wanted)), random));
+
+        List<String> lines = new ArrayList<>();
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0);
+        for (long now = 0; !playback.isOver(); now++) {
+            read(playback, mission, random, now);
+            Optional<Played> played = playback.poll(now);
+            played.ifPresent(one -> lines.add(line(0, one, wanted)));
+            if (random.nextInt(10) == 0) {
+                playback = new Playback(wanted, playback.snapshot(now), now + 5);
+            }
+        }
+
+        assertThat(untimed(lines)).isEqualTo(whole);
+    }
+
+    private static List<String> untimed(List<String> lines) {
+        return lines.stream().map(line -> line.substring(line.indexOf(' '))).toList();
+    }
+
+    private static List<String> played(List<StoredEvent> mission, List<Wishes.Wish> wishes, Random random) {
+        List<String> lines = new ArrayList<>();
+        Playback playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0);
+        int next = 1;
+        long now = 0;
+        while (now != Long.MAX_VALUE) {
+            read(playback, mission, random, now);
+            Optional<Played> played = playback.poll(now);
+            if (played.isPresent()) {
+                lines.add(line(now, played.get(), playback.wanted()));
+            } else if (!read(playback, mission, random, now) && (playback.due() > now || playback.isOver())) {
+                long due = Math.max(playback.due(), now);
+                if (next < wishes.size()
+                        && wishes.get(next).at() <= due
+                        && wishes.get(next).at() <= now) {
+                    long at = now;
+                    Playback running = playback;
+                    running.apply(wishes.get(next).wanted(), at)
+                            .ifPresent(end -> lines.add(line(at, end, running.wanted())));
+                    next++;
+                } else {
+                    now = next < wishes.size() ? Math.min(wishes.get(next).at(), due) : due;
+                }
+            }
+        }
+        return lines;
+    }
+
+    /** Whether there was something to be read. */
+    private static boolean read(Playback playback, List<StoredEvent> mission, Random random, long now) {
+        boolean any = false;
+        for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
+            assertThat(playback.take(Missions.answer(fetch.get(), mission, random), now))
+                    .isEmpty();
+            any = true;
+        }
+        return any;
+    }
+
+    private static String line(long now, Played played, WantedReplay wanted) {
+        TopicRecord record = ReplayRecords.of(played, wanted);
+        Map<String, String> headers = record.headers();
+        String reason = played.reason() == null ? "" : " " + played.reason();
+        return String.join(
+                " ",
+                Long.toString(now),
+                Long.toString(record.timestamp()),
+                new String(record.key(), StandardCharsets.UTF_8),
+                headers.get(HeaderNames.REPLAY_KIND) + reason,
+                "epoch " + headers.get(HeaderNames.REPLAY_EPOCH),
+                "sequence " + headers.get(HeaderNames.REPLAY_SEQUENCE),
+                "offset " + headers.get(HeaderNames.REPLAY_OFFSET),
+                headers.get(HeaderNames.REPLAY_TIME),
+                headers.get(HeaderNames.REPLAY_CE_ID),
+                headers.get(HeaderNames.CE_ID));
+    }
+}

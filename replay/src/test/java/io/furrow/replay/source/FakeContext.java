@@ -1,0 +1,91 @@
+package io.furrow.replay.source;
+
+import java.util.function.Consumer;
+
+import org.apache.flink.api.common.eventtime.Watermark;
+import org.apache.flink.api.connector.source.ReaderOutput;
+import org.apache.flink.api.connector.source.SourceEvent;
+import org.apache.flink.api.connector.source.SourceOutput;
+import org.apache.flink.api.connector.source.SourceReaderContext;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.metrics.groups.SourceReaderMetricGroup;
+import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
+import org.apache.flink.util.UserCodeClassLoader;
+
+import io.furrow.flink.TopicRecord;
+
+/** What a reader has around it. */
+final class FakeContext implements SourceReaderContext {
+    @Override
+    public SourceReaderMetricGroup metricGroup() {
+        return UnregisteredMetricsGroup.createSourceReaderMetricGroup();
+    }
+
+    @Override
+    public Configuration getConfiguration() {
+        return new Configuration();
+    }
+
+    @Override
+    public String getLocalHostName() {
+        return "here";
+    }
+
+    @Override
+    public int getIndexOfSubtask() {
+        return 0;
+    }
+
+    @Override
+    public void sendSplitRequest() {
+        throw new UnsupportedOperationException("no reader asks");
+    }
+
+    @Override
+    public void sendSourceEventToCoordinator(SourceEvent event) {
+        throw new UnsupportedOperationException("no reader says anything");
+    }
+
+    @Override
+    public UserCodeClassLoader getUserCodeClassLoader() {
+        throw new UnsupportedOperationException("no reader loads classes");
+    }
+
+    /** @param to takes the records */
+    record Output(Consumer<TopicRecord> to) implements ReaderOutput<TopicRecord> {
+        @Override
+        public void collect(TopicRecord record) {
+            to.accept(record);
+        }
+
+        @Override
+        public void collect(TopicRecord record, long timestamp) {
+            to.accept(record);
+        }
+
+        @Override
+        public void emitWatermark(Watermark watermark) {
+            // of no interest
+        }
+
+        @Override
+        public void markIdle() {
+            // of no interest
+        }
+
+        @Override
+        public void markActive() {
+            // of no interest
+        }
+
+        @Override
+        public SourceOutput<TopicRecord> createOutputForSplit(String split) {
+            return this;
+        }
+
+        @Override
+        public void releaseOutputForSplit(String split) {
+            // of no interest
+        }
+    }
+}

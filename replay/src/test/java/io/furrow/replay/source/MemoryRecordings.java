@@ -1,0 +1,99 @@
+package io.furrow.replay.source;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.ConcurrentHashMap;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.Recordings;
+import io.furrow.mission.Skipped;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+
+/** Missions in memory; {@code away} cannot be read until it is back, {@code stuck} never answers. */
+final class MemoryRecordings implements Recordings {
+    private static final long serialVersionUID = 1L;
+
+    private final transient Map<String, List<StoredEvent>> missions = new ConcurrentHashMap<>();
+    private volatile boolean away;
+
+    /** Events of the entity {@code urn:x} at these times. */
+    MemoryRecordings with(String mission, long... times) {
+        List<StoredEvent> events = new ArrayList<>();
+        for (long time : times) {
+            events.add(new StoredEvent(
+                    mission + "-" + events.size(),
+                    time,
+                    "urn:x",
+                    Map.of(),
+                    JsonNodeFactory.instance.objectNode().put("id", "urn:x").put("type", "X")));
+        }
+        missions.put(mission, events);
+        return this;
+    }
+
+    void setAway(boolean isAway) {
+        away = isAway;
+    }
+
+    @Override
+    public Optional<Recording> open(String mission) throws RecordingException {
+        if (mission.equals("stuck")) {
+            synchronized (this) {
+                try {
+                    wait();
+                } catch (InterruptedException e) {
+                    Thread.currentThread().interrupt();
+                }
+            }
+        }
+        if (away) {
+            throw new RecordingException("the store is away");
+        }
+        return Optional.ofNullable(missions.get(mission)).map(InMemory::new);
+    }
+
+    private final class InMemory implements Recording {
+        private final List<StoredEvent> events;
+
+        InMemory(List<StoredEvent> events) {
+            this.events = events;
+        }
+
+        @Override
+        public Optional<Span> span() {
+            return events.isEmpty()
+                    ? Optional.empty()
+                    : Optional.of(new Span(
+                            events.get(0).time(), events.get(events.size() - 1).time(), events.size()));
+        }
+
+        @Override
+        public Page read(Cursor after, PageLimits limits) throws RecordingException {
+            if (away) {
+                throw new RecordingException("the store is away");
+            }
+            List<StoredEvent> rest = events.stream()
+                    .filter(event -> Cursor.after(event).compareTo(after) > 0)
+                    .toList();
+            List<StoredEvent> page = rest.subList(0, Math.min(limits.events(), rest.size()));
+            List<Skipped> skipped =
+                    after.equals(Cursor.START) ? List.of(new Skipped("two documents", "no _time", 2)) : List.of();
+            Cursor next = page.isEmpty() ? after : Cursor.after(page.get(page.size() - 1));
+            return new Page(page, skipped, next, page.size() == rest.size());
+        }
+
+        @Override
+        public void close() {
+            // holds nothing
+        }
+    }
+}

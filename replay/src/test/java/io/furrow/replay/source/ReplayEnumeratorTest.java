@@ -1,0 +1,253 @@
+package io.furrow.replay.source;
+
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.Callable;
+import java.util.function.BiConsumer;
+
+import org.apache.flink.api.connector.source.ReaderInfo;
+import org.apache.flink.api.connector.source.SourceEvent;
+import org.apache.flink.api.connector.source.SplitEnumeratorContext;
+import org.apache.flink.api.connector.source.SplitsAssignment;
+import org.apache.flink.metrics.groups.SplitEnumeratorMetricGroup;
+import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
+import io.furrow.replay.playback.PlaybackState;
+import io.furrow.replay.source.WantedReplays.Told;
+import io.furrow.replay.source.WantedReplays.Wish;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class ReplayEnumeratorTest {
+    private final Script script = new Script();
+    private final Readers readers = new Readers(2);
+
+    private ReplayEnumerator enumerator(ReplaySplit... unassigned) {
+        ReplayEnumerator enumerator = new ReplayEnumerator(readers, script, new UnassignedReplays(List.of(unassigned)));
+        enumerator.start();
+        return enumerator;
+    }
+
+    private static Wish wish(String mission, long sequence) {
+        return new Wish(
+                mission + ".0a1b2c3d",
+                ReplayReaderTest.wanted(mission, 1, State.RUNNING, sequence).toBytes());
+    }
+
+    private static ReplaySplit split(String mission) {
+        return new ReplaySplit(mission + ".0a1b2c3d", wish(mission, 1).wanted(), PlaybackState.before(3, 77));
+    }
+
+    @Test
+    void dividesReplaysEvenlyWhenAllReadersAreThere() {
+        ReplayEnumerator enumerator = enumerator();
+        script.next = List.of(wish("a", 1), wish("b", 1), wish("c", 1), wish("d", 1));
+        readers.poll();
+        readers.register(0, enumerator);
+        assertThat(readers.assigned).isEmpty();
+
+        readers.register(1, enumerator);
+
+        assertThat(readers.of(0)).hasSize(2);
+        assertThat(readers.of(1)).hasSize(2);
+        script.next = List.of(wish("a", 2));
+        readers.poll();
+        assertThat(readers.events).last().isEqualTo("0 a.0a1b2c3d told");
+    }
+
+    @Test
+    void givesReplaysOfACheckpointToReadersAnewAndRemovesUnwantedOnes() {
+        ReplayEnumerator enumerator = enumerator(split("c"));
+        readers.register(0, enumerator, split("a"), split("b"), split("gone"));
+        readers.register(1, enumerator);
+        assertThat(readers.assigned).as("before it is known what is wanted").isEmpty();
+
+        script.next = List.of(wish("a", 1), wish("b", 1), wish("c", 1));
+        readers.poll();
+
+        assertThat(readers.of(0)).hasSize(2);
+        assertThat(readers.of(1)).hasSize(2);
+        assertThat(readers.assigned).allMatch(one -> one.epoch == 3);
+        assertThat(readers.events).contains("1 gone.0a1b2c3d removed").contains("0 c.0a1b2c3d told");
+        assertThat(enumerator.snapshotState(1).splits()).isEmpty();
+    }
+
+    @Test
+    void keepsWhatComesBackUntilItsReaderDoes() {
+        ReplayEnumerator enumerator = enumerator();
+        readers.register(0, enumerator);
+        readers.register(1, enumerator);
+        script.next = List.of(wish("a", 1));
+        readers.poll();
+        readers.known.remove(0);
+
+        enumerator.addSplitsBack(List.of(split("a")), 0);
+
+        assertThat(enumerator.snapshotState(1).splits()).hasSize(1);
+        readers.register(0, enumerator);
+        assertThat(readers.of(0)).hasSize(2);
+        assertThat(enumerator.snapshotState(2).splits()).isEmpty();
+    }
+
+    @Test
+    void goesOnWithEpochsOfReplaysThatNoCheckpointKnows() {
+        ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, null);
+        script.told = List.of(
+                new Told("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)),
+                new Told("b.0a1b2c3d", new ReplayStatus(1, State.ENDED, null, true, progress)));
+        ReplayEnumerator enumerator = enumerator();
+        readers.register(0, enumerator);
+        readers.register(1, enumerator);
+
+        script.next = List.of(wish("a", 1), wish("b", 1));
+        readers.poll();
+
+        assertThat(readers.assigned)
+                .as("b is over: who wanted it is about to be told")
+                .containsExactly(new Assigned(0, "a.0a1b2c3d", 5, 1_500));
+        script.next = List.of(wish("b", 2));
+        readers.poll();
+        assertThat(readers.assigned).last().isEqualTo(new Assigned(1, "b.0a1b2c3d", 5, 1_500));
+    }
+
+    @Test
+    void passesOverWhatIsNoReplay() {
+        ReplayEnumerator enumerator = enumerator();
+        readers.register(0, enumerator);
+        readers.register(1, enumerator);
+
+        byte[] bytes = "x".getBytes(StandardCharsets.UTF_8);
+        script.next = List.of(new Wish(null, bytes), new Wish("no name", bytes), new Wish("a.0a1b2c3d", bytes));
+        readers.poll();
+
+        assertThat(readers.assigned).extracting(Assigned::replay).containsExactly("a.0a1b2c3d");
+    }
+
+    private static final class Script implements WantedReplays {
+        private static final long serialVersionUID = 1L;
+
+        private transient List<Told> told = List.of();
+        private transient List<Wish> next = List.of();
+
+        @Override
+        public boolean isBounded() {
+            return false;
+        }
+
+        @Override
+        public Reading open() {
+            return new Reading() {
+                @Override
+                public List<Told> told() {
+                    return told;
+                }
+
+                @Override
+                public List<Wish> poll() {
+                    return next;
+                }
+
+                @Override
+                public boolean isCaughtUp() {
+                    return true;
+                }
+
+                @Override
+                public void close() {
+                    // holds nothing
+                }
+            };
+        }
+    }
+
+    private record Assigned(int reader, String replay, long epoch, long stamp) {}
+
+    /** The other side, with calls made at once or by {@link #poll}. */
+    private static final class Readers implements SplitEnumeratorContext<ReplaySplit> {
+        private final int parallelism;
+        private final Map<Integer, ReaderInfo> known = new HashMap<>();
+        private final List<Assigned> assigned = new ArrayList<>();
+        private final List<String> events = new ArrayList<>();
+        private Runnable poll;
+
+        Readers(int parallelism) {
+            this.parallelism = parallelism;
+        }
+
+        void register(int reader, ReplayEnumerator enumerator, ReplaySplit... reported) {
+            known.put(reader, ReaderInfo.createReaderInfo(reader, "here", List.of(reported)));
+            enumerator.addReader(reader);
+        }
+
+        void poll() {
+            poll.run();
+        }
+
+        List<Assigned> of(int reader) {
+            return assigned.stream().filter(one -> one.reader == reader).toList();
+        }
+
+        @Override
+        public SplitEnumeratorMetricGroup metricGroup() {
+            return UnregisteredMetricsGroup.createSplitEnumeratorMetricGroup();
+        }
+
+        @Override
+        public void sendEventToSourceReader(int reader, SourceEvent event) {
+            WantedEvent wanted = (WantedEvent) event;
+            events.add(reader + " " + wanted.replay() + (wanted.wanted() == null ? " removed" : " told"));
+        }
+
+        @Override
+        public int currentParallelism() {
+            return parallelism;
+        }
+
+        @Override
+        public Map<Integer, ReaderInfo> registeredReaders() {
+            return known;
+        }
+
+        @Override
+        public void assignSplits(SplitsAssignment<ReplaySplit> assignment) {
+            assignment
+                    .assignment()
+                    .forEach((reader, splits) -> splits.forEach(split -> assigned.add(new Assigned(
+                            reader,
+                            split.replay(),
+                            split.state().epoch(),
+                            split.state().stamp()))));
+        }
+
+        @Override
+        public void signalNoMoreSplits(int reader) {
+            events.add(reader + " no more");
+        }
+
+        @Override
+        public <T> void callAsync(Callable<T> callable, BiConsumer<T, Throwable> handler) {
+            try {
+                handler.accept(callable.call(), null);
+            } catch (Exception e) {
+                handler.accept(null, e);
+            }
+        }
+
+        @Override
+        public <T> void callAsync(
+                Callable<T> callable, BiConsumer<T, Throwable> handler, long initialDelay, long period) {
+            poll = () -> callAsync(callable, handler);
+        }
+
+        @Override
+        public void runInCoordinatorThread(Runnable task) {
+            task.run();
+        }
+    }
+}

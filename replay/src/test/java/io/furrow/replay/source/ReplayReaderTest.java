@@ -1,0 +1,255 @@
+package io.furrow.replay.source;
+
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.function.BooleanSupplier;
+
+import org.apache.flink.api.connector.source.ReaderOutput;
+import org.apache.flink.core.io.InputStatus;
+import org.apache.flink.runtime.execution.SuppressRestartsException;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.flink.TopicRecord;
+import io.furrow.mission.PageLimits;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.ReplayStatus.State;
+import io.furrow.model.control.WantedReplay;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.topic.Topics;
+import io.furrow.replay.playback.PlaybackState;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class ReplayReaderTest {
+    private static final long TIME = 1_700_000_000_000L;
+
+    private final MemoryRecordings missions = new MemoryRecordings();
+    private final List<TopicRecord> records = new ArrayList<>();
+    private final List<Long> times = new ArrayList<>();
+    private ReplayReader reader = newReader();
+
+    private ReplayReader newReader() {
+        ReplayReader fresh = new ReplayReader(new FakeContext(), missions, new PageLimits(2, 1_000));
+        fresh.start();
+        return fresh;
+    }
+
+    @AfterEach
+    void close() {
+        reader.close();
+    }
+
+    static WantedReplay wanted(String mission, double speed, State state, long sequence) {
+        String id8 = "0a1b2c3d";
+        return new WantedReplay(
+                mission + "." + id8,
+                mission,
+                Topics.replay(mission, id8),
+                null,
+                null,
+                speed,
+                false,
+                List.of(),
+                state,
+                null,
+                null,
+                sequence);
+    }
+
+    private void start(WantedReplay wanted) {
+        reader.addSplits(List.of(new ReplaySplit(wanted.replay(), wanted.toBytes(), PlaybackState.fresh())));
+    }
+
+    private void wish(WantedReplay wanted) {
+        reader.handleSourceEvents(new WantedEvent(wanted.replay(), wanted.toBytes()));
+    }
+
+    /** Until that many records of the mission of that kind are there; a minute at most without the reader being available. */
+    private void play(String mission, String kind, int count) throws Exception {
+        playUntil(() -> played(mission, kind).size() >= count);
+    }
+
+    private void playUntil(BooleanSupplier done) throws Exception {
+        ReaderOutput<TopicRecord> output = new FakeContext.Output(record -> {
+            records.add(record);
+            times.add(System.nanoTime());
+        });
+        long until = System.nanoTime() + TimeUnit.MINUTES.toNanos(1);
+        while (!done.getAsBoolean()) {
+            assertThat(System.nanoTime()).as("%s", records).isLessThan(until);
+            if (reader.pollNext(output) == InputStatus.NOTHING_AVAILABLE && !done.getAsBoolean()) {
+                reader.isAvailable().get(1, TimeUnit.MINUTES);
+            }
+        }
+    }
+
+    private List<TopicRecord> played(String mission, String kind) {
+        return records.stream()
+                .filter(record -> record.topic().equals(Topics.replay(mission, "0a1b2c3d")))
+                .filter(record -> kind.equals(record.headers().get(HeaderNames.REPLAY_KIND)))
+                .toList();
+    }
+
+    private ReplayStatus status(String mission) {
+        return records.stream()
+                .filter(record -> record.topic().equals(Topics.REPLAYS_STATUS))
+                .filter(record -> new String(record.key(), StandardCharsets.UTF_8).equals(mission + ".0a1b2c3d"))
+                .reduce((older, newer) -> newer)
+                .map(record -> {
+                    try {
+                        return ReplayStatus.read(record.value());
+                    } catch (io.furrow.model.ngsi.UnreadableException e) {
+                        throw new AssertionError(e);
+                    }
+                })
+                .orElse(null);
+    }
+
+    @Test
+    void wakesUpWhenTheNextEventIsDue() throws Exception {
+        missions.with("m", TIME, TIME + 200, TIME + 400, TIME + 600);
+        long started = System.nanoTime();
+
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "end", 1);
+
+        List<TopicRecord> events = played("m", "event");
+        assertThat(events).extracting(TopicRecord::timestamp).containsExactly(TIME, TIME + 200, TIME + 400, TIME + 600);
+        long took = times.get(records.indexOf(events.get(3))) - started;
+        assertThat(took).as("never early").isGreaterThan(TimeUnit.MILLISECONDS.toNanos(598));
+        assertThat(status("m").state()).isEqualTo(State.ENDED);
+        assertThat(status("m").progress().skipped()).isEqualTo(2);
+    }
+
+    @Test
+    void letsNoReplayHoldUpAnother() throws Exception {
+        missions.with("m", TIME, TIME + 50);
+        start(wanted("stuck", 1, State.RUNNING, 1));
+        start(wanted("unknown", 1, State.RUNNING, 1));
+        reader.addSplits(List.of(
+                new ReplaySplit("bad.0a1b2c3d", "no JSON".getBytes(StandardCharsets.UTF_8), PlaybackState.fresh())));
+        start(wanted("m", 1, State.RUNNING, 1));
+
+        playUntil(() -> !played("m", "end").isEmpty()
+                && status("unknown") != null
+                && status("unknown").state() == State.FAILED);
+
+        assertThat(played("m", "event")).hasSize(2);
+        assertThat(status("unknown").reason()).isEqualTo("there is no mission 'unknown'");
+        assertThat(status("bad").state()).isEqualTo(State.FAILED);
+        assertThat(status("bad").reason()).contains("cannot be read");
+        assertThat(status("stuck").state()).isEqualTo(State.RUNNING);
+    }
+
+    @Test
+    void saysThatItWaitsForARecordingAndGoesOn() throws Exception {
+        missions.with("m", TIME, TIME + 1, TIME + 2).setAway(true);
+        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+        playUntil(() -> status("m") != null && status("m").progress().waiting() != null);
+        assertThat(status("m").state()).isEqualTo(State.RUNNING);
+        assertThat(status("m").progress().waiting()).isEqualTo("the store is away");
+
+        missions.setAway(false);
+        play("m", "end", 1);
+
+        assertThat(played("m", "event")).hasSize(3);
+        assertThat(status("m").progress().waiting()).isNull();
+    }
+
+    @Test
+    void endsAnEmptyMissionWithAReason() throws Exception {
+        missions.with("m");
+        start(wanted("m", 1, State.RUNNING, 1));
+
+        playUntil(() -> status("m") != null && status("m").state().isOver());
+
+        assertThat(status("m").state()).isEqualTo(State.ENDED);
+        assertThat(status("m").reason()).isEqualTo("mission 'm' has no event");
+        assertThat(played("m", "end")).isEmpty();
+    }
+
+    @Test
+    void tellsTheEndAtOnceAndThatItIsSettledAfterACheckpoint() throws Exception {
+        missions.with("m", TIME);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "end", 1);
+        assertThat(status("m").state()).isEqualTo(State.ENDED);
+        assertThat(status("m").settled()).isFalse();
+
+        reader.snapshotState(4);
+        reader.notifyCheckpointComplete(3);
+        reader.notifyCheckpointComplete(4);
+        playUntil(() -> status("m").settled());
+
+        assertThat(status("m").sequence()).isEqualTo(1);
+    }
+
+    @Test
+    void goesOnWhereACheckpointWas() throws Exception {
+        missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 100_000);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "event", 3);
+
+        List<ReplaySplit> splits = new ArrayList<>();
+        ReplaySplitSerializer serializer = new ReplaySplitSerializer();
+        for (ReplaySplit split : reader.snapshotState(1)) {
+            splits.add(serializer.deserialize(serializer.getVersion(), serializer.serialize(split)));
+        }
+        reader.close();
+        reader = newReader();
+        reader.addSplits(splits);
+        wish(wanted("m", ReplayCommand.MAX, State.RUNNING, 2));
+        play("m", "end", 1);
+
+        assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20, TIME + 100_000);
+        assertThat(played("m", "event"))
+                .extracting(record -> record.headers().get(HeaderNames.REPLAY_SEQUENCE))
+                .containsExactly("0", "1", "2", "3");
+    }
+
+    @Test
+    void forgetsWhatNobodyWantsAndEndsItsEpoch() throws Exception {
+        missions.with("m", TIME, TIME + 100_000);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+
+        reader.handleSourceEvents(new WantedEvent("m.0a1b2c3d", null));
+        play("m", "end", 1);
+
+        assertThat(reader.snapshotState(1)).isEmpty();
+    }
+
+    private InputStatus lastStatus() throws Exception {
+        reader.notifyNoMoreSplits();
+        InputStatus status = InputStatus.MORE_AVAILABLE;
+        while (status != InputStatus.END_OF_INPUT) {
+            reader.isAvailable().get(1, TimeUnit.MINUTES);
+            status = reader.pollNext(new FakeContext.Output(records::add));
+        }
+        return status;
+    }
+
+    @Test
+    void endsWithItsReplayWhereNothingElseIsToCome() throws Exception {
+        missions.with("m", TIME, TIME + 1);
+        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+
+        assertThat(lastStatus()).isEqualTo(InputStatus.END_OF_INPUT);
+
+        assertThat(played("m", "end")).hasSize(1);
+    }
+
+    @Test
+    void failsWithItsReplayWhereNothingElseIsToCome() {
+        start(wanted("unknown", 1, State.RUNNING, 1));
+
+        assertThatThrownBy(this::lastStatus)
+                .isInstanceOf(SuppressRestartsException.class)
+                .hasRootCauseMessage("replay unknown.0a1b2c3d failed: there is no mission 'unknown'");
+    }
+}

@@ -1,0 +1,80 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.util.Arrays;
+import java.util.HexFormat;
+import java.util.List;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.EnumSource;
+
+import io.furrow.mission.Cursor;
+import io.furrow.replay.playback.PlaybackState;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class ReplaySplitSerializerTest {
+    private final ReplaySplitSerializer serializer = new ReplaySplitSerializer();
+
+    private static ReplaySplit split(PlaybackState.Phase phase, String reason, Long start) {
+        return new ReplaySplit(
+                "m.0a1b2c3d",
+                new byte[] {1, 2},
+                new PlaybackState(
+                        1, phase, reason, 2, 3, 4, 5, start, 6, new Cursor(7, "ñ"), 8, 9, 10, 11, 12, 13, 14));
+    }
+
+    @ParameterizedTest
+    @EnumSource(PlaybackState.Phase.class)
+    void givesBackWhatItWrote(PlaybackState.Phase phase) throws Exception {
+        for (ReplaySplit split : List.of(split(phase, null, -1L), split(phase, "why", null))) {
+            assertThat(serializer.deserialize(serializer.getVersion(), serializer.serialize(split)))
+                    .usingRecursiveComparison()
+                    .isEqualTo(split);
+        }
+    }
+
+    /** The bytes of the first version, as savepoints hold them. */
+    @Test
+    void readsTheFirstVersion() throws Exception {
+        byte[] stored = HexFormat.of()
+                .parseHex("0000000a6d2e3061316232633364" + "000000020102" + "0000000000000001" + "02" + "00000003776879"
+                        + "0000000000000002" + "0000000000000003" + "0000000000000004" + "0000000000000005" + "01"
+                        + "ffffffffffffffff" + "0000000000000006" + "0000000000000007" + "00000002c3b1"
+                        + "0000000000000008" + "0000000000000009" + "000000000000000a" + "000000000000000b"
+                        + "000000000000000c" + "000000000000000d" + "000000000000000e");
+
+        assertThat(serializer.deserialize(1, stored))
+                .usingRecursiveComparison()
+                .isEqualTo(split(PlaybackState.Phase.PLAYING, "why", -1L));
+    }
+
+    @Test
+    void refusesOtherVersionsAndWhatFollows() throws Exception {
+        byte[] bytes = serializer.serialize(split(PlaybackState.Phase.PLAYING, null, null));
+
+        assertThatThrownBy(() -> serializer.deserialize(2, bytes))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("version 2");
+        assertThatThrownBy(() -> serializer.deserialize(1, Arrays.copyOf(bytes, bytes.length + 1)))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("1 bytes follow");
+    }
+
+    @Test
+    void keepsReplaysWithoutAReader() throws Exception {
+        UnassignedReplaysSerializer all = new UnassignedReplaysSerializer();
+        UnassignedReplays replays = new UnassignedReplays(
+                List.of(split(PlaybackState.Phase.PLAYING, null, null), split(PlaybackState.Phase.ENDED, "x", 1L)));
+
+        byte[] bytes = all.serialize(replays);
+
+        assertThat(all.deserialize(all.getVersion(), bytes))
+                .usingRecursiveComparison()
+                .isEqualTo(replays);
+        assertThatThrownBy(() -> all.deserialize(1, Arrays.copyOf(bytes, bytes.length + 1)))
+                .isInstanceOf(IOException.class);
+    }
+}
