@@ -43,7 +43,7 @@ class CollisionRulesTest {
     void refuseSteadinessAndLimitsThatMakeNoSense() {
         assertThatThrownBy(() -> new Steadiness(0.9, SECOND)).hasMessage("the leave factor must be 1 to 100, not 0.9");
         assertThatThrownBy(() -> new Steadiness(1, Duration.ofMillis(-1))).hasMessageContaining("dwell");
-        assertThatThrownBy(() -> new CellRules(100, -1)).hasMessageContaining("devices of a crowd");
+        assertThatThrownBy(() -> new CellRules(100, -1)).hasMessageContaining("--crowd");
         assertThatThrownBy(() -> CollisionRules.DEFAULT.with(new Steadiness(21, SECOND)))
                 .hasMessageContaining(
                         "the cell must be at least as high as the threshold at which encounters end, 105.0");
