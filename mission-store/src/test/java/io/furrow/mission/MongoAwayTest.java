@@ -35,9 +35,10 @@ class MongoAwayTest {
         int port = FreePort.orFree(0);
         MongoRecordings recordings = new MongoRecordings(
                 "mongodb://u:secret@127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
-        MongoRecordings reachable =
+        MongoRecordings reachable = new MongoRecordings("mongodb://127.0.0.1:" + port, MongoAccess.DATABASE);
+        MongoRecordings impatient =
                 new MongoRecordings("mongodb://127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
-        assertThatThrownBy(() -> reachable.open("hoeing"))
+        assertThatThrownBy(() -> impatient.open("hoeing"))
                 .isInstanceOf(RecordingException.class)
                 .hasMessageStartingWith("Mission hoeing cannot be read from MongoDB at 127.0.0.1:" + port)
                 .hasMessageEndingWith("Check that MongoDB runs there and answers.");

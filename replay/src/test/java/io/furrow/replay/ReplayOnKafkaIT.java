@@ -73,12 +73,14 @@ class ReplayOnKafkaIT {
     void doesWhatItIsTold() throws Exception {
         suite.store("m", 100, 1_000);
         suite.run(null, "--parallelism", "2");
-        suite.want(wanted("m", 100, State.RUNNING, 1));
-        await().until(() -> suite.status("m") != null);
-        suite.want(wanted("m", 100, State.PAUSED, 2));
+        suite.want(wanted("m", 1, State.RUNNING, 1));
+        await().until(() -> suite.status("m") != null
+                && suite.status("m").progress() != null
+                && suite.status("m").progress().events() > 0);
+        suite.want(wanted("m", 1, State.PAUSED, 2));
         awaitStatus("m", State.PAUSED, 2);
 
-        WantedReplay sought = seeking(wanted("m", 100, State.PAUSED, 3), TIME + 50_000);
+        WantedReplay sought = seeking(wanted("m", 1, State.PAUSED, 3), TIME + 50_000);
         suite.want(sought);
         awaitStatus("m", State.PAUSED, 3);
         await().until(() -> played("m", "1", "prime").size() == 4);
@@ -124,7 +126,7 @@ class ReplayOnKafkaIT {
     void leavesNoGapAndDoublesNothingWhereItIsKilledAndMoved() throws Exception {
         List<String> missions = List.of("a", "b", "c");
         for (String mission : missions) {
-            suite.store(mission, 1_000, 10);
+            suite.store(mission, 1_500, 10);
             suite.want(wanted(mission, 1, State.RUNNING, 1));
         }
         JobID job = suite.run(null, "--parallelism", "1", "--delivery", "exactly-once");
@@ -135,20 +137,21 @@ class ReplayOnKafkaIT {
         suite.flink().cluster().startTaskManager();
         await().until(() -> suite.flink().status(job) == JobStatus.RUNNING);
         await().until(() -> suite.status("a").progress().events() > 400);
+        assertThat(suite.status("a").state()).isEqualTo(State.RUNNING);
         String savepoint = suite.stop(job, directory.resolve("savepoints"));
         suite.run(savepoint, "--parallelism", "3", "--delivery", "exactly-once");
 
         for (String mission : missions) {
             await().until(() ->
                     suite.status(mission).settled() && suite.status(mission).state() == State.ENDED);
-            assertThat(numbers(mission)).as(mission).isEqualTo(all(1_000));
+            assertThat(numbers(mission)).as(mission).isEqualTo(all(1_500));
             assertThat(played(mission, "0", "end")).hasSize(3);
         }
     }
 
     @Test
     void waitsForMongoAndFailsWhatIsUnknown() throws Exception {
-        suite.store("m", 400, 10);
+        suite.store("m", 400, 100);
         suite.run(null, "--parallelism", "1", "--page-events", "20");
         suite.want(wanted("unknown", 1, State.RUNNING, 1));
         awaitStatus("unknown", State.FAILED, 1);
@@ -160,8 +163,9 @@ class ReplayOnKafkaIT {
         await().until(() -> suite.status("m").progress().waiting() != null);
         assertThat(suite.status("m").state()).isEqualTo(State.RUNNING);
         suite.startMongo();
+        suite.want(wanted("m", ReplayCommand.MAX, State.RUNNING, 2));
 
-        awaitStatus("m", State.ENDED, 1);
+        awaitStatus("m", State.ENDED, 2);
         assertThat(numbers("m")).isEqualTo(all(400));
     }
 }

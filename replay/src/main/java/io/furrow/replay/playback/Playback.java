@@ -257,7 +257,7 @@ public final class Playback {
             return at.position();
         }
         StoredEvent next = ahead.peek();
-        long most = next != null ? next.time() : ahead.isOver() ? at.position() : Epochs.SPAN - 1;
+        long most = next == null ? at.position() : next.time(); // of what is not read yet nobody knows when it was
         return timeline.at(now, at.position(), Math.max(at.position(), most));
     }
 

@@ -74,7 +74,7 @@ final class PageReader implements AutoCloseable {
             out.accept(new Fetched.Waiting(fetch.epoch(), e.getMessage()));
             long longer = Math.min(2 * retryMillis, LONGEST_RETRY_MILLIS);
             thread.schedule(() -> attempt(fetch, longer), retryMillis, TimeUnit.MILLISECONDS);
-        } catch (RuntimeException e) { // a fault of the reader is this replay's end, and nobody else's
+        } catch (RuntimeException | Error e) { // a fault of the reader is this replay's end, and nobody else's
             release();
             LOG.error("Recording of mission {} cannot be read", mission, e);
             out.accept(new Fetched.Gone(fetch.epoch(), "the recording cannot be read: " + e));
@@ -100,10 +100,21 @@ final class PageReader implements AutoCloseable {
     }
 
     private void release() {
-        if (recording != null) {
-            recording.close();
-            recording = null;
+        Recording released = recording;
+        recording = null;
+        if (released != null) {
+            try {
+                released.close();
+            } catch (RuntimeException e) {
+                LOG.warn("Recording of mission {} was not closed", mission, e);
+            }
         }
+    }
+
+    /** Asks no more for what it was asked for, and holds no connection until it is asked again. */
+    void rest() {
+        newest = null;
+        thread.execute(this::release);
     }
 
     @Override

@@ -39,7 +39,6 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
     private final Counter rejected;
     private volatile WantedReplays.Reading wishes;
     private boolean caughtUp;
-    private boolean ended;
 
     /** What one call of the reading thread found. */
     private record Found(List<WantedReplays.Wish> wishes, boolean caughtUp) {}
@@ -136,8 +135,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
             context.assignSplit(split, reader);
             tell(reader, split.replay());
         }
-        if (source.isBounded() && !ended) {
-            ended = true;
+        if (source.isBounded()) { // also to readers that are there again after a failure
             context.registeredReaders().keySet().forEach(context::signalNoMoreSplits);
         }
     }
@@ -176,11 +174,17 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
                 .orElseThrow();
     }
 
-    /** The replays that it had are those that it reports, or come back by {@link #addSplitsBack}. */
+    /**
+     * The replays that it had are those that it reports, or come back by {@link #addSplitsBack}. Of those of a checkpoint another
+     * reader may have some since, which goes on with them.
+     */
     @Override
     public void addReader(int reader) {
         readers.values().removeIf(other -> other == reader);
-        List<ReplaySplit> reported = context.registeredReaders().get(reader).getReportedSplitsOnRegistration();
+        List<ReplaySplit> reported =
+                context.registeredReaders().get(reader).<ReplaySplit>getReportedSplitsOnRegistration().stream()
+                        .filter(split -> !readers.containsKey(split.replay()))
+                        .toList();
         addSplitsBack(reported, reader);
     }
 

@@ -37,6 +37,8 @@ final class RunningReplay {
     private Playback playback;
     private PageReader pages;
     private boolean removed;
+    /** Whether it is over and nothing is read for it. */
+    private boolean rests;
 
     /** @param wakeUp lets the reader come again, from any thread */
     record Reading(Recordings recordings, PageLimits limits, Runnable wakeUp) {}
@@ -46,6 +48,7 @@ final class RunningReplay {
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
         this.refusedAt = split.state();
+        this.wanted = split.wanted();
         take(split.wanted(), now);
     }
 
@@ -60,9 +63,9 @@ final class RunningReplay {
 
     /** Begins the playback, or the next part of it; a record that this ends the epoch with is returned. */
     private Optional<Played> take(byte[] next, long now) {
-        wanted = next;
         try {
             WantedReplay replay = WantedReplay.read(name, next);
+            wanted = next;
             refusal = null;
             if (playback != null) {
                 return playback.apply(replay, now);
@@ -109,6 +112,12 @@ final class RunningReplay {
             write(played.get(), out);
         }
         reports.report(playback, now, out);
+        if (playback.isOver() != rests) {
+            rests = playback.isOver();
+            if (rests) {
+                pages.rest();
+            }
+        }
         return Math.min(playback.due(), reports.due(playback));
     }
 

@@ -2,7 +2,9 @@ package io.furrow.replay.source;
 
 import java.io.IOException;
 import java.io.Serializable;
+import java.time.Duration;
 import java.util.List;
+import java.util.concurrent.locks.LockSupport;
 
 import io.furrow.model.control.ReplayStatus;
 
@@ -46,6 +48,8 @@ public interface WantedReplays extends Serializable {
 
     /** One replay and no other. */
     record One(String replay, byte[] wanted) implements WantedReplays {
+        private static final Duration IDLE = Duration.ofMillis(500);
+
         @Override
         public boolean isBounded() {
             return true;
@@ -63,9 +67,12 @@ public interface WantedReplays extends Serializable {
 
                 @Override
                 public List<Wish> poll() {
-                    List<Wish> wishes = read ? List.of() : List.of(new Wish(replay, wanted));
+                    if (read) {
+                        LockSupport.parkNanos(IDLE.toNanos());
+                        return List.of();
+                    }
                     read = true;
-                    return wishes;
+                    return List.of(new Wish(replay, wanted));
                 }
 
                 @Override

@@ -117,6 +117,41 @@ class ReplayEnumeratorTest {
     }
 
     @Test
+    void leavesToItsReaderWhatAnotherHadAtACheckpoint() {
+        ReplayEnumerator enumerator = enumerator();
+        script.next = List.of(wish("a", 1));
+        readers.poll();
+        readers.register(0, enumerator);
+        readers.register(1, enumerator, split("a"), split("b"));
+        script.next = List.of(wish("b", 1));
+        readers.poll();
+        int before = readers.assigned.size();
+        assertThat(readers.of(0)).isNotEmpty();
+        ReplaySplit moved = split(readers.of(0).get(0).replay().substring(0, 1));
+
+        readers.register(1, enumerator, moved);
+
+        assertThat(readers.assigned.stream().skip(before))
+                .as("reader 0 plays it already")
+                .noneMatch(one -> one.replay().equals(moved.replay()));
+    }
+
+    @Test
+    void tellsAReaderThatIsThereAgainThatNoMoreComes() {
+        script.bounded = true;
+        ReplayEnumerator enumerator = enumerator();
+        script.next = List.of(wish("a", 1));
+        readers.poll();
+        readers.register(0, enumerator);
+        readers.register(1, enumerator);
+        readers.events.clear();
+
+        readers.register(0, enumerator, split("a"));
+
+        assertThat(readers.events).contains("0 no more");
+    }
+
+    @Test
     void passesOverWhatIsNoReplay() {
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
@@ -134,10 +169,11 @@ class ReplayEnumeratorTest {
 
         private transient List<Told> told = List.of();
         private transient List<Wish> next = List.of();
+        private transient boolean bounded;
 
         @Override
         public boolean isBounded() {
-            return false;
+            return bounded;
         }
 
         @Override

@@ -1,0 +1,47 @@
+package io.furrow.replay.playback;
+
+import java.util.List;
+import java.util.Optional;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayStatus.State;
+import io.furrow.model.control.WantedReplay;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** What a recording that is slow to answer does to a replay. */
+class PlaybackTest {
+    private static final StoredEvent FIRST = Missions.event("a", Missions.TIME, "urn:d0");
+    private static final StoredEvent NEXT = Missions.event("b", Missions.TIME + 1_000, "urn:d0");
+
+    @Test
+    void standsWhereItIsWhileItDoesNotKnowWhatComesNext() {
+        WantedReplay wanted = Wishes.start(ReplayCommand.MAX);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0);
+        playback.fetch();
+        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time(), 2))), 0);
+        playback.fetch();
+        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, false)), 0);
+        assertThat(playback.poll(0)).map(Played::event).contains(FIRST);
+        playback.fetch();
+
+        assertThat(playback.snapshot(100).position()).isEqualTo(FIRST.time());
+        WantedReplay paused = Wishes.with(wanted, State.PAUSED, 1, null, 0);
+        playback.apply(paused, 100);
+        playback.apply(Wishes.with(paused, State.RUNNING, 1, null, 0), 200);
+        playback.take(new Fetched.More(0, page(NEXT, true)), 300);
+
+        assertThat(playback.poll(1_199)).as("a second after it went on").isEmpty();
+        assertThat(playback.poll(1_200)).map(Played::event).contains(NEXT);
+    }
+
+    private static Page page(StoredEvent event, boolean last) {
+        return new Page(List.of(event), List.of(), Cursor.after(event), last);
+    }
+}
