@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Brings bad records of every kind among good ones through normalise and ingest, and counts what becomes of them.
+# Brings bad records of every kind among good ones through normalize and ingest, and counts what becomes of them.
 set -euo pipefail
 
 soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -17,7 +17,7 @@ usage() {
     cat <<USAGE
 Usage: ./furrow soak bad-records [OPTION VALUE]…
 Writes good events, half of them native notifications, half records of data.raw, and among them bad records of the kinds of
-src/test/resources/io/furrow/soak/bad-records.txt, to a Kafka of its own, and runs normalise and ingest on a Flink of its
+src/test/resources/io/furrow/soak/bad-records.txt, to a Kafka of its own, and runs normalize and ingest on a Flink of its
 own, all in one JVM. Then every good event must have come out once, and every bad record be a dead letter with its reason;
 brought back to their topics, all must become the same dead letters again.
 
@@ -42,7 +42,7 @@ done
 logs=$home/target/soak/bad-records
 rm -rf "$logs"
 mkdir -p "$logs"
-build_soaks launcher
+build_soaks system-tests
 
 opens=(--add-exports=java.rmi/sun.rmi.registry=ALL-UNNAMED)
 for package in lang net io nio lang.reflect text time util util.concurrent util.concurrent.atomic util.concurrent.locks; do
@@ -52,7 +52,7 @@ opens+=(--add-opens=java.base/sun.nio.ch=ALL-UNNAMED)
 
 say "$good good events and $bad bad records"
 "$java" -Xmx1536m -XX:+UseParallelGC "${opens[@]}" -Dfurrow.log="$logs/furrow.log" \
-    -cp "$home/launcher/target/test-classes:$home/launcher/target/furrow/lib/*" io.furrow.soak.BadAmongGood "$good" "$bad" ||
+    -cp "$home/system-tests/target/test-classes:$home/launcher/target/furrow/lib/*" io.furrow.soak.BadAmongGood "$good" "$bad" ||
     fail "What came out differs from what went in; log: $logs/furrow.log"
 say "all is accounted for"
 echo "bad-records: passed"

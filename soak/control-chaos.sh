@@ -45,7 +45,7 @@ done
 prepare_source control-chaos
 suite=$home/launcher/target
 lib=$suite/furrow/lib
-"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$suite/test-classes:$lib/*:$suite/furrow/lib-last/*" \
+"$java" -Xmx768m -Dfurrow.log="$logs/driver.log" -cp "$home/system-tests/target/test-classes:$lib/*:$suite/furrow/lib-last/*" \
     io.furrow.soak.control.ControlChaos "$logs/farm" "$minutes" "$seed" \
     > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/driver.out" &
 own $!

@@ -23,7 +23,7 @@ window=5
 usage() {
     cat <<USAGE
 Usage: ./furrow soak flink-run [OPTION VALUE]…
-Runs every job with flink run on a standalone Flink $flink_version beside a Kafka broker, both started for this: ingest, normalise,
+Runs every job with flink run on a standalone Flink $flink_version beside a Kafka broker, both started for this: ingest, normalize,
 presence, temperature twice (blue and green) and collision twice (two thresholds). While numbered events come in, stops all
 with a savepoint and goes on from it. Then everything that the jobs wrote must be there once, and green must be as blue. FLINK_HOME names a distribution; without it one is fetched once, some 315 MB.
 
@@ -54,9 +54,9 @@ command -v curl >/dev/null || fail "No curl found, which asks Flink whether it i
 
 run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-flink-run.XXXXXX")
 logs=$home/target/soak/flink-run
-classes=$home/launcher/target/test-classes:$home/launcher/target/furrow/lib/*
+classes=$home/system-tests/target/test-classes:$home/launcher/target/furrow/lib/*
 # An instance is a job, or a job and what its name adds.
-instances=(ingest normalise presence temperature temperature-green collision collision-wide)
+instances=(ingest normalize presence temperature temperature-green collision collision-wide)
 ids=()
 savepoints=()
 
@@ -80,13 +80,13 @@ mkdir -p "$logs"
 
 jar_of() {
     local module=analytics
-    [[ $1 == ingest || $1 == normalise ]] && module=ingest
+    [[ $1 == ingest || $1 == normalize ]] && module=ingest
     ls "$home/$module/target/furrow-$module"-*-job.jar
 }
 
 # Each job explains itself where Flink is not.
 check_help() {
-    for name in ingest normalise presence temperature collision; do
+    for name in ingest normalize presence temperature collision; do
         "$java" -jar "$(jar_of "$name")" "$name" --help >"$logs/$name.help" 2>&1 || fail "$name --help fails: $logs/$name.help"
         grep -q -- '--bootstrap-servers' "$logs/$name.help" || fail "$name --help shows no options: $logs/$name.help"
     done
@@ -97,7 +97,7 @@ run_job() {
     local instance=$1 name=${1%%-*} subtasks=$2 own_options=(--name "$1")
     shift 2
     case $name in
-        normalise) own_options+=(--input orion.native --output data.raw.native) ;;
+        normalize) own_options+=(--input orion.native --output data.raw.native) ;;
         temperature) own_options+=(--fields "$soak/fields.geojson" --window "${window}s") ;;
         presence) own_options+=(--fields "$soak/fields.geojson") ;;
     esac
@@ -123,7 +123,7 @@ stop_job() {
 show_jobs() { "$java" -Dfurrow.log="$logs/client.log" -cp "$classes" io.furrow.soak.ClusterJobs "$rest" "${ids[@]}"; }
 writing() { grep -q '^writing' "$logs/events.out"; }
 
-build_soaks launcher
+build_soaks system-tests
 check_help
 say "--help of all jobs works without Flink"
 provide_flink

@@ -56,10 +56,10 @@ class_of() {
     case $1 in
         bodies) echo io.furrow.connect.source.FuzzBodies ;;
         journal) echo io.furrow.connect.journal.FuzzJournal ;;
-        records) echo io.furrow.connect.source.FuzzRecords ;;
-        pages) echo io.furrow.connect.repair.FuzzPages ;;
-        answers) echo io.furrow.connect.sink.FuzzAnswers ;;
-        gzip) echo io.furrow.connect.source.FuzzGzip ;;
+        records) echo io.furrow.connect.source.journal.FuzzRecords ;;
+        pages) echo io.furrow.connect.repair.entity.FuzzPages ;;
+        answers) echo io.furrow.connect.sink.api.FuzzAnswers ;;
+        gzip) echo io.furrow.connect.source.http.FuzzGzip ;;
     esac
 }
 

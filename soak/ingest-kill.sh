@@ -59,7 +59,7 @@ command -v curl >/dev/null || fail "No curl found, which asks Flink whether it i
 base=$(mktemp -d "${TMPDIR:-/tmp}/furrow-ingest-kill.XXXXXX")
 all_logs=$home/target/soak/ingest-kill
 logs=$all_logs
-classes=$home/launcher/target/test-classes:$home/launcher/target/furrow/lib/*
+classes=$home/system-tests/target/test-classes:$home/launcher/target/furrow/lib/*
 
 clean_up() {
     local code=$?
@@ -148,14 +148,14 @@ kill_at_random_moments() {
     done
 }
 
-build_soaks launcher
+build_soaks system-tests
 provide_flink
 RANDOM=$seed
 pauses=()
 for ((i = 0; i < kills; i++)); do pauses+=($((RANDOM % (longest * 1000)))); done
 say "seed $seed, before each kill at most $longest s"
 
-# Names of one length: the catalogue counts the bytes of events, in which is where images are.
+# Names of one length: the catalog counts the bytes of events, in which is where images are.
 begin disturbed
 load "$rate" "$run/enough"
 run_job

@@ -38,7 +38,7 @@ logs=$home/target/soak/job-restarts
 rm -rf "$logs"
 mkdir -p "$logs"
 
-for job in Ingest:ingest Normalise:ingest Temperature:analytics Collision:analytics Presence:analytics; do
+for job in Ingest:ingest Normalize:ingest Temperature:analytics Collision:analytics Presence:analytics; do
     test=${job%:*}RestartTest
     say "$test"
     if ! (cd "$home" && ./mvnw -B -ntp -pl "${job#*:}" -am test -Dspotless.check.skip -Dtest="$test" \

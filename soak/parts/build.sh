@@ -4,7 +4,7 @@
 # build_soaks MODULES: comma-separated, those that the soak runs.
 build_soaks() {
     local built=$home/launcher/target/soak-built
-    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src "$home/src" -newer "$built" -print -quit) ]] && return
+    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src -newer "$built" -print -quit) ]] && return
     say "building"
     (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dspotless.check.skip -pl ingest,analytics,"$1" -am) \
         >"$logs/build.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }

@@ -34,9 +34,9 @@ clean_up() {
 
 build_source() {
     local built=$home/launcher/target/source-soak-built
-    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src "$home/src" -newer "$built" -print -quit) ]] && return
+    [[ -f $built && -z $(find "$home/pom.xml" "$home"/*/pom.xml "$home"/*/src -newer "$built" -print -quit) ]] && return
     say "building the connector"
-    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dshade.skip=true -Dspotless.check.skip -pl launcher -am) \
+    (cd "$home" && ./mvnw -B -ntp package -DskipTests -Dshade.skip=true -Dspotless.check.skip -pl system-tests -am) \
         >"$logs/build.log" 2>&1 || { grep -E '^\[ERROR\]' "$logs/build.log" | head -n 5 >&2; fail "The build failed."; }
     touch "$built" "$home/launcher/target/furrow/built"
 }
@@ -46,7 +46,7 @@ run_source() {
     local class=$1 suite=$home/launcher/target
     shift
     "$java" -Xmx768m -Dfurrow.log="$logs/$class.log" -Dfurrow.plugins="$suite/furrow/plugins" \
-        -cp "$suite/test-classes:$suite/furrow/lib/*" "io.furrow.soak.source.$class" "$@" \
+        -cp "$home/system-tests/target/test-classes:$suite/furrow/lib/*" "io.furrow.soak.source.$class" "$@" \
         > >(while IFS= read -r line; do say "$line"; done) 2>>"$logs/$class.out" &
     own $!
     wait $!

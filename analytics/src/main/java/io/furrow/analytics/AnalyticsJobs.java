@@ -3,10 +3,14 @@ package io.furrow.analytics;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.analytics.presence.PresenceJob;
 import io.furrow.analytics.presence.PresenceOptions;
+import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
-import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
 
 /** The analytics job jar: one subcommand per job. Touches no Flink type until a job is started. */
 @Command(
@@ -22,6 +26,16 @@ public final class AnalyticsJobs {
     private boolean help;
 
     public static void main(String[] args) {
-        JobCommandLine.run(new AnalyticsJobs(), args);
+        JobCommandLine.run(new AnalyticsJobs(), AnalyticsJobs::start, args);
+    }
+
+    private static void start(JobOptions options) throws Exception {
+        if (options instanceof CollisionOptions collision) {
+            CollisionJob.assemble(collision).execute();
+        } else if (options instanceof PresenceOptions presence) {
+            PresenceJob.assemble(presence).execute();
+        } else if (options instanceof TemperatureOptions temperature) {
+            TemperatureJob.assemble(temperature).execute();
+        }
     }
 }

@@ -14,7 +14,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import picocli.CommandLine;
 
-import io.furrow.flink.JobOptions;
+import io.furrow.flink.job.JobOptions;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -10,7 +10,6 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.stream.Stream;
 
-import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -32,8 +31,8 @@ import io.furrow.analytics.temperature.TemperatureJob;
 import io.furrow.analytics.temperature.TemperatureOptions;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobOptions;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Original;
@@ -106,15 +105,11 @@ class LargeRecordsIT {
     }
 
     private static void makeTopics(EmbeddedKafka kafka) throws Exception {
-        try (Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
-            NewTopic input = new NewTopic(INPUT, Optional.of(1), Optional.empty());
-            Stream<NewTopic> small = Stream.of(Topics.dead(INPUT), Topics.TEMPERATURE_LATE)
-                    .map(name -> new NewTopic(name, Optional.of(1), Optional.empty())
-                            .configs(Map.of("max.message.bytes", KAFKA_DEFAULT)));
-            admin.createTopics(Stream.concat(Stream.of(input), small).toList())
-                    .all()
-                    .get();
-        }
+        NewTopic input = new NewTopic(INPUT, Optional.of(1), Optional.empty());
+        Stream<NewTopic> small = Stream.of(Topics.dead(INPUT), Topics.TEMPERATURE_LATE)
+                .map(name -> new NewTopic(name, Optional.of(1), Optional.empty())
+                        .configs(Map.of("max.message.bytes", KAFKA_DEFAULT)));
+        kafka.createTopics(Stream.concat(Stream.of(input), small).toList());
     }
 
     private static void submit(EmbeddedKafka kafka, EmbeddedFlink flink) {

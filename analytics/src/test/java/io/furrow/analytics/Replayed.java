@@ -12,9 +12,9 @@ import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
@@ -106,7 +106,7 @@ public final class Replayed {
 
     /** Those of the job's own source, with a watermark after each record. Records of other topics only begin event time. */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
-        WatermarkStrategy<TopicRecord> own = KafkaEnds.watermarks(options);
+        WatermarkStrategy<TopicRecord> own = KafkaConnectors.watermarks(options);
         TimestampAssignerSupplier<TopicRecord> timestamps = own::createTimestampAssigner;
         return WatermarkStrategy.<TopicRecord>forGenerator(
                         context -> new EachRecord(own.createWatermarkGenerator(context)))

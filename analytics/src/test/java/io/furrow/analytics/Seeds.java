@@ -8,7 +8,7 @@ public final class Seeds {
     private Seeds() {}
 
     /**
-     * Neighbouring seeds give {@link Random}s whose first numbers are nearly the same: of 600 worlds in a row all would have
+     * Neighboring seeds give {@link Random}s whose first numbers are nearly the same: of 600 worlds in a row all would have
      * as many devices. So the seed is scrambled first.
      */
     public static Random random(long seed) {

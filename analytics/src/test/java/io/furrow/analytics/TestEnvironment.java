@@ -4,8 +4,8 @@ import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.RestartStrategyOptions;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.JobOptions;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.job.JobOptions;
 
 /**
  * The environment of a job, but that it fails at the first exception, because restarted again and again a test would never

@@ -2,7 +2,7 @@ package io.furrow.control;
 
 import java.io.IOException;
 
-import io.furrow.control.readiness.PartStatus;
+import io.furrow.kafka.PartStatus;
 
 /**
  * The three managers in this JVM. Several instances of the same settings share the work: the managers of domains and of missions
@@ -23,7 +23,12 @@ public final class ControlPlane implements AutoCloseable {
     public static ControlPlane start(ControlSettings settings) throws IOException {
         ServiceTopics.prepare(settings);
         return new ControlPlane(StreamsApplication.start(
-                "managers", () -> ControlTopology.of(settings.remembered(), settings.missions()), settings.streams()));
+                "managers",
+                () -> ControlTopology.of(
+                        settings.remembered(),
+                        settings.missions(),
+                        settings.replays().knowsRecordings()),
+                settings.streams()));
     }
 
     /** Whether it answers requests: it runs, and has its state, not being about to rebuild or to hand it over. */

@@ -7,6 +7,7 @@ import org.apache.kafka.streams.StreamsConfig;
 
 import io.furrow.control.manager.FailureHandler;
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.Limits;
 import io.furrow.model.event.FiwareScope;
 
@@ -18,9 +19,15 @@ import io.furrow.model.event.FiwareScope;
  * @param replicationFactor of the topics that it makes; -1 for the broker's default
  * @param remembered how long ids of requests are, so that a second request of the same id has no effect
  * @param missions how missions are run
+ * @param replays how replays are managed
  */
 public record ControlSettings(
-        Properties client, int standbyReplicas, short replicationFactor, Duration remembered, MissionOptions missions) {
+        Properties client,
+        int standbyReplicas,
+        short replicationFactor,
+        Duration remembered,
+        MissionOptions missions,
+        ReplaySettings replays) {
     /** Name of the group, first part of the names of its topics, of which state is rebuilt: never changed. */
     static final String APPLICATION = "furrow-control-plane";
 
@@ -42,20 +49,25 @@ public record ControlSettings(
                 0,
                 (short) -1,
                 Duration.ofHours(1),
-                new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT));
+                new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT),
+                ReplaySettings.DEFAULT);
     }
 
     public ControlSettings with(MissionOptions newMissions) {
-        return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions);
+        return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions, replays);
     }
 
     /** The missions' entities belong to a tenant of the context broker, at the root of its service paths. */
     public ControlSettings withTenant(String service) {
-        return with(new MissionOptions(missions.patience(), FiwareScope.of(service, "/")));
+        return with(new MissionOptions(missions.timeout(), FiwareScope.of(service, "/")));
     }
 
     public ControlSettings withStandbyReplicas(int replicas) {
-        return new ControlSettings(client, replicas, replicationFactor, remembered, missions);
+        return new ControlSettings(client, replicas, replicationFactor, remembered, missions, replays);
+    }
+
+    public ControlSettings with(ReplaySettings newReplays) {
+        return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, missions, newReplays);
     }
 
     Properties streams() {

@@ -8,7 +8,7 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.Topology;
 
 import io.furrow.control.domain.DomainManager;
-import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.control.mission.MissionManager;
 import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplayManager;
@@ -17,23 +17,26 @@ import io.furrow.control.replay.ReplayManager;
 final class ControlTopology {
     private ControlTopology() {}
 
-    /** @param remembered how long ids of requests are */
-    static Topology of(Duration remembered, MissionOptions missions) {
+    /**
+     * @param remembered how long ids of requests are
+     * @param knowsRecordings whether replays of missions that {@code service.recordings} does not list are refused
+     */
+    static Topology of(Duration remembered, MissionOptions missions, boolean knowsRecordings) {
         StreamsBuilder builder = new StreamsBuilder();
 
         for (List<String> shared : List.of(DomainManager.stores(), MissionManager.stores())) {
-            shared.forEach(store -> builder.addStateStore(StoreRecords.builder(store)));
+            shared.forEach(store -> builder.addStateStore(StoredRecords.builder(store)));
         }
 
         DomainManager.add(
                 builder,
                 remembered,
-                (context, outbox) -> MissionManager.desk(context, outbox, missions),
+                (context, outbox) -> MissionManager.handler(context, outbox, missions),
                 MissionManager.stores());
 
         MissionManager.add(builder, remembered, missions);
 
-        ReplayManager.add(builder, remembered, UUID::randomUUID);
+        ReplayManager.add(builder, remembered, UUID::randomUUID, knowsRecordings);
 
         return builder.build();
     }

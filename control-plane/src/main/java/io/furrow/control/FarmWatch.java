@@ -7,7 +7,7 @@ import java.util.Properties;
 import org.apache.kafka.streams.StreamsConfig;
 
 import io.furrow.control.alarm.AlarmActions;
-import io.furrow.control.readiness.PartStatus;
+import io.furrow.kafka.PartStatus;
 
 /**
  * Watches the farm in this JVM: health of devices, alarms, the entities of domains and missions. It is an application of its

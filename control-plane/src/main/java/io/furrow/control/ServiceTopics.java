@@ -26,12 +26,12 @@ import io.furrow.model.topic.Topics;
 
 /**
  * The topics that the control plane reads and writes. Requests are kept for the broker's retention and stamped by the broker; what
- * is wanted and what is are compacted, one partition each, so that nothing overtakes. Topics of data that are missing are made
+ * is requested and what is are compacted, one partition each, so that nothing overtakes. Topics of data that are missing are made
  * with the broker's number of partitions.
  */
 public final class ServiceTopics {
-    private static final long PATIENCE_SECONDS = 30;
-    private static final long LOOK_MILLIS = 50;
+    private static final long TIMEOUT_SECONDS = 30;
+    private static final long POLL_INTERVAL_MILLIS = 50;
     private static final String POLICY = "cleanup.policy";
     private static final String MAX_BYTES = "max.message.bytes";
 
@@ -44,6 +44,7 @@ public final class ServiceTopics {
             Topics.DEVICES,
             Topics.MISSION_DEVICES,
             Topics.REPLAYS,
+            Topics.RECORDINGS,
             Topics.MISSIONS_STATUS,
             Topics.DEVICES_STATUS,
             Topics.DEVICES_HEALTH,
@@ -76,7 +77,7 @@ public final class ServiceTopics {
 
     /**
      * Makes those that are missing. Of those that are there, as a client makes them by asking first, the cleanup policy and the
-     * limits are put right: else the broker would delete what is wanted, or take records that nobody can handle.
+     * limits are put right: else the broker would delete what is requested, or take records that nobody can handle.
      *
      * @throws IOException if Kafka does not answer or refuses
      */
@@ -111,15 +112,15 @@ public final class ServiceTopics {
     /** A broker learns of a topic some time after it was made, and who reads before that finds none. */
     private static void awaitKnown(Admin admin, List<String> names)
             throws ExecutionException, InterruptedException, TimeoutException {
-        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(PATIENCE_SECONDS);
+        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(TIMEOUT_SECONDS);
         while (!admin.listTopics()
                 .names()
-                .get(PATIENCE_SECONDS, TimeUnit.SECONDS)
+                .get(TIMEOUT_SECONDS, TimeUnit.SECONDS)
                 .containsAll(names)) {
             if (System.nanoTime() > end) {
                 throw new TimeoutException("the broker does not know of all topics that were made");
             }
-            TimeUnit.MILLISECONDS.sleep(LOOK_MILLIS);
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MILLIS);
         }
     }
 
@@ -131,7 +132,7 @@ public final class ServiceTopics {
     }
 
     /**
-     * The time of the broker, because the control plane tells old requests from new ones by it. Uncompressed, because the broker then
+     * The time of the broker, because the control plane distinguishes old requests from new ones by it. Uncompressed, because the broker then
      * measures records as a manager will see them: a megabyte may hold a gigabyte.
      */
     private static Map<String, String> requestConfigs() {
@@ -168,7 +169,7 @@ public final class ServiceTopics {
     private static void await(KafkaFuture<Void> done, boolean mayBeThere)
             throws ExecutionException, InterruptedException, TimeoutException {
         try {
-            done.get(PATIENCE_SECONDS, TimeUnit.SECONDS);
+            done.get(TIMEOUT_SECONDS, TimeUnit.SECONDS);
         } catch (ExecutionException e) {
             if (!mayBeThere || !(e.getCause() instanceof TopicExistsException)) {
                 throw e;

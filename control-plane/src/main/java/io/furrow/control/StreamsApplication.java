@@ -18,7 +18,8 @@ import org.apache.kafka.streams.errors.StreamsUncaughtExceptionHandler.StreamThr
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.readiness.PartStatus;
+import io.furrow.kafka.PartStatus;
+import io.furrow.model.time.Backoff;
 
 /**
  * Runs a topology in this JVM, alone or as one of several instances, and keeps it running: a thread that loses Kafka is replaced, and
@@ -27,9 +28,9 @@ import io.furrow.control.readiness.PartStatus;
 final class StreamsApplication implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(StreamsApplication.class);
     private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(30);
-    private static final Duration FIRST_BACKOFF = Duration.ofSeconds(1);
+    private static final Duration MIN_BACKOFF = Duration.ofSeconds(1);
     private static final Duration MAX_BACKOFF = Duration.ofMinutes(1);
-    /** A client that ran for so long begins with the first pause again. */
+    /** A client that ran for this long begins with the first pause again. */
     private static final Duration STABLE = Duration.ofMinutes(5);
 
     private final String name;
@@ -39,7 +40,7 @@ final class StreamsApplication implements AutoCloseable {
     private volatile KafkaStreams streams;
     private volatile String failure;
     private Instant started;
-    private Duration backoff = FIRST_BACKOFF;
+    private final Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);
     private boolean closed;
 
     private StreamsApplication(String name, Supplier<Topology> topology, Properties settings) {
@@ -87,16 +88,17 @@ final class StreamsApplication implements AutoCloseable {
             if (closed) {
                 return;
             }
-            boolean stable = started.plus(STABLE).isBefore(Instant.now());
-            pause = stable ? FIRST_BACKOFF : backoff;
-            backoff = pause.multipliedBy(2).compareTo(MAX_BACKOFF) > 0 ? MAX_BACKOFF : pause.multipliedBy(2);
+            if (started.plus(STABLE).isBefore(Instant.now())) {
+                backoff.reset();
+            }
+            pause = backoff.next();
         }
         LOG.warn("the {} is started again in {} s", name, pause.toSeconds());
         supervisor.schedule(this::startClient, pause.toMillis(), TimeUnit.MILLISECONDS);
     }
 
     /**
-     * Kafka being away is no fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; after anything
+     * Kafka being unavailable is no fault of ours, nor that a broker does not yet know of a topic that was made a moment ago; after anything
      * else the state of this client is not trusted.
      */
     private StreamThreadExceptionResponse onFailure(Throwable cause) {
@@ -131,7 +133,7 @@ final class StreamsApplication implements AutoCloseable {
         return new PartStatus(name, up ? PartStatus.State.UP : PartStatus.State.DOWN, lastPoll(current), detail);
     }
 
-    /** Null where no thread has polled yet. */
+    /** Null if no thread has polled yet. */
     private static Instant lastPoll(KafkaStreams streams) {
         double longest = streams.metrics().entrySet().stream()
                 .filter(metric -> metric.getKey().name().equals("last-poll-seconds-ago"))

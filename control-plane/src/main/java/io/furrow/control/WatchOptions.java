@@ -2,21 +2,21 @@ package io.furrow.control;
 
 import java.time.Duration;
 
-import io.furrow.control.alarm.StopRobots;
-import io.furrow.control.alarm.Webhook;
+import io.furrow.control.alarm.action.StopRobots;
+import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.health.HealthOptions;
 
 /**
  * What the farm is watched by, and what is done about alarms.
  *
  * @param health when a device counts as silent
- * @param predictionHolds how long a predicted encounter is taken for right when it is not told again
- * @param webhook whom to tell of alarms; null for nobody
+ * @param predictionHolds how long a predicted encounter is taken for right when it is not reported again
+ * @param webhook whom to report alarms; null for nobody
  * @param stop how to stop robots that are predicted to meet, which is no safety function; null to stop none
  */
 public record WatchOptions(
         HealthOptions health, Duration predictionHolds, Webhook.Settings webhook, StopRobots.Settings stop) {
-    /** Silent after three periods; a prediction holds for a minute; nobody is told, nothing is stopped. */
+    /** Silent after three periods; a prediction holds for a minute; nobody is notified, nothing is stopped. */
     public static final WatchOptions DEFAULT =
             new WatchOptions(HealthOptions.DEFAULT, Duration.ofMinutes(1), null, null);
 

@@ -8,10 +8,10 @@ import org.apache.kafka.streams.Topology;
 import org.apache.kafka.streams.kstream.KStream;
 
 import io.furrow.control.alarm.AlarmManager;
-import io.furrow.control.alarm.AnalyticsAlarms;
+import io.furrow.control.alarm.watch.AnalyticsAlarms;
 import io.furrow.control.context.ContextWatch;
 import io.furrow.control.health.HealthWatch;
-import io.furrow.control.manager.Inlet;
+import io.furrow.control.manager.ManagerInput;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
@@ -48,6 +48,6 @@ final class WatchTopology {
     }
 
     private static KStream<String, byte[]> observed(StreamsBuilder builder, String topic, String name) {
-        return Inlet.observed(builder, topic, name, RECENT);
+        return ManagerInput.observed(builder, topic, name, RECENT);
     }
 }

@@ -28,8 +28,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestReporter;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.alarm.StopRobots;
-import io.furrow.control.alarm.Webhook;
+import io.furrow.control.alarm.action.StopRobots;
+import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.device.DeviceVersion;
@@ -45,7 +45,7 @@ import static org.awaitility.Awaitility.await;
 
 /** Many alarms at once, and a webhook that fails, against a real Kafka and HTTP servers. */
 class AlarmStormIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final int DEVICES = 10_000;
     private static final String ROBOT = "urn:ngsi-ld:Robot:m-1";
 
@@ -102,13 +102,13 @@ class AlarmStormIT {
     void deliversAnAlarmThoughAnotherIsNotTaken() throws Exception {
         failing = "predicted-encounter";
         try (FarmWatch watch = watch()) {
-            await().atMost(PATIENCE).until(watch::isHealthy);
+            await().atMost(TIMEOUT).until(watch::isHealthy);
             encounter("a", "b", "predicted");
             encounter("c", "d", "started");
-            await().atMost(PATIENCE).until(() -> !posted.isEmpty());
+            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
             assertThat(posted.get(0).path("kind").asText()).isEqualTo("collision");
             failing = "";
-            await().atMost(PATIENCE)
+            await().atMost(TIMEOUT)
                     .until(() -> posted.stream()
                             .anyMatch(each -> each.path("kind").asText().equals("predicted-encounter")));
         }
@@ -123,8 +123,8 @@ class AlarmStormIT {
             for (int i = 0; i < DEVICES; i++) {
                 want("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer", Duration.ofSeconds(1));
             }
-            await().atMost(PATIENCE).until(watch::isHealthy);
-            await().atMost(PATIENCE).until(() -> {
+            await().atMost(TIMEOUT).until(watch::isHealthy);
+            await().atMost(TIMEOUT).until(() -> {
                 for (int i = 0; i < DEVICES; i++) {
                     report("urn:ngsi-ld:Thermometer:m-" + i, "Thermometer");
                 }
@@ -135,12 +135,12 @@ class AlarmStormIT {
                         > DEVICES;
             });
             long reported = System.nanoTime();
-            await().atMost(PATIENCE).until(() -> silent() == DEVICES);
+            await().atMost(TIMEOUT).until(() -> silent() == DEVICES);
             long silent = System.nanoTime();
 
             long told = System.nanoTime();
             encounter(ROBOT, "somebody", "predicted");
-            await().atMost(PATIENCE).pollInterval(Duration.ofMillis(1)).until(() -> !stopped.isEmpty());
+            await().atMost(TIMEOUT).pollInterval(Duration.ofMillis(1)).until(() -> !stopped.isEmpty());
 
             reporter.publishEntry(Map.of(
                     "from the last report to 10,000 silent devices, 3 s of them silence",

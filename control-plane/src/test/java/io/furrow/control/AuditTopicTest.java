@@ -28,7 +28,8 @@ class AuditTopicTest {
     private static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
 
     private final TopologyTestDriver driver = new TopologyTestDriver(
-            ControlTopology.of(Duration.ofHours(1), new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT)),
+            ControlTopology.of(
+                    Duration.ofHours(1), new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT), false),
             settings(),
             START);
 

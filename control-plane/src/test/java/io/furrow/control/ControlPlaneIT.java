@@ -4,13 +4,16 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.Set;
+import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -29,23 +32,29 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.Requests;
-import io.furrow.model.control.Response;
+import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
 import static org.awaitility.Awaitility.await;
 
 class ControlPlaneIT {
+    private static final int GROUPS = 10;
+    private static final Instant SOUGHT = Instant.parse("2026-05-01T08:00:00Z");
     private static final int REQUESTS = 100;
     private static final int ANSWERED_BEFORE_THE_KILL = 30;
     private static final int SENT_BEFORE_THE_KILL = 60;
-    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final Duration TIMEOUT = Duration.ofSeconds(90);
 
     @TempDir
     Path directory;
@@ -75,7 +84,7 @@ class ControlPlaneIT {
                 create(producer, i); // as a client does that has heard nothing
                 if (i == ANSWERED_BEFORE_THE_KILL) {
                     producer.flush();
-                    await().atMost(PATIENCE)
+                    await().atMost(TIMEOUT)
                             .until(() -> answers(Topics.DOMAIN_MANAGER).size() > ANSWERED_BEFORE_THE_KILL);
                 } else if (i == SENT_BEFORE_THE_KILL) {
                     producer.flush();
@@ -85,16 +94,16 @@ class ControlPlaneIT {
             }
             producer.flush();
             run("second", 0); // knows nothing but what is in Kafka
-            await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
+            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() >= REQUESTS);
 
             // Whatever was answered twice would be answered by then.
             producer.send(new ProducerRecord<>(
                     Topics.DOMAIN_MANAGER, Requests.write("last", new DomainCommand.Delete("nosuch", false))));
             producer.flush();
-            await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
+            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() > REQUESTS);
         }
 
-        List<Response> answers = answers(Topics.DOMAIN_MANAGER);
+        List<CommandResult> answers = answers(Topics.DOMAIN_MANAGER);
         Set<String> ids = new HashSet<>();
         answers.forEach(answer -> ids.add(answer.requestId().orElseThrow()));
         assertThat(answers).hasSize(REQUESTS + 1);
@@ -115,14 +124,14 @@ class ControlPlaneIT {
                 replay(producer, i);
                 if (i == ANSWERED_BEFORE_THE_KILL / 2) {
                     producer.flush();
-                    await().atMost(PATIENCE).until(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
+                    await().atMost(TIMEOUT).until(() -> answers().size() == 2 * (ANSWERED_BEFORE_THE_KILL / 2 + 1));
                 } else if (i == SENT_BEFORE_THE_KILL / 2) {
                     producer.flush();
                     first.destroyForcibly().waitFor();
                 }
             }
             producer.flush();
-            await().atMost(PATIENCE).until(() -> answers().size() >= REQUESTS);
+            await().atMost(TIMEOUT).until(() -> answers().size() >= REQUESTS);
         }
 
         Set<String> ids = new HashSet<>();
@@ -136,20 +145,99 @@ class ControlPlaneIT {
     }
 
     @Test
+    void steersGroupsAsOneThoughTheInstanceThatDoesIsKilledAmongTheCommands() throws Exception {
+        Process first = run("first", 1);
+        List<String> groups = new ArrayList<>();
+        int commands = 0;
+        try (KafkaProducer<String, byte[]> producer = producer()) {
+            for (int i = 0; i < GROUPS; i++) {
+                group(producer, i);
+            }
+            producer.flush();
+            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() == GROUPS);
+            for (CommandResult answer : answers(Topics.REPLAY_MANAGER)) {
+                groups.add(answer.json().path("group").asText());
+            }
+            run("second", 1); // gets a standby of the state, the work stays with the first
+            for (String group : groups) {
+                for (ReplayCommand command : steering(new ReplayCommand.Target(null, group))) {
+                    producer.send(
+                            new ProducerRecord<>(Topics.REPLAY_MANAGER, Requests.write("c-" + commands++, command)));
+                }
+                if (group.equals(groups.get(GROUPS / 2))) {
+                    producer.flush();
+                    first.destroyForcibly().waitFor(); // with commands under way
+                }
+            }
+            producer.flush();
+            int asked = GROUPS + commands;
+            await().atMost(TIMEOUT).until(() -> answers(Topics.REPLAY_MANAGER).size() >= asked);
+        }
+
+        assertThat(answers(Topics.REPLAY_MANAGER))
+                .hasSize(GROUPS + commands)
+                .allMatch(answer -> !answer.status().equals(CommandResult.ERROR));
+        Map<String, List<WantedReplay>> newest = newestOfGroups();
+        assertThat(newest.keySet()).containsExactlyInAnyOrderElementsOf(groups);
+        assertThat(newest.values()).allSatisfy(members -> {
+            WantedReplay one = members.get(0);
+            assertThat(one.wanted()).isEqualTo(ReplayStatus.State.RUNNING);
+            assertThat(one.speed()).isEqualTo(4);
+            assertThat(one.seek().to()).isEqualTo(SOUGHT.toEpochMilli());
+            assertThat(members).extracting(WantedReplay::mission).containsExactlyInAnyOrder("north", "south");
+            assertThat(members)
+                    .extracting(WantedReplay::wanted, WantedReplay::speed, WantedReplay::seek, WantedReplay::clock)
+                    .containsOnly(tuple(one.wanted(), one.speed(), one.seek(), one.clock()));
+        });
+    }
+
+    private static List<ReplayCommand> steering(ReplayCommand.Target group) {
+        return List.of(
+                new ReplayCommand.Simple(group, ReplayCommand.Verb.PAUSE),
+                new ReplayCommand.Seek(group, SOUGHT),
+                new ReplayCommand.Speed(group, 4),
+                new ReplayCommand.Simple(group, ReplayCommand.Verb.RESUME));
+    }
+
+    private static void group(KafkaProducer<String, byte[]> producer, int number) {
+        ReplayPlan plan = new ReplayPlan(
+                null,
+                SOUGHT.minusSeconds(600).toEpochMilli(),
+                SOUGHT.plusSeconds(600).toEpochMilli(),
+                false,
+                List.of(),
+                null,
+                ReplayPlan.Stamps.ORIGINAL,
+                null,
+                List.of());
+        ReplayCommand command = new ReplayCommand.Start(List.of("north", "south"), null, 1, null, plan);
+        producer.send(new ProducerRecord<>(Topics.REPLAY_MANAGER, Requests.write("g-" + number, command)));
+    }
+
+    /** The newest record of each replay, by its group. */
+    private Map<String, List<WantedReplay>> newestOfGroups() throws Exception {
+        Map<String, WantedReplay> newest = new HashMap<>();
+        for (ConsumerRecord<String, byte[]> record : records(Topics.REPLAYS)) {
+            newest.put(record.key(), WantedReplay.read(record.key(), record.value()));
+        }
+        return newest.values().stream().collect(Collectors.groupingBy(WantedReplay::group));
+    }
+
+    @Test
     void handsItsWorkOverToAnotherInstance() throws Exception {
         Path one = directory.resolve("one");
         Path two = directory.resolve("two");
         ControlPlane first = plane(one);
         try (KafkaProducer<String, byte[]> producer = producer();
                 ControlPlane second = plane(two)) {
-            await().atMost(PATIENCE).until(() -> first.isHealthy() && second.isHealthy());
+            await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
             create(producer, 0);
-            await().atMost(PATIENCE).until(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
+            await().atMost(TIMEOUT).until(() -> answers(Topics.DOMAIN_MANAGER).size() == 1);
             first.close();
             producer.send(new ProducerRecord<>(
                     Topics.MISSION_MANAGER,
                     Requests.write("m", new MissionCommand.Start("m", "d-0", new MissionPlan.Unsaid(), null, null))));
-            await().atMost(PATIENCE).until(() -> answers(Topics.MISSION_MANAGER).size() == 1);
+            await().atMost(TIMEOUT).until(() -> answers(Topics.MISSION_MANAGER).size() == 1);
             assertThat(answers(Topics.MISSION_MANAGER).get(0).status()).isEqualTo("created");
             assertThat(second.isHealthy()).isTrue();
         } finally {
@@ -165,11 +253,11 @@ class ControlPlaneIT {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, null, new DomainCommand.Create("north", DomainDetails.NONE));
                 send(producer, null, new DomainCommand.Delete("north", false));
-                await().atMost(PATIENCE)
+                await().atMost(TIMEOUT)
                         .until(() -> answers(Topics.DOMAIN_MANAGER).size() == 2);
             }
             try (Admin admin = Admin.create(client())) {
-                await().atMost(PATIENCE)
+                await().atMost(TIMEOUT)
                         .ignoreExceptions()
                         .until(() -> admin.deleteConsumerGroups(List.of(ControlSettings.APPLICATION))
                                         .all()
@@ -179,7 +267,7 @@ class ControlPlaneIT {
             try (ControlPlane plane = plane(state)) {
                 assertThat(plane.state()).isNotEqualTo("ERROR");
                 send(producer, "last", new DomainCommand.Delete("nosuch", false));
-                await().atMost(PATIENCE)
+                await().atMost(TIMEOUT)
                         .until(() -> answers(Topics.DOMAIN_MANAGER).stream()
                                 .anyMatch(answer -> answer.requestId().equals(Optional.of("last"))));
             }
@@ -197,7 +285,7 @@ class ControlPlaneIT {
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
         ServiceTopics.prepare(ControlPlaneProcess.settings(kafka.bootstrapServers(), directory.toString()));
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .until(() -> policy(Topics.DEVICES).equals("compact")
                         && policy(Topics.MISSIONS_STATUS).equals("compact")
                         && policy(Topics.MISSION_MANAGER).equals("delete"));
@@ -222,7 +310,7 @@ class ControlPlaneIT {
     }
 
     private static void replay(KafkaProducer<String, byte[]> producer, int number) {
-        ReplayCommand command = new ReplayCommand.Start("m", null, null, 1, false, List.of());
+        ReplayCommand command = new ReplayCommand.Start(List.of("m"), null, 1, null, ReplayPlan.PLAIN);
         producer.send(new ProducerRecord<>(Topics.REPLAY_MANAGER, Requests.write("p-" + number, command)));
     }
 
@@ -234,17 +322,17 @@ class ControlPlaneIT {
         return new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
     }
 
-    private List<Response> answers() throws Exception {
-        List<Response> all = new ArrayList<>(answers(Topics.DOMAIN_MANAGER));
+    private List<CommandResult> answers() throws Exception {
+        List<CommandResult> all = new ArrayList<>(answers(Topics.DOMAIN_MANAGER));
         all.addAll(answers(Topics.REPLAY_MANAGER));
         return all;
     }
 
-    private List<Response> answers(String topic) throws Exception {
-        List<Response> answers = new ArrayList<>();
+    private List<CommandResult> answers(String topic) throws Exception {
+        List<CommandResult> answers = new ArrayList<>();
         for (ConsumerRecord<String, byte[]> record : records(topic)) {
             if (new String(record.value(), StandardCharsets.UTF_8).contains("\"type\":\"response\"")) {
-                answers.add(Response.read(record.value()));
+                answers.add(CommandResult.read(record.value()));
             }
         }
         return answers;

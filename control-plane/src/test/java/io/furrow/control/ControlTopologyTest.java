@@ -10,8 +10,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.Response;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
@@ -183,7 +183,7 @@ class ControlTopologyTest {
                 Topics.REPLAY_MANAGER,
                 null,
                 "{'type':'request','command':'start','mission':'m','speed':'max','from':1000,'devices':['urn:x']}");
-        Response created = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+        CommandResult created = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
         String replay = created.json().path("replay").asText();
         assertThat(replay).matches("m\\.[0-9a-f]{8}");
         assertThat(created.json().path("topic").asText()).isEqualTo("data.m.replay." + replay.substring(2));
@@ -210,7 +210,7 @@ class ControlTopologyTest {
                         "wrong-state");
         List<TestRecord<String, byte[]>> wanted = farm.read(Topics.REPLAYS);
         assertThat(ManagedFarm.text(wanted.get(wanted.size() - 1).value()))
-                .contains("\"from\":1000,\"speed\":\"max\"", "\"wanted\":\"stopped\"")
+                .contains("\"from\":1000,", "\"speed\":\"max\"", "\"wanted\":\"stopped\"")
                 .contains("\"seek\":{\"to\":5000,\"sequence\":5},\"step\":{\"total\":2,\"sequence\":4}")
                 .endsWith("\"sequence\":7}");
 
@@ -234,7 +234,9 @@ class ControlTopologyTest {
     @Test
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
-                                ManagedFarm.REMEMBERED, new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT))
+                                ManagedFarm.REMEMBERED,
+                                new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT),
+                                false)
                         .describe()
                         .toString())
                 .doesNotContain("-0000")
@@ -256,6 +258,7 @@ class ControlTopologyTest {
                         "mission-positions",
                         "device-statuses-positions",
                         "replays",
+                        "recordings",
                         "replay-sequence",
                         "replay-answers",
                         "replay-positions",

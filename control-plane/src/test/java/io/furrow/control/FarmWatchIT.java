@@ -23,10 +23,10 @@ import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.alarm.StopRobots;
-import io.furrow.control.alarm.Webhook;
-import io.furrow.control.readiness.PartStatus;
+import io.furrow.control.alarm.action.StopRobots;
+import io.furrow.control.alarm.action.Webhook;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.PartStatus;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.Requests;
 import io.furrow.model.device.DeviceVersion;
@@ -42,7 +42,7 @@ import static org.awaitility.Awaitility.await;
 
 /** The farm watch against a real Kafka, with a webhook that does not always answer. */
 class FarmWatchIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(120);
+    private static final Duration TIMEOUT = Duration.ofSeconds(120);
     private static final String ROBOT = "robot-1";
 
     @TempDir
@@ -88,18 +88,18 @@ class FarmWatchIT {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             want();
-            await().atMost(PATIENCE).until(() -> {
+            await().atMost(TIMEOUT).until(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
             });
-            await().atMost(PATIENCE).until(() -> state("silent-device").equals("open"));
-            await().atMost(PATIENCE).until(() -> !posted.isEmpty());
-            await().atMost(PATIENCE).until(() -> {
+            await().atMost(TIMEOUT).until(() -> state("silent-device").equals("open"));
+            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
+            await().atMost(TIMEOUT).until(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });
-            await().atMost(PATIENCE).until(() -> posted.size() >= 2);
+            await().atMost(TIMEOUT).until(() -> posted.size() >= 2);
         }
         assertThat(posted)
                 .extracting(alarm -> alarm.path("id").asText())
@@ -112,11 +112,11 @@ class FarmWatchIT {
         hookIsUp = false;
         try (FarmWatch watch = watch("one")) {
             encounter("started");
-            await().atMost(PATIENCE).until(() -> state("collision").equals("open"));
+            await().atMost(TIMEOUT).until(() -> state("collision").equals("open"));
             encounter("ended");
-            await().atMost(PATIENCE).until(() -> state("collision").equals("closed"));
-            await().atMost(PATIENCE)
-                    .until(() -> watch.followers().get(0).detail().contains("it answers 503"));
+            await().atMost(TIMEOUT).until(() -> state("collision").equals("closed"));
+            await().atMost(TIMEOUT)
+                    .until(() -> watch.followers().get(0).detail().contains("it responded with 503"));
             assertThat(watch.followers())
                     .extracting(PartStatus::name, PartStatus::state)
                     .containsExactly(
@@ -127,14 +127,14 @@ class FarmWatchIT {
         }
         hookIsUp = true;
         try (FarmWatch watch = watch("two")) {
-            await().atMost(PATIENCE).until(() -> !posted.isEmpty());
-            await().atMost(PATIENCE).until(() -> watch.followers().get(0).lastSuccess() != null);
+            await().atMost(TIMEOUT).until(() -> !posted.isEmpty());
+            await().atMost(TIMEOUT).until(() -> watch.followers().get(0).lastSuccess() != null);
         }
         assertThat(posted).extracting(alarm -> alarm.path("id").asText()).containsExactly("collision-1:2");
         try (FarmWatch watch = watch("three")) {
             encounter("started");
-            await().atMost(PATIENCE).until(() -> posted.size() > 1);
-            assertThat(watch.followers().get(0).detail()).contains("0 refused");
+            await().atMost(TIMEOUT).until(() -> posted.size() > 1);
+            assertThat(watch.followers().get(0).detail()).contains("0 rejected");
         }
         assertThat(posted)
                 .as("what was delivered is not delivered again")
@@ -147,13 +147,13 @@ class FarmWatchIT {
         try (FarmWatch watch = watch("one")) {
             assertThat(watch.state()).isNotEqualTo("ERROR");
             want();
-            await().atMost(PATIENCE).until(() -> {
+            await().atMost(TIMEOUT).until(() -> {
                 report();
                 return !records(Topics.DEVICES_HEALTH).isEmpty()
                         && newest(Topics.DEVICES_HEALTH).path("type").asText().equals("ROBOT");
             });
             predict();
-            await().atMost(PATIENCE).until(() -> audited().size() == 2);
+            await().atMost(TIMEOUT).until(() -> audited().size() == 2);
         }
         assertThat(audited())
                 .satisfiesExactlyInAnyOrder(
@@ -167,13 +167,13 @@ class FarmWatchIT {
             predict();
             producer.send(new ProducerRecord<>(
                     Topics.ALARM_MANAGER, Requests.write("r", new AlarmCommand.Acknowledge(alarm, "ann"))));
-            await().atMost(PATIENCE)
+            await().atMost(TIMEOUT)
                     .until(() -> audited().stream()
                                     .filter(entry -> entry.contains("somebody"))
                                     .count()
                             == 2); // so it has seen the prediction
-            await().atMost(PATIENCE).until(() -> state("predicted-encounter").equals("acknowledged"));
-            await().atMost(PATIENCE)
+            await().atMost(TIMEOUT).until(() -> state("predicted-encounter").equals("acknowledged"));
+            await().atMost(TIMEOUT)
                     .until(() -> posted.stream()
                             .anyMatch(each -> each.path("change").asText().equals("acknowledged")));
         }
@@ -184,16 +184,16 @@ class FarmWatchIT {
     void goesOnWhereAnotherInstanceLeaves() throws Exception {
         try (FarmWatch second = watch("two")) {
             try (FarmWatch first = watch("one")) {
-                await().atMost(PATIENCE).until(() -> first.isHealthy() && second.isHealthy());
+                await().atMost(TIMEOUT).until(() -> first.isHealthy() && second.isHealthy());
                 want();
-                await().atMost(PATIENCE).until(() -> {
+                await().atMost(TIMEOUT).until(() -> {
                     report();
                     return !records(Topics.DEVICES_HEALTH).isEmpty()
                             && newest(Topics.DEVICES_HEALTH).path("lastSeen").isIntegralNumber();
                 });
-                await().atMost(PATIENCE).until(() -> state("silent-device").equals("open"));
+                await().atMost(TIMEOUT).until(() -> state("silent-device").equals("open"));
             }
-            await().atMost(PATIENCE).until(() -> {
+            await().atMost(TIMEOUT).until(() -> {
                 report();
                 return state("silent-device").equals("closed");
             });

@@ -17,7 +17,7 @@ import org.apache.kafka.streams.TopologyTestDriver;
 import org.apache.kafka.streams.test.TestRecord;
 
 import io.furrow.control.mission.MissionOptions;
-import io.furrow.model.control.Response;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.FiwareScope;
@@ -31,10 +31,17 @@ final class ManagedFarm implements AutoCloseable {
     static final Duration REMEMBERED = Duration.ofHours(1);
     static final Instant START = Instant.parse("2026-03-01T08:00:00Z");
 
-    private final TopologyTestDriver driver = new TopologyTestDriver(
-            ControlTopology.of(REMEMBERED, new MissionOptions(Duration.ofSeconds(30), new FiwareScope("farm", "/"))),
-            settings(),
-            START);
+    private final TopologyTestDriver driver;
+
+    ManagedFarm() {
+        this(false);
+    }
+
+    /** @param knowsRecordings whether only missions that {@code service.recordings} lists can be played back */
+    ManagedFarm(boolean knowsRecordings) {
+        MissionOptions missions = new MissionOptions(Duration.ofSeconds(30), new FiwareScope("farm", "/"));
+        driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, knowsRecordings), settings(), START);
+    }
 
     void pass(Duration time) {
         driver.advanceWallClockTime(time);
@@ -100,9 +107,9 @@ final class ManagedFarm implements AutoCloseable {
         return response(record).error().orElseThrow();
     }
 
-    static Response response(TestRecord<String, byte[]> record) {
+    static CommandResult response(TestRecord<String, byte[]> record) {
         try {
-            return Response.read(record.value());
+            return CommandResult.read(record.value());
         } catch (io.furrow.model.ngsi.UnreadableException e) {
             throw new AssertionError(e);
         }

@@ -171,7 +171,7 @@ class SilenceTopologyTest {
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("open");
     }
 
-    /** Two minutes, in which some of the devices go on reporting. */
+    /** Two minutes, in which some of the devices continue reporting. */
     private void passKeepingAlive(int from, int to) throws Exception {
         for (int i = 0; i < 120; i++) {
             farm.pass(Duration.ofSeconds(1));

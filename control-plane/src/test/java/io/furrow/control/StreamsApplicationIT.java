@@ -16,8 +16,8 @@ import org.apache.kafka.streams.kstream.Consumed;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.readiness.PartStatus;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.PartStatus;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;

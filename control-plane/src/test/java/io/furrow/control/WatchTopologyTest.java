@@ -138,8 +138,7 @@ class WatchTopologyTest {
         assertThat(alarm.path("subject").asText()).isEqualTo(WatchedFarm.ROBOT);
         assertThat(alarm.path("group").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
         assertThat(alarm.path("text").asText())
-                .isEqualTo(
-                        "positions of robot-1 come 1.0 s too late and do not count: its clock or its link is behind");
+                .isEqualTo("positions of robot-1 arrive 1.0 s too late and are dropped: check its clock and its link");
         farm.pass(Duration.ofMinutes(2));
         farm.clockBehind(WatchedFarm.ROBOT, 999);
         farm.pass(Duration.ofSeconds(179));

@@ -1,14 +1,24 @@
 package io.furrow.embedded;
 
+import java.io.FileDescriptor;
+import java.io.FileOutputStream;
+import java.io.OutputStream;
+import java.io.PrintStream;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.Collection;
 import java.util.Map;
 import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.ExecutionException;
 import java.util.stream.Collectors;
 
 import kafka.server.KafkaConfig;
 import kafka.server.KafkaRaftServer;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.common.Uuid;
+import org.apache.kafka.common.utils.Exit;
 import org.apache.kafka.common.utils.Time;
 import org.apache.kafka.metadata.storage.Formatter;
 
@@ -21,7 +31,14 @@ public final class EmbeddedKafka implements AutoCloseable {
     public static final int PARTITIONS = 4;
 
     private static final String HOST = "127.0.0.1";
+    private static final long POLL_INTERVAL_MILLIS = 20;
     private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
+
+    static {
+        Exit.setExitProcedure((status, message) -> end(status, message, () -> System.exit(status)));
+        Exit.setHaltProcedure((status, message) ->
+                end(status, message, () -> Runtime.getRuntime().halt(status)));
+    }
 
     private final KafkaRaftServer server;
     private final int port;
@@ -63,10 +80,26 @@ public final class EmbeddedKafka implements AutoCloseable {
 
     /**
      * For a producer of topics that were made just now, with one request at a time: of two under way the broker could refuse the
-     * first, whose partition is not there yet, and take the second, and would then refuse the first for ever (KAFKA-15591).
+     * first, whose partition is not there yet, and take the second, and would then refuse the first forever (KAFKA-15591).
      */
     public Map<String, Object> producerSettings() {
         return Map.of("bootstrap.servers", bootstrapServers(), "max.in.flight.requests.per.connection", 1);
+    }
+
+    /** Creates topics and waits until the broker serves them: it learns of them some time after the controller has created them. */
+    public void createTopics(Collection<NewTopic> topics) {
+        Set<String> names = topics.stream().map(NewTopic::name).collect(Collectors.toSet());
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", bootstrapServers()))) {
+            admin.createTopics(topics).all().get();
+            while (!admin.listTopics().names().get().containsAll(names)) {
+                Thread.sleep(POLL_INTERVAL_MILLIS);
+            }
+        } catch (ExecutionException e) {
+            throw new IllegalStateException("cannot create the topics " + names, e.getCause());
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new IllegalStateException("interrupted while the topics " + names + " were created", e);
+        }
     }
 
     @Override
@@ -75,11 +108,20 @@ public final class EmbeddedKafka implements AutoCloseable {
         server.awaitShutdown();
     }
 
+    /** Kafka ends the process at a fault that it cannot handle. Its log may be lost by that, so where it was goes straight to standard error. */
+    private static void end(int status, String message, Runnable ending) {
+        try (PrintStream error = new PrintStream(new FileOutputStream(FileDescriptor.err))) {
+            String why = message == null ? "" : ": " + message;
+            new IllegalStateException("Kafka ends this process with status " + status + why).printStackTrace(error);
+        }
+        ending.run();
+    }
+
     private static void format(Path directory) {
         try {
             Files.createDirectories(directory);
             new Formatter()
-                    .setPrintStream(new java.io.PrintStream(java.io.OutputStream.nullOutputStream()))
+                    .setPrintStream(new PrintStream(OutputStream.nullOutputStream()))
                     .setNodeId(1)
                     .setClusterId(clusterId(directory))
                     .addDirectory(directory.toString())

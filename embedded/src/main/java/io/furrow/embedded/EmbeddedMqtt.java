@@ -20,7 +20,7 @@ import io.moquette.broker.subscriptions.Topic;
 public final class EmbeddedMqtt implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
     private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
-    private static final int MOST_WAITING = 64 * 1024;
+    private static final int MAX_WAITING = 64 * 1024;
 
     private final Server server;
     private final int port;
@@ -89,8 +89,8 @@ public final class EmbeddedMqtt implements AutoCloseable {
         properties.setProperty("allow_zero_byte_client_id", "true");
         properties.setProperty("persistence_enabled", "false");
         properties.setProperty("telemetry_enabled", "false");
-        // Of messages beyond these it takes no notice, and tells nobody.
-        properties.setProperty("session_queue_size", Integer.toString(MOST_WAITING));
+        // Of messages beyond these it takes no notice, and notifies nobody.
+        properties.setProperty("session_queue_size", Integer.toString(MAX_WAITING));
         properties.setProperty("netty.mqtt.message_size", Integer.toString(MAX_MESSAGE_BYTES));
         IAuthenticator authenticator = (clientId, user, password) -> user != null
                 && password != null

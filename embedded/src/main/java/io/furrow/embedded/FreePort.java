@@ -1,32 +1,43 @@
 package io.furrow.embedded;
 
 import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.net.InetAddress;
 import java.net.ServerSocket;
+import java.util.concurrent.ThreadLocalRandom;
+import java.util.concurrent.atomic.AtomicInteger;
 
-/** Ports on loopback that nobody listens on at the moment of asking. */
+/**
+ * Ports on loopback that nobody listens on at the moment of the call. They are below the ports that operating systems give to outgoing
+ * connections (from 32768 on Linux): one of those could otherwise take a port before its server listens.
+ */
 public final class FreePort {
+    private static final int FIRST = 20_000;
+    private static final int COUNT = 7_000;
+    /** Begins anywhere, so that processes started together rarely try the same ports. */
+    private static final AtomicInteger NEXT =
+            new AtomicInteger(ThreadLocalRandom.current().nextInt(COUNT));
+
     private FreePort() {}
 
-    /** A free port that differs from one that is spoken for but not listened on yet. */
-    static int otherThan(int taken) {
+    /** A free port that differs from one that is assigned but not listened on yet. */
+    static int otherThan(int assigned) {
         int port = orFree(0);
-        while (port == taken) {
-            port = orFree(0);
-        }
-        return port;
+        return port == assigned ? orFree(0) : port;
     }
 
-    /** The port itself, or a free one where it is 0. */
+    /** The port itself, or a free one where it is 0; a process gets the same port again only after {@value #COUNT} calls. */
     public static int orFree(int port) {
         if (port != 0) {
             return port;
         }
-        try (ServerSocket socket = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
-            return socket.getLocalPort();
-        } catch (IOException e) {
-            throw new UncheckedIOException("no free port on loopback", e);
+        for (int tried = 0; tried < COUNT; tried++) {
+            int candidate = FIRST + Math.floorMod(NEXT.getAndIncrement(), COUNT);
+            try (ServerSocket socket = new ServerSocket(candidate, 1, InetAddress.getLoopbackAddress())) {
+                return socket.getLocalPort();
+            } catch (IOException e) {
+                // in use
+            }
         }
+        throw new IllegalStateException("no free port on loopback from %d to %d".formatted(FIRST, FIRST + COUNT - 1));
     }
 }

@@ -1,2 +1,11 @@
-/** The real engines in one JVM, on loopback: used by the one-command start and by tests, never by what runs on a cluster. */
+/**
+ * The real engines in one JVM, on loopback: used by the one-command start and by tests, never by what runs on a
+ * cluster.
+ *
+ * <p><b>In</b>: ports and folders.
+ *
+ * <p><b>Out</b>: addresses of a running Kafka, Connect, Flink, MQTT broker and MongoDB stand-in.
+ *
+ * <p><b>Must not know</b>: what runs on the engines.
+ */
 package io.furrow.embedded;

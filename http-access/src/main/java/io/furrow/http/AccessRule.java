@@ -20,7 +20,7 @@ import java.util.stream.Stream;
 public final class AccessRule {
     private static final Set<String> OTHER_SITES = Set.of("cross-site", "same-site");
     private static final String PREFLIGHT_SECONDS = "600";
-    private static final int MOST_NAMES = 64;
+    private static final int MAX_NAMES = 64;
 
     private final Set<String> hosts;
     private final Set<Origin> origins;
@@ -123,7 +123,7 @@ public final class AccessRule {
                         || hosts.contains(authority.host())
                         || name.local() != null && authority.isLiterally(name.local()))
                 .isPresent();
-        if (isOwn && own.size() < MOST_NAMES) {
+        if (isOwn && own.size() < MAX_NAMES) {
             own.add(name);
         }
         return isOwn;

@@ -18,6 +18,6 @@ public sealed interface Decision {
     /** Answer 204 with these headers. */
     record Preflight(Map<String, String> headers) implements Decision {}
 
-    /** Go on, and add these headers to the answer. */
+    /** Continue, and add these headers to the answer. */
     record Granted(Map<String, String> headers) implements Decision {}
 }

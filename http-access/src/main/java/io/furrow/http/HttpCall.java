@@ -12,8 +12,8 @@ import java.util.regex.Pattern;
  *
  * @param target as it came: a path with or without a query, or a whole URI
  * @param secure whether it came over TLS
- * @param local the server's end of the connection; null where it is not known
- * @param headers the values of a header, by its name in any case; empty where there is none
+ * @param local the server's end of the connection; null if it is not known
+ * @param headers the values of a header, by its name in any case; empty if there is none
  */
 public record HttpCall(
         String method, String target, boolean secure, InetAddress local, Function<String, List<String>> headers) {

@@ -10,12 +10,12 @@ import org.apache.flink.streaming.api.datastream.DataStreamUtils;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
-import io.furrow.flink.DeadLetterSink;
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicOptions;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.kafka.DeadLetterSink;
+import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.catalog.CatalogStage;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.latest.MergeLatest;
@@ -49,7 +49,7 @@ final class IngestBranches {
         }
     }
 
-    void keepLatest(DataStream<ReportedEvent> events, TopicAtStart latestAtStart) {
+    void keepLatest(DataStream<ReportedEvent> events, TopicSnapshot latestAtStart) {
         if (options.writesLatest()) {
             SingleOutputStreamOperator<TopicRecord> latest = keyed(events)
                     .transform(

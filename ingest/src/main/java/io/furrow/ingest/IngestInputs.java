@@ -3,11 +3,11 @@ package io.furrow.ingest;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.AdvanceQuietInput;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.KafkaTopicAtStart;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.KafkaTopicSnapshot;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.AdvanceQuietInput;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -21,24 +21,29 @@ import io.furrow.model.topic.Topics;
 record IngestInputs(
         DataStream<TopicRecord> records,
         DataStream<TopicRecord> devices,
-        TopicAtStart devicesAtStart,
-        TopicAtStart latestAtStart) {
+        TopicSnapshot devicesAtStart,
+        TopicSnapshot latestAtStart) {
     /** The topics that the options name. */
     static IngestInputs ofKafka(StreamExecutionEnvironment env, IngestOptions options) {
         DataStream<TopicRecord> records = AdvanceQuietInput.of(
-                env.fromSource(KafkaEnds.source(options), KafkaEnds.watermarks(options), "Read reported events")
+                env.fromSource(
+                                KafkaConnectors.source(options),
+                                KafkaConnectors.watermarks(options),
+                                "Read reported events")
                         .uid("read-events"),
                 options);
 
         DataStream<TopicRecord> devices = env.fromSource(
-                        KafkaEnds.wholeTopic(options, options.devices()), KafkaEnds.noHindrance(), "Read devices")
+                        KafkaConnectors.wholeTopic(options, options.devices()),
+                        KafkaConnectors.alwaysIdle(),
+                        "Read devices")
                 .uid("read-devices")
                 .setParallelism(1);
 
         return new IngestInputs(
                 records,
                 devices,
-                new KafkaTopicAtStart(options, options.devices()),
-                new KafkaTopicAtStart(options, Topics.LATEST));
+                new KafkaTopicSnapshot(options, options.devices()),
+                new KafkaTopicSnapshot(options, Topics.LATEST));
     }
 }

@@ -6,13 +6,13 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.AheadLimit;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.KeyedLatenessOperator;
-import io.furrow.flink.PassOnce;
 import io.furrow.flink.device.DeviceChange;
-import io.furrow.flink.device.ReadDevices;
+import io.furrow.flink.device.RecognizeDevices;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.record.DeduplicateById;
+import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.KeyedLatenessOperator;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.RecognizeEvents;
@@ -21,8 +21,8 @@ import io.furrow.ingest.route.StampIngest;
 import io.furrow.model.topic.Topics;
 
 /**
- * Brings each event once to everything that is made of events, or to the {@link Part parts} of it that this instance does; what is
- * no event becomes a dead letter.
+ * The job {@code ingest}: deduplicates events and writes them to the {@link Part parts} that this instance does:
+ * routes, latest state, missions, images and catalog; unreadable records become dead letters.
  */
 public final class IngestJob {
     private IngestJob() {}
@@ -47,7 +47,7 @@ public final class IngestJob {
                 .name("Recognize events");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
-                .process(new ReadDevices("ingest"))
+                .process(new RecognizeDevices("ingest"))
                 .setParallelism(1) // a device's versions stay in order
                 .uid("recognize-devices")
                 .name("Recognize devices");
@@ -61,14 +61,14 @@ public final class IngestJob {
 
         SingleOutputStreamOperator<ReportedEvent> once = IngestBranches.keyed(assigned)
                 .transform(
-                        "Pass each event once",
+                        "Deduplicate events by id",
                         TypeInformation.of(ReportedEvent.class),
-                        new KeyedLatenessOperator<>(new PassOnce<ReportedEvent>(
+                        new KeyedLatenessOperator<>(new DeduplicateById<ReportedEvent>(
                                 options.repeatWindow(),
                                 ReportedEvent::id,
                                 ReportedEvent::domain,
                                 ReportedEvent::mission)))
-                .uid("pass-once");
+                .uid("deduplicate-by-id");
 
         SingleOutputStreamOperator<ReportedEvent> moved = ImageStage.move(
                         IngestBranches.keyed(once), options.images(), options.storing())

@@ -3,7 +3,6 @@ package io.furrow.ingest;
 import java.time.Duration;
 import java.util.Optional;
 import java.util.Set;
-import java.util.concurrent.Callable;
 import java.util.stream.Collectors;
 
 import picocli.CommandLine.Command;
@@ -11,9 +10,9 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.InputTopics;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicOptions;
+import io.furrow.flink.job.InputTopics;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TopicOptions;
 import io.furrow.ingest.image.ImageOptions;
 import io.furrow.ingest.image.Storing;
 import io.furrow.ingest.latest.LatestKey;
@@ -26,7 +25,7 @@ import io.furrow.ingest.route.AssignMission;
         description =
                 "Brings each event once to data.<domain>.realtime and data.<domain>.realtime.<mission>, and the newest "
                         + "of all to data.latest.")
-public final class IngestOptions extends JobOptions implements Callable<Integer> {
+public final class IngestOptions extends JobOptions {
     @Mixin
     private final TopicOptions topics = new TopicOptions();
 
@@ -111,7 +110,7 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
             names = "--catalog-interval",
             paramLabel = "DURATION",
             defaultValue = "10s",
-            description = "An entry of the catalogue is written at most once per this event time. Default: "
+            description = "An entry of the catalog is written at most once per this event time. Default: "
                     + "${DEFAULT-VALUE}.")
     private Duration catalogInterval;
 
@@ -119,7 +118,7 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
             names = "--catalog-retention",
             paramLabel = "DURATION",
             defaultValue = "90d",
-            description = "An entry of the catalogue that has had no event for this event time is removed. Default: "
+            description = "An entry of the catalog that has had no event for this event time is removed. Default: "
                     + "${DEFAULT-VALUE}.")
     private Duration catalogRetention;
 
@@ -173,7 +172,7 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
         return topics;
     }
 
-    /** That of the whole job is for the whole job: a part would go on in its consumer group and end its transactions. */
+    /** That of the whole job is for the whole job: a part would resume in its consumer group and end its transactions. */
     @Override
     public String jobName() {
         String name = super.jobName();
@@ -253,11 +252,5 @@ public final class IngestOptions extends JobOptions implements Callable<Integer>
 
     ImageOptions images() {
         return images;
-    }
-
-    @Override
-    public Integer call() throws Exception {
-        IngestJob.assemble(this).execute();
-        return 0;
     }
 }

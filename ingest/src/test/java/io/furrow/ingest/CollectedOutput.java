@@ -5,8 +5,8 @@ import java.util.List;
 
 import org.apache.flink.streaming.api.datastream.DataStream;
 
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.record.TopicRecord;
 
 /** What a job would write to Kafka, collected. */
 public final class CollectedOutput implements KafkaOutput {

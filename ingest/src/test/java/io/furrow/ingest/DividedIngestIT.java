@@ -60,7 +60,7 @@ class DividedIngestIT {
                 "missions",
                 "--mongo",
                 mongo + "/?serverSelectionTimeoutMS=200",
-                "--mongo-patience",
+                "--mongo-retry-timeout",
                 "1s");
         JobID others = run("in-away", null, "routes,latest");
         suite.awaitRecords("data.away.realtime.m", 100);

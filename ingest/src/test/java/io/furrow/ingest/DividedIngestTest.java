@@ -20,8 +20,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.Pictures;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -133,7 +133,7 @@ class DividedIngestTest {
 
     /**
      * What was written, less what differs by time or by the length of an image's name: the stamp of ingest, hashes in names, the
-     * bytes in the catalogue, of which the last entries count.
+     * bytes in the catalog, of which the last entries count.
      */
     private static List<String> told(List<TopicRecord> written, Path images) {
         List<String> told = new ArrayList<>();

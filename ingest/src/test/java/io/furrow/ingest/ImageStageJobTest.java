@@ -26,11 +26,11 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
@@ -177,12 +177,12 @@ class ImageStageJobTest {
                         Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
-                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                 .uid("no-hindrance")
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestInputs(source, noDevices, KnownDevices.of(), TopicAtStart.NONE), out, options);
+        IngestJob.define(new IngestInputs(source, noDevices, KnownDevices.of(), TopicSnapshot.NONE), out, options);
         return out.run();
     }
 

@@ -11,7 +11,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;

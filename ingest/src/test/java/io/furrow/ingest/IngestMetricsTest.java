@@ -19,8 +19,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.image.Pictures;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -68,8 +68,8 @@ class IngestMetricsTest {
         assertThat(counted("images")).containsEntry("", 1L).containsEntry("farm/weeding", 1L);
         assertThat(counted("imageBytes")).containsEntry("farm/weeding", (long) Pictures.png(1).length);
         assertThat(counted("late")).containsEntry("farm/weeding", 0L);
-        assertThat(largest("lag.device-to-source")).isEqualTo(250);
-        assertThat(largest("lag.source-to-ingest")).isBetween(1000L, System.currentTimeMillis() - TIME);
+        assertThat(largest("lagDeviceToSource")).isEqualTo(250);
+        assertThat(largest("lagSourceToIngest")).isBetween(1000L, System.currentTimeMillis() - TIME);
     }
 
     private static TopicRecord report(String id, long after, String mission) {

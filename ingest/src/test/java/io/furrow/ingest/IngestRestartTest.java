@@ -20,11 +20,11 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
@@ -132,14 +132,14 @@ class IngestRestartTest {
             DataStream<TopicRecord> devices = env.fromData(List.of(nobody), TypeInformation.of(TopicRecord.class))
                     .setParallelism(1)
                     .uid("devices")
-                    .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                    .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                     .uid("no-hindrance")
                     .setParallelism(1);
             DataStream<TopicRecord> asInPartitions =
                     records.keyBy(record -> new String(record.key(), StandardCharsets.UTF_8));
             CollectedOutput out = new CollectedOutput();
             IngestJob.define(
-                    new IngestInputs(asInPartitions, devices, KnownDevices.of(), TopicAtStart.NONE),
+                    new IngestInputs(asInPartitions, devices, KnownDevices.of(), TopicSnapshot.NONE),
                     out,
                     (IngestOptions) options);
             return out.all();
@@ -152,7 +152,7 @@ class IngestRestartTest {
 
         @Override
         public List<String> judges() {
-            return List.of("Pass each event once");
+            return List.of("Deduplicate events by id");
         }
 
         /** The last of a key of compacted topics. */

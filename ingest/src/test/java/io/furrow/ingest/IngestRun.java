@@ -9,10 +9,10 @@ import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 
 /** The job {@code ingest} over records that a test has, at parallelism 2, to their end. */
@@ -34,12 +34,12 @@ final class IngestRun {
                         Topics.DEVICES, 1, 0, 0, "|/|of-nobody".getBytes(StandardCharsets.UTF_8), null, Map.of())))
                 .setParallelism(1)
                 .uid("devices")
-                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                 .uid("no-hindrance")
                 .setParallelism(1);
 
         CollectedOutput out = new CollectedOutput();
-        IngestJob.define(new IngestInputs(source, deviceRecords, devices, TopicAtStart.NONE), out, options);
+        IngestJob.define(new IngestInputs(source, deviceRecords, devices, TopicSnapshot.NONE), out, options);
         return out.run();
     }
 }

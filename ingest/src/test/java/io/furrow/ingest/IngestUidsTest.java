@@ -6,8 +6,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.job.JobCommandLine;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -36,6 +36,6 @@ class IngestUidsTest {
         List<String> uids = JobUids.of(IngestJob.assemble(options));
 
         assertThat(JobUids.checkedIn("ingest")).containsAll(uids).hasSizeGreaterThan(uids.size());
-        assertThat(uids).contains("read-events", "assign-domain-and-mission", "pass-once", "move-images", own);
+        assertThat(uids).contains("read-events", "assign-domain-and-mission", "deduplicate-by-id", "move-images", own);
     }
 }

@@ -31,14 +31,14 @@ import org.awaitility.core.ConditionTimeoutException;
 
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.job.JobCommandLine;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** A Kafka broker and a Flink cluster for the time of a test, and the job {@code ingest} on them. */
 final class KafkaSuite implements AutoCloseable {
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final int SLOTS = 4;
 
     private final EmbeddedKafka kafka;
@@ -78,7 +78,7 @@ final class KafkaSuite implements AutoCloseable {
         Map<String, String> all = new HashMap<>(settings);
         all.put("retention.ms", "-1");
         NewTopic topic = new NewTopic(name, Optional.of(partitions), Optional.empty());
-        admin.createTopics(List.of(topic.configs(all))).all().get();
+        kafka.createTopics(List.of(topic.configs(all)));
     }
 
     /** @param partition null for that of the key */
@@ -111,7 +111,7 @@ final class KafkaSuite implements AutoCloseable {
     String stop(JobID job, Path directory) throws Exception {
         return flink.cluster()
                 .stopWithSavepoint(job, directory.toUri().toString(), false, SavepointFormatType.CANONICAL)
-                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+                .get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
     }
 
     JobStatus status(JobID job) {
@@ -119,8 +119,8 @@ final class KafkaSuite implements AutoCloseable {
     }
 
     void cancel(JobID job) throws Exception {
-        flink.cluster().cancelJob(job).get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
-        await().atMost(PATIENCE).until(() -> flink.status(job).isGloballyTerminalState());
+        flink.cluster().cancelJob(job).get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+        await().atMost(TIMEOUT).until(() -> flink.status(job).isGloballyTerminalState());
     }
 
     /** The committed records of a topic, as soon as there are so many. */
@@ -140,7 +140,7 @@ final class KafkaSuite implements AutoCloseable {
                 "allow.auto.create.topics", "false",
                 "isolation.level", "read_committed");
         try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            await().atMost(PATIENCE).until(() -> {
+            await().atMost(TIMEOUT).until(() -> {
                 List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
                         .map(info -> new TopicPartition(topic, info.partition()))
                         .toList();

@@ -5,13 +5,13 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /** Devices as they stand on {@code service.devices}, in the order of the topic. */
-record KnownDevices(ArrayList<byte[]> values) implements TopicAtStart {
+record KnownDevices(ArrayList<byte[]> values) implements TopicSnapshot {
     static KnownDevices of(DeviceVersion... versions) {
         ArrayList<byte[]> values = new ArrayList<>();
         for (DeviceVersion version : versions) {

@@ -8,8 +8,8 @@ import java.util.stream.Stream;
 
 import picocli.CommandLine;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;

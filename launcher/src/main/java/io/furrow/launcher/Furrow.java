@@ -4,12 +4,15 @@ import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.launcher.control.AlarmCommand;
-import io.furrow.launcher.control.DeviceCommand;
-import io.furrow.launcher.control.DomainCommand;
-import io.furrow.launcher.control.ReplayCommand;
-import io.furrow.launcher.control.TemplateCommand;
+import io.furrow.cli.Commands;
+import io.furrow.cli.option.HelpOption;
+import io.furrow.launcher.command.ControlPlaneCommand;
+import io.furrow.launcher.command.DashboardCommand;
+import io.furrow.launcher.command.DemoCommand;
+import io.furrow.launcher.command.ScenarioCommand;
+import io.furrow.launcher.command.SecretCommand;
+import io.furrow.launcher.command.UpCommand;
+import io.furrow.launcher.replay.AnalyticsCommand;
 import io.furrow.simulators.host.DeviceHostCommand;
 
 /** The command {@code ./furrow}. */
@@ -17,24 +20,15 @@ import io.furrow.simulators.host.DeviceHostCommand;
         name = "furrow",
         description = "Stream processing for FIWARE farms: from the context broker through Kafka and Flink and back.",
         synopsisSubcommandLabel = "COMMAND",
+        footer = {"", "./furrow bench measures the suite on this machine, ./furrow soak runs long checks."},
         subcommands = {
             DemoCommand.class,
             UpCommand.class,
             ControlPlaneCommand.class,
+            DashboardCommand.class,
             DeviceHostCommand.class,
             ScenarioCommand.class,
-            DomainCommand.class,
-            MissionCommand.class,
-            TemplateCommand.class,
-            DeviceCommand.class,
-            SecretCommand.class,
-            AlarmCommand.class,
-            ReplayCommand.class,
-            ImagesCommand.class,
-            CatalogCommand.class,
-            FieldsCommand.class,
-            DeadLettersCommand.class,
-            BenchCommand.class
+            SecretCommand.class
         })
 public final class Furrow {
     @Mixin
@@ -51,12 +45,8 @@ public final class Furrow {
 
     /** The command with all that it has. */
     public static CommandLine commandLine() {
-        return JobCommandLine.of(new Furrow()).setExecutionExceptionHandler((failure, command, parsed) -> {
-            if (failure instanceof SuiteNotStartedException refused) {
-                command.getErr().println(refused.getMessage());
-                return command.getCommandSpec().exitCodeOnExecutionException();
-            }
-            throw failure;
-        });
+        CommandLine furrow = Commands.commandLine(new Furrow());
+        furrow.getSubcommands().get("replay").addSubcommand(new AnalyticsCommand());
+        return furrow;
     }
 }

@@ -5,10 +5,10 @@ import java.nio.file.Path;
 import org.apache.logging.log4j.core.LoggerContext;
 
 /** Points the log to the file of the running suite; until then nothing is worth a line. */
-final class LogFile {
+public final class LogFile {
     private LogFile() {}
 
-    static void writeTo(Path file) {
+    public static void writeTo(Path file) {
         System.setProperty("furrow.log", file.toString());
         LoggerContext.getContext(false).reconfigure();
     }

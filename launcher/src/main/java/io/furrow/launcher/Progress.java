@@ -4,7 +4,7 @@ import java.io.PrintWriter;
 import java.time.Duration;
 import java.util.concurrent.Callable;
 
-/** Tells on the terminal what is being started and how long it took, so that nobody waits in silence. */
+/** Prints on the terminal which part is starting and how long it took. */
 public final class Progress {
     private final PrintWriter out;
 
@@ -13,7 +13,7 @@ public final class Progress {
     }
 
     /** Runs one step; it may run beside others. */
-    <T> T step(String what, Callable<T> work) throws Exception {
+    public <T> T step(String what, Callable<T> work) throws Exception {
         long start = System.nanoTime();
         out.printf("  starting %s …%n", what);
         out.flush();

@@ -15,24 +15,24 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** JSON over HTTP with what runs beside us: Connect, Flink, the context broker. */
-final class RestClient {
+public final class RestClient {
     private final HttpClient http = HttpClient.newBuilder()
             .version(HttpClient.Version.HTTP_1_1)
             .connectTimeout(Duration.ofSeconds(5))
             .build();
 
     /** Status and body of an answer; the body is a missing node where there was none. */
-    record Answer(int status, JsonNode body) {
-        boolean isSuccess() {
+    public record Answer(int status, JsonNode body) {
+        public boolean isSuccess() {
             return status / 100 == 2;
         }
     }
 
-    Answer get(URI uri, Map<String, String> headers) {
+    public Answer get(URI uri, Map<String, String> headers) {
         return send(request(uri, headers).GET().build());
     }
 
-    Answer send(String method, URI uri, Map<String, String> headers, JsonNode body) {
+    public Answer send(String method, URI uri, Map<String, String> headers, JsonNode body) {
         return send(request(uri, headers)
                 .header("Content-Type", "application/json")
                 .method(method, BodyPublishers.ofByteArray(NgsiJson.write(body)))

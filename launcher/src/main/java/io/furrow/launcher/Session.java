@@ -10,9 +10,12 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.launcher.status.Status;
+import io.furrow.launcher.suite.RunDirectory;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.suite.SuiteSettings;
 
 /** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds. */
-final class Session {
+public final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
     private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);
     private static final int STOPPED_BY_INTERRUPT = 130;
@@ -22,12 +25,12 @@ final class Session {
     private final CountDownLatch stopped = new CountDownLatch(1);
     private volatile boolean started;
 
-    Session(PrintWriter out) {
+    public Session(PrintWriter out) {
         this.out = out;
     }
 
     /** What runs on top of the suite, for instance simulated devices. */
-    interface Guest {
+    public interface Guest {
         AutoCloseable join(Suite suite) throws Exception;
     }
 
@@ -36,7 +39,7 @@ final class Session {
      *
      * @param data kept across restarts; null for a temporary directory
      */
-    int run(SuiteSettings settings, Path data, Guest guest) throws Exception {
+    public int run(SuiteSettings settings, Path data, Guest guest) throws Exception {
         out.println("Furrow starts; Ctrl-C stops it.");
         try (RunDirectory directory = RunDirectory.open(data)) {
             Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(directory), "stop"));
@@ -58,10 +61,12 @@ final class Session {
         try (Status status = new Status(
                 out,
                 System.console() != null && System.getenv("TERM") != null,
-                suite.kafka().admin(),
-                suite.kafka().clientProperties(),
-                suite.flink(),
-                suite.jobs())) {
+                new Status.Shown(
+                        suite.kafka().admin(),
+                        suite.kafka().clientProperties(),
+                        suite.flink(),
+                        suite.jobs(),
+                        suite::waitingAnalytics))) {
             status.start();
             do {
                 status.tick();
@@ -76,8 +81,8 @@ final class Session {
     private void stopFromOutside(RunDirectory directory) {
         stopRequested.countDown();
         try {
-            long patience = started ? STOP_WITHIN.toMillis() : 0;
-            if (!stopped.await(patience, TimeUnit.MILLISECONDS)) {
+            long timeout = started ? STOP_WITHIN.toMillis() : 0;
+            if (!stopped.await(timeout, TimeUnit.MILLISECONDS)) {
                 directory.close();
                 Runtime.getRuntime().halt(STOPPED_BY_INTERRUPT);
             }

@@ -2,12 +2,15 @@ package io.furrow.launcher;
 
 import java.io.PrintWriter;
 
+import io.furrow.launcher.suite.Suite;
+
 /** Where everything is, printed once. */
 final class UrlTable {
     private UrlTable() {}
 
     static void print(PrintWriter out, Suite suite) {
         out.println();
+        row(out, "Dashboard", suite.dashboard());
         row(out, "Flink web UI", suite.flink());
         row(out, "Kafka", suite.kafka().bootstrapServers());
         row(out, "Missions (MongoDB)", suite.mongo().replaceAll("://[^/@]*@", "://***@"));

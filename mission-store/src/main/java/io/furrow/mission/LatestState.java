@@ -24,6 +24,7 @@ public final class LatestState {
      * The entities as they were known before a point, each with time, id and headers of its newest event, in the order of these.
      *
      * @param time epoch ms; events of this time are not among what was known
+     * @throws RecordingInterruptedException if the thread is interrupted meanwhile
      */
     public static Collection<StoredEvent> before(Recording recording, long time, PageLimits limits)
             throws RecordingException {
@@ -31,6 +32,7 @@ public final class LatestState {
         Cursor next = Cursor.START;
         boolean done = false;
         while (!done) {
+            RecordingInterruptedException.check();
             Page page = recording.read(next, limits);
             for (StoredEvent event : page.events()) {
                 if (event.time() < time) {

@@ -9,6 +9,6 @@ import java.util.List;
  * @param skipped records that hold no event; those without an event time, which have no place in the order, come with the page
  *     that is read from {@link Cursor#START}
  * @param next where the following page begins
- * @param last whether the recording ends here; one that is still being written may go on later
+ * @param last whether the recording ends here; one that is still being written may continue later
  */
 public record Page(List<StoredEvent> events, List<Skipped> skipped, Cursor next, boolean last) {}

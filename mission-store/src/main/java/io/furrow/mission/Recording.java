@@ -1,6 +1,9 @@
 package io.furrow.mission;
 
 import java.util.Optional;
+import java.util.function.Predicate;
+
+import io.furrow.mission.mongo.CursorsBack;
 
 /**
  * A stored mission: its events in the order of {@link EventOrder}. Read by one thread. After a {@link RecordingException} the
@@ -8,7 +11,7 @@ import java.util.Optional;
  */
 public interface Recording extends AutoCloseable {
     /**
-     * The first and the last event time and the number of events; empty where there is none.
+     * The first and the last event time; empty if there is none.
      *
      * @throws RecordingException if the recording cannot be read now
      */
@@ -19,9 +22,41 @@ public interface Recording extends AutoCloseable {
      * records as it may hold events.
      *
      * @throws RecordingGoneException if the recording has been deleted since it was opened
+     * @throws RecordingInterruptedException if the thread is interrupted while it waits
      * @throws RecordingException if the recording cannot be read now
      */
     Page read(Cursor after, PageLimits limits) throws RecordingException;
+
+    /**
+     * The cursor that lies {@code count} wanted events before another, just after a wanted event: exactly these lie between the two. Here
+     * by reading all pages between; a recording that can read backwards does so. The next page may begin again.
+     *
+     * @param from events up to this cursor are counted
+     * @param first where the recording is taken to begin: {@link Cursor#START} or later, the answer where no more events are requested
+     * @param count from 1 to {@value CursorsBack#MAX}
+     * @param wanted asked for the events in any order, for some twice
+     * @throws IllegalArgumentException for any other count
+     * @throws RecordingInterruptedException if the thread is interrupted meanwhile
+     * @throws RecordingException if the recording cannot be read now
+     */
+    default Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> wanted, PageLimits limits)
+            throws RecordingException {
+        CursorsBack.check(count);
+        CursorsBack back = new CursorsBack(first, count);
+        Page page;
+        Cursor next = first;
+        do {
+            RecordingInterruptedException.check();
+            page = read(next, limits);
+            for (StoredEvent event : page.events()) {
+                if (Cursor.after(event).compareTo(from) <= 0) {
+                    back.add(Cursor.after(event), wanted.test(event));
+                }
+            }
+            next = page.next();
+        } while (!page.last() && next.compareTo(from) < 0);
+        return back.oldest();
+    }
 
     @Override
     void close();

@@ -6,9 +6,9 @@ import java.util.Optional;
 /** Opens recordings by mission name. Serializable, so that a job can carry it. */
 public interface Recordings extends Serializable {
     /**
-     * Empty where the mission is unknown.
+     * Empty if the mission is unknown.
      *
-     * @throws RecordingException if it cannot be told now
+     * @throws RecordingException if it cannot be determined now
      */
     Optional<Recording> open(String mission) throws RecordingException;
 }

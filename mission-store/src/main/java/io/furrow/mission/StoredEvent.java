@@ -9,9 +9,9 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  *
  * @param id event id
  * @param time event time, epoch ms
- * @param entityId also where there is no entity
+ * @param entityId also if there is no entity
  * @param headers of the record, hop stamps among them, without the id, the time and the version of the envelope, which say
  *     nothing more
- * @param entity in normalized form; null where the event is the entity's deletion
+ * @param entity in normalized form; null if the event is the entity's deletion
  */
 public record StoredEvent(String id, long time, String entityId, Map<String, String> headers, ObjectNode entity) {}

@@ -9,7 +9,10 @@ import java.util.List;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.mission.file.FileRecordings;
+
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class LatestStateTest {
     private static final List<String> LINES = List.of(
@@ -50,6 +53,20 @@ class LatestStateTest {
     void leavesOutWhatIsOfThePointItself() throws Exception {
         assertThat(before(10)).isEmpty();
         assertThat(before(11)).extracting(StoredEvent::id).containsExactly("a");
+    }
+
+    @Test
+    void isAbandonedBetweenPages() throws Exception {
+        Path file = folder.resolve("hoeing.ndjson");
+        Files.write(file, LINES);
+        try (Recording recording =
+                new FileRecordings(file.toString()).open("any").orElseThrow()) {
+            Thread.currentThread().interrupt();
+            assertThatThrownBy(() -> LatestState.before(recording, 16, PageLimits.DEFAULT))
+                    .isInstanceOf(RecordingInterruptedException.class)
+                    .hasMessage("Reading of a recording was interrupted");
+            assertThat(Thread.interrupted()).isTrue();
+        }
     }
 
     private Collection<StoredEvent> before(long time) throws Exception {

@@ -9,14 +9,14 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /** Events of few times, with ids of which Java's order is not that of UTF-8. */
-final class RandomEvents {
-    static final long TIME = 1_700_000_000_000L;
+public final class RandomEvents {
+    public static final long TIME = 1_700_000_000_000L;
 
     private static final String[] SIGNS = {"a", "b", "Z", "é", "\uFFFD", "\uD83D\uDE9C"};
 
     private RandomEvents() {}
 
-    static List<StoredEvent> of(Random random, int number) {
+    public static List<StoredEvent> of(Random random, int number) {
         int times = 1 + random.nextInt(2 * number + 1);
         List<StoredEvent> events = new ArrayList<>();
         for (int i = 0; i < number; i++) {
@@ -30,7 +30,7 @@ final class RandomEvents {
     }
 
     /** @param padding bytes of a value that says nothing */
-    static StoredEvent event(String id, long time, int padding) {
+    public static StoredEvent event(String id, long time, int padding) {
         JsonNodeFactory nodes = JsonNodeFactory.instance;
         ObjectNode entity = nodes.objectNode();
         entity.put("id", "t1").put("type", "Thermometer");

@@ -4,20 +4,22 @@ import java.util.ArrayList;
 import java.util.Collections;
 import java.util.List;
 import java.util.Random;
+import java.util.function.Predicate;
 
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** What every kind of recording promises. */
-abstract class RecordingContract {
+public abstract class RecordingContract {
     private static final PageLimits LARGE = new PageLimits(1_000_000, Integer.MAX_VALUE);
 
     /** A recording of these events, which come in any order. */
-    abstract Recording recorded(List<StoredEvent> events) throws Exception;
+    public abstract Recording recorded(List<StoredEvent> events) throws Exception;
 
     /** How many bytes of a page an event takes. */
-    abstract int bytes(StoredEvent event) throws Exception;
+    public abstract int bytes(StoredEvent event) throws Exception;
 
     @Test
     void givesEveryEventOnceAndInOrderWhateverTheLimits() throws Exception {
@@ -73,6 +75,85 @@ abstract class RecordingContract {
     }
 
     @Test
+    void goesBackByAsManyEventsAsAreAskedFor() throws Exception {
+        long seed = System.nanoTime();
+        Random random = new Random(seed);
+        for (int round = 0; round < 20; round++) {
+            List<StoredEvent> events = RandomEvents.of(random, random.nextInt(120));
+            List<StoredEvent> ordered = ordered(events);
+            try (Recording recording = recorded(events)) {
+                for (int i = 0; i < 10; i++) {
+                    Cursor from = cursor(random, ordered);
+                    Cursor first = random.nextInt(3) == 0 ? cursor(random, ordered) : Cursor.START;
+                    int count = 1 + random.nextInt(random.nextBoolean() ? 5 : 60);
+                    Predicate<StoredEvent> wanted = random.nextBoolean()
+                            ? event -> true
+                            : event -> event.id().hashCode() % 3 == 0;
+                    PageLimits limits = new PageLimits(1 + random.nextInt(40), 1 + random.nextInt(8_000));
+
+                    Cursor back = recording.back(from, first, count, wanted, limits);
+
+                    assertThat(back)
+                            .as("seed %d, round %d: %d from %s, not before %s", seed, round, count, from, first)
+                            .isEqualTo(back(ordered, from, first, count, wanted));
+                }
+            }
+        }
+    }
+
+    private static Cursor cursor(Random random, List<StoredEvent> events) {
+        if (events.isEmpty() || random.nextInt(8) == 0) {
+            return Cursor.before(RandomEvents.TIME + random.nextInt(300));
+        }
+        StoredEvent any = events.get(random.nextInt(events.size()));
+        return random.nextBoolean() ? Cursor.after(any) : Cursor.before(any.time());
+    }
+
+    private static Cursor back(
+            List<StoredEvent> ordered, Cursor from, Cursor first, int count, Predicate<StoredEvent> wanted) {
+        List<StoredEvent> between = ordered.stream()
+                .filter(event -> Cursor.after(event).compareTo(from) <= 0
+                        && Cursor.after(event).compareTo(first) > 0)
+                .toList();
+        List<StoredEvent> chosen = between.stream().filter(wanted).toList();
+        return chosen.size() <= count ? first : Cursor.after(chosen.get(chosen.size() - count - 1));
+    }
+
+    @Test
+    void goesBackByAtLeastOneEventAndNotByMillions() throws Exception {
+        try (Recording recording = recorded(List.of(RandomEvents.event("a", 7, 0)))) {
+            for (long count : new long[] {-1, 0, 100_001}) {
+                assertThatThrownBy(() -> recording.back(
+                                Cursor.before(9), Cursor.START, count, event -> true, PageLimits.DEFAULT))
+                        .isInstanceOf(IllegalArgumentException.class)
+                        .hasMessageStartingWith("Between 1 and 100,000 events can be gone back, not ");
+            }
+        }
+    }
+
+    @Test
+    void stopsGoingBackWhenItsThreadIsInterrupted() throws Exception {
+        try (Recording recording = recorded(List.of(RandomEvents.event("a", 7, 0)))) {
+            Thread.currentThread().interrupt();
+            assertThatThrownBy(
+                            () -> recording.back(Cursor.before(9), Cursor.START, 1, event -> true, PageLimits.DEFAULT))
+                    .isInstanceOf(RecordingInterruptedException.class);
+            assertThat(Thread.interrupted()).isTrue();
+        }
+    }
+
+    @Test
+    void saysThatItsThreadWasInterruptedAndReadsOnAfterwards() throws Exception {
+        try (Recording recording = recorded(List.of(RandomEvents.event("a", 7, 0)))) {
+            Thread.currentThread().interrupt();
+            assertThatThrownBy(() -> recording.read(Cursor.START, LARGE))
+                    .isInstanceOf(RecordingInterruptedException.class);
+            assertThat(Thread.interrupted()).isTrue();
+            assertThat(recording.read(Cursor.START, LARGE).events()).hasSize(1);
+        }
+    }
+
+    @Test
     void stopsBeforeTheEventThatPassesTheByteLimitAndGivesOneThatIsLargerAlone() throws Exception {
         List<StoredEvent> events = List.of(
                 RandomEvents.event("a", 1, 10),
@@ -101,7 +182,7 @@ abstract class RecordingContract {
     void tellsItsSpan() throws Exception {
         try (Recording recording = recorded(List.of(
                 RandomEvents.event("a", 7, 0), RandomEvents.event("b", -3, 0), RandomEvents.event("c", 5, 0)))) {
-            assertThat(recording.span()).contains(new Span(-3, 7, 3));
+            assertThat(recording.span()).contains(new Span(-3, 7));
         }
         try (Recording recording = recorded(List.of())) {
             assertThat(recording.span()).isEmpty();
@@ -118,13 +199,13 @@ abstract class RecordingContract {
         return total;
     }
 
-    static List<StoredEvent> ordered(List<StoredEvent> events) {
+    public static List<StoredEvent> ordered(List<StoredEvent> events) {
         List<StoredEvent> ordered = new ArrayList<>(events);
         ordered.sort(EventOrder.COMPARATOR);
         return ordered;
     }
 
-    static List<StoredEvent> shuffled(List<StoredEvent> events) {
+    public static List<StoredEvent> shuffled(List<StoredEvent> events) {
         List<StoredEvent> shuffled = new ArrayList<>(events);
         Collections.shuffle(shuffled, new Random(1));
         return shuffled;

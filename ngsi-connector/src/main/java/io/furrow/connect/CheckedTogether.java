@@ -7,16 +7,16 @@ import org.apache.kafka.common.config.Config;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.ConfigValue;
 
-/** Puts what is wrong with several options together beside the option that should be changed. */
+/** Validates several options together and attaches each error to the option that should be changed. */
 public final class CheckedTogether {
     private static final Pattern NAMED = Pattern.compile(" for configuration ([^\\s:]+):");
 
     private CheckedTogether() {}
 
     /**
-     * Adds what a reading of all options says, where each option for itself is right.
+     * Adds the errors of a joint validation to those of the single options.
      *
-     * @param reading throws {@link ConfigException}, whose message names the option as that class does
+     * @param reading throws {@link ConfigException}, whose message names the option in the format of that class
      */
     public static Config with(Config each, Runnable reading) {
         if (each.configValues().stream()
@@ -31,7 +31,7 @@ public final class CheckedTogether {
         return each;
     }
 
-    /** The class does not keep the name by itself. An option of the worker's, such as a converter, gets its value here. */
+    /** The exception has no field for the name. An option of the worker, such as a converter, gets its value here. */
     private static ConfigValue optionOf(ConfigException wrong, Config each) {
         Matcher named = NAMED.matcher(wrong.getMessage() + ":");
         if (!named.find()) {

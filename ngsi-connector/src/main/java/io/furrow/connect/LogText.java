@@ -1,17 +1,17 @@
 package io.furrow.connect;
 
-/** Makes texts from outside fit for a log, in which each line has one author. */
+/** Sanitizes external text for a log, in which each line has one author. */
 public final class LogText {
-    private static final int LONGEST = 1000;
+    private static final int MAX_LENGTH = 1000;
 
     private LogText() {}
 
     /** The beginning of the text on one line. */
     public static String beginning(String text) {
-        return oneLine(text.length() > LONGEST ? text.substring(0, LONGEST) + "…" : text);
+        return oneLine(text.length() > MAX_LENGTH ? text.substring(0, MAX_LENGTH) + "…" : text);
     }
 
-    /** The text with each control character, and each other line break, as {@code \} and four digits, as in JSON. */
+    /** The text with each control character, and each line break, as {@code \} and four digits, as in JSON. */
     public static String oneLine(String text) {
         StringBuilder line = null;
         for (int i = 0; i < text.length(); i++) {

@@ -10,7 +10,7 @@ import org.apache.kafka.common.config.ConfigDef.Validator;
 import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.types.Password;
 
-/** Checks of options; each message names the option, its value and what is expected. */
+/** Validators of options; each message names the option, its value and the expected values. */
 public final class Validators {
     private static final Pattern TOPIC = Pattern.compile("[A-Za-z0-9._-]{1,249}");
 
@@ -66,7 +66,7 @@ public final class Validators {
                 () -> "empty, http://HOST:PORT or https://HOST:PORT");
     }
 
-    /** True or false, which the type has seen to. */
+    /** True or false, which the type already validates. */
     public static Validator truth() {
         return LambdaValidator.with((name, value) -> {}, () -> "true or false");
     }

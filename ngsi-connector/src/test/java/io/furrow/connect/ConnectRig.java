@@ -16,6 +16,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Comparator;
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.stream.Stream;
 import java.util.zip.ZipEntry;
@@ -23,9 +24,11 @@ import java.util.zip.ZipInputStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.admin.NewTopic;
 
 import io.furrow.embedded.EmbeddedConnect;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.FreePort;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -34,12 +37,12 @@ import static org.awaitility.Awaitility.await;
 
 /** A real broker and a real worker that knows the connectors from the packaged plugin folder. */
 public final class ConnectRig implements AutoCloseable {
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     private final Path directory;
     private final HttpClient client =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
-    private final int kafkaPort = freePort();
+    private final int kafkaPort = FreePort.orFree(0);
     private EmbeddedKafka kafka;
     private final EmbeddedConnect worker;
 
@@ -63,6 +66,10 @@ public final class ConnectRig implements AutoCloseable {
 
     public String bootstrapServers() {
         return "127.0.0.1:" + kafkaPort;
+    }
+
+    public void createTopic(NewTopic topic) {
+        kafka.createTopics(List.of(topic));
     }
 
     /** Starts the broker, also after {@link #stopKafka()}: on the same port with the same log. */
@@ -134,7 +141,7 @@ public final class ConnectRig implements AutoCloseable {
                 send(HttpRequest.newBuilder(worker.uri().resolve("/connectors/" + name + "/stop"))
                         .PUT(BodyPublishers.noBody()));
         assertThat(stopped.statusCode()).as(stopped.body()).isEqualTo(204);
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .until(() ->
                         get("/connectors/" + name + "/status").path("tasks").isEmpty());
     }
@@ -174,7 +181,7 @@ public final class ConnectRig implements AutoCloseable {
     }
 
     private void awaitState(String name, String state) {
-        await().atMost(PATIENCE).untilAsserted(() -> {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
             JsonNode status = get("/connectors/" + name + "/status");
             assertThat(status.path("tasks").path(0).path("state").asText())
                     .as(status.toString())
@@ -191,15 +198,6 @@ public final class ConnectRig implements AutoCloseable {
     public void close() {
         worker.close();
         kafka.close();
-    }
-
-    /** A port that was free a moment ago. */
-    public static int freePort() {
-        try (ServerSocket socket = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
-            return socket.getLocalPort();
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        }
     }
 
     public static boolean isFree(int port) {

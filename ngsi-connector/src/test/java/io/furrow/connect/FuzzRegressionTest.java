@@ -15,11 +15,11 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.journal.FuzzJournal;
-import io.furrow.connect.repair.FuzzPages;
-import io.furrow.connect.sink.FuzzAnswers;
+import io.furrow.connect.repair.entity.FuzzPages;
+import io.furrow.connect.sink.api.FuzzAnswers;
 import io.furrow.connect.source.FuzzBodies;
-import io.furrow.connect.source.FuzzGzip;
-import io.furrow.connect.source.FuzzRecords;
+import io.furrow.connect.source.http.FuzzGzip;
+import io.furrow.connect.source.journal.FuzzRecords;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -63,7 +63,7 @@ class OptionsTest {
     @CsvSource({
         "sink, retry.backoff.max.ms, 10",
         "sink, batch.size, none",
-        "sink, context.broker.truststore.location, /nowhere",
+        "sink, context.broker.ssl.truststore.location, /nowhere",
         "source, listen.request.timeout.ms, 1000",
         "source, ssl.client.auth, required",
         "source, listen.port, 65536",

@@ -96,7 +96,7 @@ class PluginIT {
         JsonNode answer = rig.put("/connector-plugins/" + SINK + "/config/validate", options);
 
         assertThat(value(answer, "api").path("recommended_values")).hasToString("[\"ngsi-v2\",\"ngsi-ld\"]");
-        assertThat(value(answer, "context.broker.truststore.location")
+        assertThat(value(answer, "context.broker.ssl.truststore.location")
                         .path("visible")
                         .booleanValue())
                 .isFalse();

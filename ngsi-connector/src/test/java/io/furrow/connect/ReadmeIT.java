@@ -12,8 +12,9 @@ import java.util.regex.Pattern;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.simulators.fiware.FiwareSettings;
-import io.furrow.simulators.fiware.FiwareStandIn;
+import io.furrow.embedded.FreePort;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -27,7 +28,7 @@ class ReadmeIT {
 
     @Test
     void bringsTheFirstRecordInThreeCommands() throws Exception {
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         try (ConnectRig rig = ConnectRig.start(directory.resolve("rig"));
                 FiwareStandIn orion = FiwareStandIn.start(new FiwareSettings(0, 0, null, null, null))) {
             List<String> commands = commands().stream()

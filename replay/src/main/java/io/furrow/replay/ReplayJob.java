@@ -6,15 +6,16 @@ import org.apache.flink.api.common.eventtime.WatermarkStrategy;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.EnsureTopics;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.TopicOptions;
-import io.furrow.flink.TopicRecord;
-import io.furrow.mission.Recordings;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.kafka.EnsureTopics;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
+import io.furrow.replay.source.RecordingSources;
 import io.furrow.replay.source.ReplaySource;
+import io.furrow.replay.source.ReplayTopics;
 
 /** Plays stored missions back, any number at once, each on a topic of its own. */
 public final class ReplayJob {
@@ -28,11 +29,15 @@ public final class ReplayJob {
     }
 
     /** The same with recordings from elsewhere. */
-    static StreamExecutionEnvironment assemble(ReplayOptions options, Recordings recordings) {
+    static StreamExecutionEnvironment assemble(ReplayOptions options, RecordingSources recordings) {
         StreamExecutionEnvironment env = JobEnvironment.createPrompt(options);
 
         DataStream<TopicRecord> records = env.fromSource(
-                        new ReplaySource(options.wanted(), recordings, options.pages()),
+                        new ReplaySource(
+                                options.wanted(),
+                                recordings,
+                                options.pages(),
+                                ReplayTopics.of(options, topics(options))),
                         WatermarkStrategy.noWatermarks(),
                         "Play replays")
                 .uid("play-replays");
@@ -60,24 +65,23 @@ public final class ReplayJob {
 
     /** What is played goes under the job's delivery guarantee; a status is visible at once. */
     private static KafkaOutput toKafka(ReplayOptions options) {
-        TopicOptions.Settings topics =
-                options.topics().settings(Set.of(Topics.REPLAYS_STATUS)).withReplayBytes(options.topicBytes());
         return (name, records) -> {
-            DataStream<TopicRecord> writable = records.map(new EnsureTopics(options, topics))
-                    .uid("ensure-topics-of-" + name)
-                    .name("Ensure topics of " + name);
             if (name.equals(STATUSES)) {
-                writable.sinkTo(KafkaEnds.promptSink(options, name))
+                records.map(new EnsureTopics(options, topics(options)))
+                        .uid("ensure-topics-of-" + name)
+                        .name("Ensure topics of " + name)
+                        .sinkTo(KafkaConnectors.promptSink(options, name))
                         .uid("write-statuses")
                         .name("Write statuses");
             } else {
-                writable.flatMap(new ToEveryPartition(options))
-                        .uid("to-every-partition")
-                        .name("Ends to every partition")
-                        .sinkTo(KafkaEnds.sink(options))
+                records.sinkTo(KafkaConnectors.sink(options))
                         .uid("write-played")
                         .name("Write what was played");
             }
         };
+    }
+
+    private static TopicOptions.Settings topics(ReplayOptions options) {
+        return options.topics().settings(Set.of(Topics.REPLAYS_STATUS)).withReplayBytes(options.topicBytes());
     }
 }

@@ -3,7 +3,8 @@ package io.furrow.replay;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Option;
 
-import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
 
 /** The command line of the replay jar: {@code flink run furrow-replay-….jar replay --help}. */
 @Command(
@@ -20,6 +21,12 @@ public final class ReplayJobs {
     private ReplayJobs() {}
 
     public static void main(String... args) {
-        JobCommandLine.run(new ReplayJobs(), args);
+        JobCommandLine.run(new ReplayJobs(), ReplayJobs::start, args);
+    }
+
+    private static void start(JobOptions options) throws Exception {
+        if (options instanceof ReplayOptions replay) {
+            ReplayJob.assemble(replay).execute();
+        }
     }
 }

@@ -4,25 +4,29 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Optional;
+import java.util.Properties;
 import java.util.UUID;
-import java.util.concurrent.Callable;
 
 import com.fasterxml.jackson.databind.node.TextNode;
+import org.apache.kafka.clients.CommonClientConfigs;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicOptions;
-import io.furrow.mission.MongoRecordings;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TopicOptions;
 import io.furrow.mission.PageLimits;
-import io.furrow.mission.Recordings;
+import io.furrow.mission.mongo.MongoRecordings;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.WantedReplay;
-import io.furrow.model.ngsi.Instants;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.time.Instants;
+import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
+import io.furrow.replay.source.JobRecordings;
+import io.furrow.replay.source.RecordingSources;
 import io.furrow.replay.source.ReplaysTopic;
+import io.furrow.replay.source.TopicHistories;
 import io.furrow.replay.source.WantedReplays;
 
 /** The options of the job {@code replay}. */
@@ -30,7 +34,7 @@ import io.furrow.replay.source.WantedReplays;
         name = "replay",
         description = "Plays stored missions back, each replay of service.replays on its own topic"
                 + " data.<mission>.replay.<id>; with --once one mission, once.")
-public final class ReplayOptions extends JobOptions implements Callable<Integer> {
+public final class ReplayOptions extends JobOptions {
     private static final int ID_DIGITS = 8;
 
     @Mixin
@@ -75,6 +79,14 @@ public final class ReplayOptions extends JobOptions implements Callable<Integer>
     private int pageBytes;
 
     @Option(
+            names = "--recordings",
+            paramLabel = "URI",
+            description =
+                    "Folder of exported missions, for instance s3://bucket/missions: replays may name a file of it as"
+                            + " their source. Default: none, and no file is played.")
+    private String folder;
+
+    @Option(
             names = "--replay-topic-bytes",
             paramLabel = "N",
             defaultValue = "1073741824",
@@ -87,6 +99,18 @@ public final class ReplayOptions extends JobOptions implements Callable<Integer>
 
     @Option(names = "--mission", paramLabel = "NAME", description = "With --once: the mission.")
     private String mission;
+
+    @Option(
+            names = "--source-topic",
+            paramLabel = "NAME",
+            description = "With --once: play the history of this topic, data.…, instead of a mission in MongoDB.")
+    private String sourceTopic;
+
+    @Option(
+            names = "--source-file",
+            paramLabel = "NAME",
+            description = "With --once: play this file of --recordings instead of a mission in MongoDB.")
+    private String sourceFile;
 
     @Option(
             names = "--begin",
@@ -132,9 +156,12 @@ public final class ReplayOptions extends JobOptions implements Callable<Integer>
         return new PageLimits(pageEvents, pageBytes);
     }
 
-    Recordings recordings() {
+    /** Missions from MongoDB; files and topics for replays that name one. */
+    RecordingSources recordings() {
+        Properties kafka = kafkaProperties();
+        kafka.setProperty(CommonClientConfigs.BOOTSTRAP_SERVERS_CONFIG, bootstrapServers());
         try {
-            return new MongoRecordings(mongo, database, timeout);
+            return new JobRecordings(new MongoRecordings(mongo, database, timeout), folder, TopicHistories.of(kafka));
         } catch (IllegalArgumentException e) {
             throw refused(
                     "--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
@@ -151,6 +178,9 @@ public final class ReplayOptions extends JobOptions implements Callable<Integer>
         if (mission == null) {
             throw refused("--once has no mission; add --mission NAME", null);
         }
+        if (!TopicName.isLegal(mission)) {
+            throw refused("--mission %s is no name: it takes 1 to 64 of A-Z a-z 0-9 _ -".formatted(mission), null);
+        }
         String id8 = UUID.randomUUID().toString().substring(0, ID_DIGITS);
         String onto = topic == null ? Topics.replay(mission, id8) : topic;
         String digits = onto.substring(Math.max(0, onto.length() - ID_DIGITS));
@@ -161,20 +191,25 @@ public final class ReplayOptions extends JobOptions implements Callable<Integer>
                     null);
         }
         String replay = mission + "." + digits;
-        WantedReplay wanted = new WantedReplay(
-                replay,
-                mission,
-                onto,
+        ReplayPlan plan = new ReplayPlan(
+                source(),
                 time("--begin", begin).orElse(null),
                 time("--end", end).orElse(null),
-                speed(),
                 false,
                 List.of(),
-                ReplayStatus.State.RUNNING,
                 null,
+                ReplayPlan.Stamps.ORIGINAL,
                 null,
-                0);
+                List.of());
+        WantedReplay wanted = WantedReplay.started(mission, onto, plan, speed(), System.currentTimeMillis(), 0);
         return new WantedReplays.One(replay, wanted.toBytes());
+    }
+
+    private ReplayPlan.Source source() {
+        if (sourceTopic != null && sourceFile != null) {
+            throw refused("--source-topic and --source-file are both given; leave one out", null);
+        }
+        return sourceTopic == null && sourceFile == null ? null : new ReplayPlan.Source(sourceTopic, sourceFile);
     }
 
     private Optional<Long> time(String option, String text) {
@@ -201,11 +236,5 @@ public final class ReplayOptions extends JobOptions implements Callable<Integer>
             throw refused("--speed " + speed + " is neither a number from 0.1 to 1000 nor max", e);
         }
         throw refused("--speed " + speed + " is neither a number from 0.1 to 1000 nor max", null);
-    }
-
-    @Override
-    public Integer call() throws Exception {
-        ReplayJob.assemble(this).execute();
-        return 0;
     }
 }

@@ -4,9 +4,9 @@ import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -78,10 +78,5 @@ public final class ReplayRecords {
                 .integer("Time", played.time())
                 .text("Mission", replay.mission())
                 .toBytes();
-    }
-
-    /** Whether the record ends an epoch, and so is for every partition. */
-    public static boolean isEnd(TopicRecord record) {
-        return END.equals(record.headers().get(HeaderNames.REPLAY_KIND));
     }
 }

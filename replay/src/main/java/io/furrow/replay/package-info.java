@@ -1,2 +1,10 @@
-/** The job that plays stored missions back. */
+/**
+ * The job {@code replay}: plays stored missions back on topics of their own.
+ *
+ * <p><b>In</b>: {@code service.replays}, recordings of {@code mission-store}.
+ *
+ * <p><b>Out</b>: {@code data.<mission>.replay.<id8>}, {@code service.replays.status}.
+ *
+ * <p><b>Must not know</b>: who asks for replays, and which analytics read them.
+ */
 package io.furrow.replay;

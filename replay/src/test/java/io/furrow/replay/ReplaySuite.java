@@ -20,7 +20,6 @@ import org.apache.flink.core.execution.RecoveryClaimMode;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
 import org.apache.flink.streaming.api.graph.StreamGraph;
-import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -35,22 +34,23 @@ import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMongo;
 import io.furrow.embedded.FreePort;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.mission.DocumentForm;
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.flink.job.JobCommandLine;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.mission.mongo.EventDocumentCodec;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 
 /** Kafka, Flink and MongoDB's stand-in for the time of a test, and the job {@code replay} on them. */
 final class ReplaySuite implements AutoCloseable {
     static final long TIME = 1_600_000_000_000L;
 
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final int SLOTS = 4;
 
     private final EmbeddedKafka kafka;
@@ -66,11 +66,9 @@ final class ReplaySuite implements AutoCloseable {
         documents = directory.resolve("mongo");
         producer = new KafkaProducer<>(client(), new ByteArraySerializer(), new ByteArraySerializer());
         startMongo();
-        try (Admin admin = Admin.create(client())) {
-            NewTopic topic = new NewTopic(Topics.REPLAYS, Optional.of(1), Optional.empty())
-                    .configs(Map.of("cleanup.policy", "compact"));
-            admin.createTopics(List.of(topic)).all().get();
-        }
+        NewTopic topic = new NewTopic(Topics.REPLAYS, Optional.of(1), Optional.empty())
+                .configs(Map.of("cleanup.policy", "compact"));
+        kafka.createTopics(List.of(topic));
     }
 
     static ReplaySuite start(Path directory) throws Exception {
@@ -96,7 +94,7 @@ final class ReplaySuite implements AutoCloseable {
 
     /** Events of four devices, one after the other, so many ms apart. */
     void store(String mission, int count, long apart) throws Exception {
-        try (MongoClient client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(PATIENCE)).open()) {
+        try (MongoClient client = new MongoAccess(mongo.uri(), MongoAccess.Waits.of(TIMEOUT)).open()) {
             MissionCollections missions =
                     new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
             List<RawBsonDocument> events = new ArrayList<>();
@@ -105,7 +103,7 @@ final class ReplaySuite implements AutoCloseable {
                 ObjectNode entity =
                         JsonNodeFactory.instance.objectNode().put("id", id).put("type", "T");
                 entity.putObject("n").put("type", "Integer").put("value", i).putObject("metadata");
-                events.add(new RawBsonDocument(DocumentForm.write(new StoredEvent(
+                events.add(new RawBsonDocument(EventDocumentCodec.write(new StoredEvent(
                         "e%05d".formatted(i), TIME + i * apart, id, Map.of("ce_source", "/test"), entity))));
             }
             missions.prepared(MissionCollections.nameOf(mission)).insertMany(events);
@@ -113,19 +111,8 @@ final class ReplaySuite implements AutoCloseable {
     }
 
     static WantedReplay wanted(String mission, double speed, State state, long sequence) {
-        return new WantedReplay(
-                mission + ".0a1b2c3d",
-                mission,
-                Topics.replay(mission, "0a1b2c3d"),
-                null,
-                null,
-                speed,
-                false,
-                List.of(),
-                state,
-                null,
-                null,
-                sequence);
+        return WantedReplay.started(mission, Topics.replay(mission, "0a1b2c3d"), ReplayPlan.PLAIN, speed, 0, sequence)
+                .wanted(state, sequence);
     }
 
     void want(WantedReplay wanted) throws Exception {
@@ -153,7 +140,7 @@ final class ReplaySuite implements AutoCloseable {
     String stop(JobID job, Path directory) throws Exception {
         return flink.cluster()
                 .stopWithSavepoint(job, directory.toUri().toString(), false, SavepointFormatType.CANONICAL)
-                .get(PATIENCE.toSeconds(), TimeUnit.SECONDS);
+                .get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
     }
 
     static Path path(String savepoint) {
@@ -179,7 +166,7 @@ final class ReplaySuite implements AutoCloseable {
         return records;
     }
 
-    /** The newest status of a replay; null where there is none. */
+    /** The newest status of a replay; null if there is none. */
     ReplayStatus status(String mission) throws Exception {
         ReplayStatus newest = null;
         for (ConsumerRecord<byte[], byte[]> record : records(Topics.REPLAYS_STATUS)) {

@@ -5,8 +5,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.job.JobCommandLine;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -35,9 +35,11 @@ class ReplayUidsTest {
     @ParameterizedTest
     @CsvSource(delimiter = '|', nullValues = "-", textBlock = """
             --once                                   | --once has no mission
+            --once --mission m.n                     | --mission m.n is no name
             --once --mission m --speed 2000          | --speed 2000 is neither
             --once --mission m --begin yesterday     | --begin yesterday is no time
             --once --mission m --topic data.raw      | --topic data.raw is no topic of a replay
+            --once --mission m --source-topic data.t --source-file f | are both given
             """)
     void refusesWhatCannotBePlayed(String args, String reason) {
         ReplayOptions options = options(("--mongo mongodb://h " + args).split(" +"));

@@ -7,9 +7,9 @@ import java.util.stream.Stream;
 
 import org.apache.flink.api.common.JobID;
 
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 
 import static org.awaitility.Awaitility.await;
 
@@ -54,19 +54,6 @@ final class StoredSavepoint {
 
     /** With a step to each of the events that are played. */
     static WantedReplay paused() {
-        WantedReplay w = ReplaySuite.wanted(MISSION, 1, State.PAUSED, 1);
-        return new WantedReplay(
-                w.replay(),
-                w.mission(),
-                w.topic(),
-                null,
-                null,
-                1,
-                false,
-                w.devices(),
-                State.PAUSED,
-                null,
-                new WantedReplay.Step(PLAYED, 1),
-                1);
+        return ReplaySuite.wanted(MISSION, 1, State.PAUSED, 1).stepping(PLAYED, 1);
     }
 }

@@ -2,11 +2,12 @@ package io.furrow.analytics.clock;
 
 import java.io.Serializable;
 
-import io.furrow.flink.Epochs;
-import io.furrow.flink.ResultRecord;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.ResultRecord;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.result.ClockResult;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -17,18 +18,15 @@ import io.furrow.model.topic.Topics;
  * @param topic of the entities; those of a replay go to its own
  */
 record ClockEntity(String job, String topic) implements Serializable {
-    private static final String BEHIND = "Analytics:ClockBehind";
-    private static final String OFFSET = "Analytics:ClockOffset";
-
     /** Key = device id; timestamp = event time when it was found. */
     TopicRecord of(ClockReport report) {
-        String type = report.kind() == ClockReport.Kind.BEHIND ? BEHIND : OFFSET;
+        String type = report.kind() == ClockReport.Kind.BEHIND ? ClockResult.BEHIND_TYPE : ClockResult.OFFSET_TYPE;
         EntityBuilder entity = Entity.builder(type + ":" + report.id(), type)
-                .text("device", report.id())
+                .text(ClockResult.DEVICE, report.id())
                 .text("job", job)
                 .integer("time", Epochs.original(report.time()));
         if (report.kind() == ClockReport.Kind.BEHIND) {
-            entity.integer("late", report.millis())
+            entity.integer(ClockResult.LATE, report.millis())
                     .integer("positions", report.positions())
                     .text("Mission", report.mission());
         } else {

@@ -18,7 +18,7 @@ import java.util.Arrays;
 public record ClockOffset(long millis, long since, long[] before, long[] least) {
     static final long SPAN = Duration.ofMinutes(2).toMillis();
     /** A smaller offset is what messages take, not a clock. */
-    static final long LEAST = Duration.ofSeconds(1).toMillis();
+    static final long MIN = Duration.ofSeconds(1).toMillis();
     /** A greater one is no clock that drifts: a wrong time zone or date. */
     static final long GREATEST = Duration.ofMinutes(10).toMillis();
     /** The offset in force stays while a new one differs by less. */
@@ -56,7 +56,7 @@ public record ClockOffset(long millis, long since, long[] before, long[] least) 
     }
 
     private long inForce(long learned) {
-        boolean isClock = Math.abs(learned) >= LEAST && Math.abs(learned) <= GREATEST;
+        boolean isClock = Math.abs(learned) >= MIN && Math.abs(learned) <= GREATEST;
         long target = isClock ? learned : 0;
         return target != 0 && millis != 0 && Math.abs(target - millis) < STEP ? millis : target;
     }

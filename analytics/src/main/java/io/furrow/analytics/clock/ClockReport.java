@@ -5,17 +5,17 @@ import io.furrow.model.event.FiwareScope;
 /**
  * What was found out about the clock of a device.
  *
- * @param topic the topic that tells of the device
+ * @param topic the topic that reports the device
  * @param identity tenant, service path and id
  * @param id the entity id
- * @param mission the mission it works for; empty where that is not known
+ * @param mission the mission it works for; empty if that is not known
  * @param millis of {@link Kind#BEHIND} how much too late the newest position came, of {@link Kind#OFFSET} what is added to its times
  * @param positions of {@link Kind#BEHIND} how many came too late in a row
  * @param time event time of the report, epoch ms
  */
 public record ClockReport(
         Kind kind, String topic, String identity, String id, String mission, long millis, int positions, long time) {
-    /** What it tells. */
+    /** What it reports. */
     public enum Kind {
         /** The device's positions come too late to count. */
         BEHIND,

@@ -18,7 +18,7 @@ public final class ClockSettings {
             defaultValue = "off",
             description =
                     "on: learn by how much the clock of each device is off, from when its messages were received (header"
-                            + " ts-source), and correct its times, from 1 s up to 10 min; --clock-output tells of it. Without it"
+                            + " ts-source), and correct its times, from 1 s up to 10 min; --clock-output reports it. Without it"
                             + " the positions of a device that is further behind than --out-of-orderness do not count."
                             + " Replays are never corrected. Default: ${DEFAULT-VALUE}.")
     private Correction correction;

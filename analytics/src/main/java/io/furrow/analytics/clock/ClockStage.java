@@ -3,8 +3,8 @@ package io.furrow.analytics.clock;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
-import io.furrow.flink.Receipt;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
 
 /** The clocks of devices in a job that follows positions. */
 public final class ClockStage {

@@ -13,14 +13,15 @@ import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
 import io.furrow.analytics.eventtime.OneTimer;
-import io.furrow.flink.Receipt;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.result.ResultTypes;
 
 /**
  * Gives the records of each device the times of a clock that is right, before anything judges them late. Key: the device of a
- * topic, see {@link #deviceOf}. Event time itself goes on by the times that the devices told.
+ * topic, see {@link #deviceOf}. Event time itself continues by the times that the devices reported.
  *
  * <p><b>State</b>: the offset learned of the device's clock, see {@link ClockOffset}. It depends on the device's records alone, in
  * their order, and not on the wall clock, so that a restart and a second pass give the same.
@@ -42,8 +43,6 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
 
     private static final long serialVersionUID = 1L;
     private static final long KEPT = Duration.ofDays(1).toMillis();
-    /** The results of Furrow itself, which come back through the context broker. */
-    private static final String OWN_TYPES = "Analytics:";
 
     private final Receipt receipt;
     private transient OneTimer timer;
@@ -117,10 +116,10 @@ public final class CorrectClocks extends KeyedProcessFunction<String, TopicRecor
 
     private static boolean isOfDevice(TopicRecord record) {
         String id = id(record);
-        return record.value() != null && !id.isEmpty() && !id.startsWith(OWN_TYPES);
+        return record.value() != null && !id.isEmpty() && !ResultTypes.isResult(id);
     }
 
-    /** Empty where the record has no key. */
+    /** Empty if the record has no key. */
     private static String id(TopicRecord record) {
         return record.key() == null ? "" : new String(record.key(), StandardCharsets.UTF_8);
     }

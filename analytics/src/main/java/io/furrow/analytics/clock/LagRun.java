@@ -3,7 +3,7 @@ package io.furrow.analytics.clock;
 import java.time.Duration;
 
 /**
- * Positions of a device that came too late in a row. A device is behind after {@value #LEAST} of them that came within no less than 30 s
+ * Positions of a device that came too late in a row. A device is behind after {@value #MIN} of them that came within no less than 30 s
  * of event time: what a gateway stored and sends all at once is late too, but soon over.
  *
  * @param first the time of the first position, epoch ms
@@ -13,12 +13,12 @@ import java.time.Duration;
  * @param told how far event time had come when this was last reported; {@link Long#MIN_VALUE} where it was not
  */
 public record LagRun(long first, long since, long reached, int positions, long told) {
-    static final int LEAST = 10;
-    static final long LEAST_TIME = Duration.ofSeconds(30).toMillis();
+    static final int MIN = 10;
+    static final long MIN_TIME = Duration.ofSeconds(30).toMillis();
     /** Between two reports of a run. */
     static final long AGAIN = Duration.ofMinutes(1).toMillis();
     /** A longer silence ends a run. */
-    static final long LONGEST_GAP = Duration.ofMinutes(10).toMillis();
+    static final long MAX_GAP = Duration.ofMinutes(10).toMillis();
 
     private static final long NEVER = Long.MIN_VALUE;
 
@@ -36,7 +36,7 @@ public record LagRun(long first, long since, long reached, int positions, long t
     }
 
     boolean isToBeTold() {
-        return positions >= LEAST && reached - since >= LEAST_TIME && (told == NEVER || reached - told >= AGAIN);
+        return positions >= MIN && reached - since >= MIN_TIME && (told == NEVER || reached - told >= AGAIN);
     }
 
     LagRun afterReport() {
@@ -45,6 +45,6 @@ public record LagRun(long first, long since, long reached, int positions, long t
 
     /** The event time at which the run is over where nothing comes any more. */
     long end() {
-        return reached + LONGEST_GAP;
+        return reached + MAX_GAP;
     }
 }

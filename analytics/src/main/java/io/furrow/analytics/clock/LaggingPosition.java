@@ -1,12 +1,12 @@
 package io.furrow.analytics.clock;
 
 /**
- * A position that came too late to count though its device told of no newer one: its clock or its link is behind.
+ * A position that arrived too late to count although it is the newest of its device: its clock or its link is behind.
  *
- * @param topic the topic that tells of the device
+ * @param topic the topic that reports the device
  * @param identity tenant, service path and id
  * @param id the entity id
- * @param mission the mission it works for; empty where it names none
+ * @param mission the mission it works for; empty if it names none
  * @param time of the position, epoch ms
  * @param reached how far event time had come, epoch ms; not before {@code time}
  * @param counted the time of the device's newest position that counted; {@link Long#MIN_VALUE} where none is known

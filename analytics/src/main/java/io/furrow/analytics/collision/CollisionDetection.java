@@ -7,6 +7,22 @@ import org.apache.flink.streaming.api.datastream.KeyedStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
 import io.furrow.analytics.clock.LaggingPosition;
+import io.furrow.analytics.collision.debounce.DebounceEncounters;
+import io.furrow.analytics.collision.eager.Arrival;
+import io.furrow.analytics.collision.eager.ProvisionalProximity;
+import io.furrow.analytics.collision.eager.RaiseAlarms;
+import io.furrow.analytics.collision.eager.SpotPairs;
+import io.furrow.analytics.collision.eager.TrackArrivals;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Pair;
+import io.furrow.analytics.collision.encounter.PairObservation;
+import io.furrow.analytics.collision.encounter.TrackEncounters;
+import io.furrow.analytics.collision.grid.CellUpdate;
+import io.furrow.analytics.collision.grid.TrackDevices;
+import io.furrow.analytics.collision.matching.CellOverflow;
+import io.furrow.analytics.collision.matching.MatchPairs;
+import io.furrow.analytics.position.Device;
+import io.furrow.analytics.position.PositionFix;
 
 /**
  * The encounters among positions, as defined for this package.
@@ -26,7 +42,7 @@ public record CollisionDetection(
         return define(fixes, rules, false);
     }
 
-    /** @param eager whether pairs that are close by what has arrived are told before the watermark decides */
+    /** @param eager whether pairs that are close by what has arrived are emitted before the watermark decides */
     public static CollisionDetection define(
             KeyedStream<PositionFix, Device> fixes, CollisionRules rules, boolean eager) {
         SingleOutputStreamOperator<CellUpdate> updates = fixes.transform(
@@ -35,17 +51,17 @@ public record CollisionDetection(
                         new TrackDevices(rules, eager))
                 .uid("track-devices");
 
-        SingleOutputStreamOperator<Sighting> sightings = updates.keyBy(CellUpdate::cell)
-                .transform("Match pairs in each cell", TypeInformation.of(Sighting.class), new MatchPairs(rules))
+        SingleOutputStreamOperator<PairObservation> sightings = updates.keyBy(CellUpdate::cell)
+                .transform("Match pairs in each cell", TypeInformation.of(PairObservation.class), new MatchPairs(rules))
                 .uid("match-pairs");
 
         DataStream<Encounter> encounters = sightings
-                .keyBy(Sighting::pair)
+                .keyBy(PairObservation::pair)
                 .transform(
-                        "Follow encounters of each pair",
+                        "Track encounters of each pair",
                         TypeInformation.of(Encounter.class),
-                        new FollowEncounters(rules))
-                .uid("follow-encounters");
+                        new TrackEncounters(rules))
+                .uid("track-encounters");
 
         DataStream<Encounter> lasting = rules.steadiness().isNone() ? encounters : steady(encounters, rules);
 
@@ -59,9 +75,9 @@ public record CollisionDetection(
     /** A pair's records stay where they are: the key is that of the stage before. */
     private static DataStream<Encounter> steady(DataStream<Encounter> encounters, CollisionRules rules) {
         return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, TypeInformation.of(Pair.class))
-                .process(new SteadyEncounters(rules))
-                .uid("steady-encounters")
-                .name("Steady encounters of each pair");
+                .process(new DebounceEncounters(rules))
+                .uid("debounce-encounters")
+                .name("Debounce encounters of each pair");
     }
 
     /** Beside the exact stages, never instead of them. */
@@ -73,13 +89,13 @@ public record CollisionDetection(
                 .uid("track-arrivals")
                 .name("Track arrivals through the grid");
 
-        DataStream<Glimpse> glimpses = arrivals.keyBy(Arrival::cell)
+        DataStream<ProvisionalProximity> glimpses = arrivals.keyBy(Arrival::cell)
                 .process(new SpotPairs(rules))
                 .uid("spot-pairs")
                 .name("Spot pairs in each cell");
 
         return DataStreamUtils.reinterpretAsKeyedStream(encounters, Encounter::pair, TypeInformation.of(Pair.class))
-                .connect(glimpses.keyBy(Glimpse::pair))
+                .connect(glimpses.keyBy(ProvisionalProximity::pair))
                 .process(new RaiseAlarms(rules))
                 .uid("raise-alarms")
                 .name("Raise alarms of each pair");

@@ -1,46 +1,48 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.analytics.collision.encounter.Encounter;
 import io.furrow.analytics.collision.motion.Approach;
-import io.furrow.flink.Epochs;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.result.CollisionResult;
 
 /**
  * An encounter as an entity: {@code Analytics:Collision:<pair>} of type {@code Analytics:Collision}, one per pair, so that
- * the context broker keeps a pair's newest encounter and does not grow for ever.
+ * the context broker keeps a pair's newest encounter and does not grow forever.
  */
 public final class CollisionEntity {
-    public static final String TYPE = "Analytics:Collision";
-
     private CollisionEntity() {}
 
     public static EntityBuilder of(Encounter encounter) {
         String pair = encounter.pairId();
-        EntityBuilder entity = Entity.builder(TYPE + ":" + pair, TYPE)
-                .number("distance", encounter.distance())
-                .integer("time", Epochs.original(encounter.time()));
-        device(entity, Names.FIRST, encounter.first());
-        device(entity, Names.SECOND, encounter.second());
-        entity.text("encounter", encounter.id(pair))
-                .text("phase", encounter.phase().code())
-                .number("minDistance", encounter.minDistance())
-                .integer("startTime", Epochs.original(encounter.startTime()));
-        return encounter.confirms().isEmpty() ? entity : entity.text("confirms", encounter.confirms());
+        EntityBuilder entity = Entity.builder(CollisionResult.TYPE + ":" + pair, CollisionResult.TYPE)
+                .number(CollisionResult.DISTANCE, encounter.distance())
+                .integer(CollisionResult.TIME, Epochs.original(encounter.time()));
+        device(entity, CollisionResult.FIRST, encounter.first());
+        device(entity, CollisionResult.SECOND, encounter.second());
+        entity.text(CollisionResult.ENCOUNTER, encounter.id(pair))
+                .text(CollisionResult.PHASE, encounter.phase().code())
+                .number(CollisionResult.MIN_DISTANCE, encounter.minDistance())
+                .integer(CollisionResult.START_TIME, Epochs.original(encounter.startTime()));
+        return encounter.confirms().isEmpty() ? entity : entity.text(CollisionResult.CONFIRMS, encounter.confirms());
     }
 
     /** An entity of its own, {@code Analytics:Collision:<pair>:<phase>}: the pair's encounter stays as it is. */
     public static EntityBuilder of(Approach approach) {
         String phase = approach.phase().code();
-        EntityBuilder entity = Entity.builder(TYPE + ":" + approach.pairId() + ":" + phase, TYPE)
-                .number("distance", approach.distance())
-                .integer("time", Epochs.original(approach.time()));
-        device(entity, Names.FIRST, approach.first());
-        device(entity, Names.SECOND, approach.second());
-        return entity.text("encounter", approach.id())
-                .text("phase", phase)
-                .number("tcpa", approach.tcpa())
-                .number("dcpa", approach.dcpa())
-                .integer("startTime", Epochs.original(approach.startTime()));
+        EntityBuilder entity = Entity.builder(
+                        CollisionResult.TYPE + ":" + approach.pairId() + ":" + phase, CollisionResult.TYPE)
+                .number(CollisionResult.DISTANCE, approach.distance())
+                .integer(CollisionResult.TIME, Epochs.original(approach.time()));
+        device(entity, CollisionResult.FIRST, approach.first());
+        device(entity, CollisionResult.SECOND, approach.second());
+        return entity.text(CollisionResult.ENCOUNTER, approach.id())
+                .text(CollisionResult.PHASE, phase)
+                .number(CollisionResult.TCPA, approach.tcpa())
+                .number(CollisionResult.DCPA, approach.dcpa())
+                .integer(CollisionResult.START_TIME, Epochs.original(approach.startTime()));
     }
 
     /** The record's key: both entity ids, the lesser first. */
@@ -52,26 +54,11 @@ public final class CollisionEntity {
         return first.id() + "-" + second.id();
     }
 
-    /** The names of a device's attributes; made once, because of all results these are told most. */
-    private record Names(String id, String latitude, String longitude, String timestamp, String mission) {
-        static final Names FIRST = of("Device1");
-        static final Names SECOND = of("Device2");
-
-        private static Names of(String device) {
-            return new Names(
-                    device + "_ID",
-                    device + "_latitude",
-                    device + "_longitude",
-                    device + "_timestamp",
-                    device + "_Mission");
-        }
-    }
-
-    private static void device(EntityBuilder entity, Names names, PositionFix fix) {
-        entity.text(names.id, fix.id())
-                .number(names.latitude, fix.latitude())
-                .number(names.longitude, fix.longitude())
-                .integer(names.timestamp, Epochs.original(fix.time()))
-                .text(names.mission, fix.mission());
+    private static void device(EntityBuilder entity, CollisionResult.Member names, PositionFix fix) {
+        entity.text(names.id(), fix.id())
+                .number(names.latitude(), fix.latitude())
+                .number(names.longitude(), fix.longitude())
+                .integer(names.timestamp(), Epochs.original(fix.time()))
+                .text(names.mission(), fix.mission());
     }
 }

@@ -1,7 +1,5 @@
 package io.furrow.analytics.collision;
 
-import java.util.Set;
-
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
@@ -11,16 +9,18 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.clock.ClockStage;
 import io.furrow.analytics.collision.motion.MotionDetection;
-import io.furrow.flink.AheadLimit;
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaInput;
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.Receipt;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.collision.position.AssignCarriers;
+import io.furrow.analytics.job.AnalyticsJob;
+import io.furrow.analytics.position.Device;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.analytics.position.ReadPositions;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.DeviceInput;
-import io.furrow.flink.device.ReadDevices;
+import io.furrow.flink.device.RecognizeDevices;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.AheadLimit;
 
 /** The job {@code collision}: encounters of devices, from the first instant at which they are close to the last. */
 public final class CollisionJob {
@@ -33,23 +33,12 @@ public final class CollisionJob {
 
     private CollisionJob() {}
 
-    /** Runs the job until it ends, which it does not by itself. */
-    public static void run(CollisionOptions options) throws Exception {
-        assemble(options).execute();
-    }
-
     /** The job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(CollisionOptions options) {
-        StreamExecutionEnvironment env =
-                options.eager() ? JobEnvironment.createPrompt(options) : JobEnvironment.create(options);
-
-        DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
-
-        KafkaOutput.writeAll(
-                define(new Inputs(records, DeviceInput.of(env, options, options.devices())), options),
+        return AnalyticsJob.assemble(
                 options,
-                options.topics().settings(Set.of()));
-        return env;
+                (env, records) ->
+                        define(new Inputs(records, DeviceInput.of(env, options, options.devices())), options));
     }
 
     /**
@@ -66,13 +55,13 @@ public final class CollisionJob {
 
     private static DataStream<TopicRecord> detect(Inputs in, CollisionOptions options) {
         SingleOutputStreamOperator<PositionFix> read = in.records()
-                .process(new ReadPositions(AheadLimit.of(options)))
+                .process(new ReadPositions("collision", AheadLimit.of(options)))
                 .uid("read-positions")
                 .name("Read positions");
 
         SingleOutputStreamOperator<DeviceChange> devices = in.devices()
                 .records()
-                .process(new ReadDevices("collision"))
+                .process(new RecognizeDevices("collision"))
                 .setParallelism(1) // a device's versions stay in order
                 .uid("recognize-devices")
                 .name("Recognize devices");

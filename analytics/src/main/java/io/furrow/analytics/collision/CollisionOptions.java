@@ -1,9 +1,5 @@
 package io.furrow.analytics.collision;
 
-import java.time.Duration;
-import java.util.Optional;
-import java.util.concurrent.Callable;
-
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -11,9 +7,7 @@ import picocli.CommandLine.Option;
 import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.collision.motion.MotionOptions;
 import io.furrow.analytics.collision.motion.MotionRules;
-import io.furrow.flink.AlignmentOptions;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicOptions;
+import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code collision}. An accessor refuses a value that no job could start with. */
@@ -23,13 +17,7 @@ import io.furrow.model.topic.Topics;
         description =
                 "Which devices are closer to each other than a threshold, from when to when. Exact in event time: the "
                         + "same at any parallelism, in any order of arrival and in a second pass.")
-public final class CollisionOptions extends JobOptions implements Callable<Integer> {
-    @Mixin
-    private final TopicOptions topics = new TopicOptions();
-
-    @Mixin
-    private final AlignmentOptions alignment = new AlignmentOptions();
-
+public final class CollisionOptions extends AnalyticsOptions {
     @Mixin
     private final RuleOptions rules = new RuleOptions();
 
@@ -53,22 +41,8 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
             description =
                     "Also tell at once, as provisional, of pairs that are close by what has arrived; a start names"
                             + " what it confirms, the rest is withdrawn. Exact records stay the same. Positions that come"
-                            + " too late for those take part, if their device told of no newer one.")
+                            + " too late for those take part, if their device reported no newer one.")
     private boolean eager;
-
-    @Option(
-            names = "--output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.COLLISION,
-            description = "Topic of the encounters. Default: ${DEFAULT-VALUE}.")
-    private String output;
-
-    @Option(
-            names = "--late-output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.COLLISION_LATE,
-            description = "Topic of the positions that came too late to count. Default: ${DEFAULT-VALUE}.")
-    private String lateOutput;
 
     @Option(
             names = "--overflow-output",
@@ -78,10 +52,8 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
                     "Topic of cells with a crowd, and of how many pairs --crowd leaves out there. Default: ${DEFAULT-VALUE}.")
     private String overflowOutput;
 
-    @Override
-    public Integer call() throws Exception {
-        CollisionJob.run(this);
-        return 0;
+    public CollisionOptions() {
+        super(Topics.COLLISION, Topics.COLLISION_LATE);
     }
 
     public CollisionRules rules() {
@@ -105,6 +77,7 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
         }
     }
 
+    @Override
     public boolean eager() {
         return eager;
     }
@@ -114,25 +87,7 @@ public final class CollisionOptions extends JobOptions implements Callable<Integ
         return clocks;
     }
 
-    /** How topics are made. */
-    public TopicOptions topics() {
-        return topics;
-    }
-
-    /** How far partitions may be apart. */
-    Optional<Duration> maxDrift() {
-        return alignment.maxDrift(eager());
-    }
-
-    public String output() {
-        return output;
-    }
-
     public String overflowOutput() {
         return overflowOutput;
-    }
-
-    public String lateOutput() {
-        return lateOutput;
     }
 }

@@ -2,12 +2,17 @@ package io.furrow.analytics.collision;
 
 import java.util.HexFormat;
 
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.matching.CellOverflow;
 import io.furrow.analytics.collision.motion.Approach;
-import io.furrow.flink.Epochs;
-import io.furrow.flink.ResultRecord;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.record.ResultRecord;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.result.CollisionResult;
+import io.furrow.model.result.ResultTypes;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -16,9 +21,6 @@ import io.furrow.model.topic.Topics;
  */
 final class CollisionRecord {
     private static final String SOURCE = "/analytics/collision";
-    private static final String LATE_TYPE = "Analytics:LatePosition";
-
-    private static final String OVERFLOW_TYPE = "Analytics:CollisionOverflow";
 
     private CollisionRecord() {}
 
@@ -36,7 +38,7 @@ final class CollisionRecord {
     /** One entity per cell; timestamp = when. */
     static TopicRecord overflow(CellOverflow overflow, String topic) {
         String cell = HexFormat.of().toHexDigits(overflow.cell());
-        EntityBuilder entity = Entity.builder(OVERFLOW_TYPE + ":" + cell, OVERFLOW_TYPE)
+        EntityBuilder entity = Entity.builder(CollisionResult.OVERFLOW_TYPE + ":" + cell, CollisionResult.OVERFLOW_TYPE)
                 .text("cell", cell)
                 .number("Latitude", overflow.latitude())
                 .number("Longitude", overflow.longitude())
@@ -62,7 +64,7 @@ final class CollisionRecord {
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */
     static TopicRecord late(PositionFix fix, String topic) {
-        EntityBuilder entity = Entity.builder(fix.id(), LATE_TYPE)
+        EntityBuilder entity = Entity.builder(fix.id(), ResultTypes.LATE_POSITION)
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .integer("Time", Epochs.original(fix.time()))

@@ -3,6 +3,12 @@ package io.furrow.analytics.collision;
 import java.io.Serializable;
 import java.time.Duration;
 
+import io.furrow.analytics.collision.debounce.DebounceRules;
+import io.furrow.analytics.collision.grid.CellRules;
+import io.furrow.analytics.collision.matching.ExclusionZones;
+import io.furrow.analytics.collision.matching.Thresholds;
+import io.furrow.analytics.collision.position.PositionRules;
+
 /**
  * What counts as an encounter, and how it is reported.
  *
@@ -13,7 +19,11 @@ import java.time.Duration;
  * @param cells how the Earth is cut into cells, each at least as high as the threshold at which encounters end
  */
 public record CollisionRules(
-        Thresholds thresholds, PositionRules positions, Steadiness steadiness, Duration ongoingEvery, CellRules cells)
+        Thresholds thresholds,
+        PositionRules positions,
+        DebounceRules steadiness,
+        Duration ongoingEvery,
+        CellRules cells)
         implements Serializable {
     /** 5 m, 30 s, any skew, a record a second, cells of 20 thresholds, crowds beyond 64 others. */
     public static final CollisionRules DEFAULT =
@@ -27,7 +37,7 @@ public record CollisionRules(
         double reach = thresholds.times(steadiness.leaveFactor()).greatest();
         if (cells.meters() < reach) {
             throw new IllegalArgumentException("the cell must be at least as high as the threshold at which encounters "
-                    + "end, " + reach + " metres, not " + cells.meters());
+                    + "end, " + reach + " meters, not " + cells.meters());
         }
     }
 
@@ -37,7 +47,7 @@ public record CollisionRules(
         this(
                 Thresholds.of(thresholdMeters),
                 new PositionRules(timeToLive, maxSkew, ExclusionZones.NONE),
-                Steadiness.NONE,
+                DebounceRules.NONE,
                 ongoingEvery,
                 new CellRules(cellMeters, CellRules.CROWD));
     }
@@ -50,7 +60,7 @@ public record CollisionRules(
         return new CollisionRules(thresholds, other, steadiness, ongoingEvery, cells);
     }
 
-    public CollisionRules with(Steadiness other) {
+    public CollisionRules with(DebounceRules other) {
         return new CollisionRules(thresholds, positions, other, ongoingEvery, cells);
     }
 
@@ -59,15 +69,19 @@ public record CollisionRules(
     }
 
     /** What the exact stages go by: encounters up to where they end, and everything of them for the stage behind. */
-    CollisionRules exact() {
+    public CollisionRules exact() {
         return steadiness.isNone()
                 ? this
                 : new CollisionRules(
-                        thresholds.times(steadiness.leaveFactor()), positions, Steadiness.NONE, Duration.ZERO, cells);
+                        thresholds.times(steadiness.leaveFactor()),
+                        positions,
+                        DebounceRules.NONE,
+                        Duration.ZERO,
+                        cells);
     }
 
     /** The same for positions of which one may have ceased to count before the other came. */
-    CollisionRules whileBothCount() {
+    public CollisionRules whileBothCount() {
         Duration last = timeToLive().minusMillis(1);
         Duration apart = maxSkew().isZero() || maxSkew().compareTo(last) > 0 ? last : maxSkew();
         return apart.isZero() ? this : with(new PositionRules(timeToLive(), apart, positions.zones()));

@@ -7,6 +7,13 @@ import java.util.Map;
 
 import picocli.CommandLine.Option;
 
+import io.furrow.analytics.collision.debounce.DebounceRules;
+import io.furrow.analytics.collision.grid.CellRules;
+import io.furrow.analytics.collision.matching.ExclusionZones;
+import io.furrow.analytics.collision.matching.Thresholds;
+import io.furrow.analytics.collision.matching.ZoneFile;
+import io.furrow.analytics.collision.position.PositionRules;
+
 /** The options of {@link CollisionRules}. An accessor refuses, with its argument's name, what no job could start with. */
 final class RuleOptions {
     @Option(
@@ -61,7 +68,7 @@ final class RuleOptions {
             names = "--dwell",
             paramLabel = "DURATION",
             defaultValue = "0s",
-            description = "Only an encounter that lasts longer than this is told, from then on. Default: "
+            description = "Only an encounter that lasts longer than this is reported, from then on. Default: "
                     + "${DEFAULT-VALUE}.")
     private Duration dwell;
 
@@ -70,7 +77,7 @@ final class RuleOptions {
             paramLabel = "DURATION",
             defaultValue = "1s",
             description = "Least event time between two records of a lasting encounter; starts and ends are always "
-                    + "told. 0s tells every sighting. Default: ${DEFAULT-VALUE}.")
+                    + "reported. 0s reports every observation. Default: ${DEFAULT-VALUE}.")
     private Duration ongoingEvery;
 
     @Option(
@@ -87,7 +94,7 @@ final class RuleOptions {
             defaultValue = "" + CellRules.CROWD,
             description =
                     "A device with more than N others close to it is in a crowd: of so many others its nearest N * N / "
-                            + "others are followed, and --overflow-output tells of it. 0 follows all: then the cost of "
+                            + "others are followed, and --overflow-output reports it. 0 follows all: then the cost of "
                             + "devices on one spot grows with their square. Default: ${DEFAULT-VALUE}.")
     private int crowd;
 
@@ -96,7 +103,7 @@ final class RuleOptions {
      */
     CollisionRules rules() {
         Thresholds thresholds = new Thresholds(threshold, thresholdOf);
-        Steadiness steadiness = new Steadiness(leaveFactor, dwell);
+        DebounceRules steadiness = new DebounceRules(leaveFactor, dwell);
         ExclusionZones places = zones == null ? ExclusionZones.NONE : ZoneFile.read(zones);
         double reach = thresholds.greatest() * leaveFactor;
         return new CollisionRules(

@@ -8,12 +8,12 @@
  *
  * <p>Three keyed stages find it: {@link io.furrow.analytics.collision.TrackDevices} puts each device into the grid cells
  * that its surroundings touch, {@link io.furrow.analytics.collision.MatchPairs} compares the devices of a cell, and {@link
- * io.furrow.analytics.collision.FollowEncounters} joins what the cells saw of a pair into encounters.
+ * io.furrow.analytics.collision.TrackEncounters} joins what the cells saw of a pair into encounters.
  *
  * <p>In a crowd, where more devices are close to one than the rules say, the nearest are followed: {@link
  * io.furrow.analytics.collision.Matching}, and docs/adr/0045.
  *
- * <p>Behind them, where asked for, {@link io.furrow.analytics.collision.SteadyEncounters} leaves out encounters that flicker or
+ * <p>Behind them, where asked for, {@link io.furrow.analytics.collision.DebounceEncounters} leaves out encounters that flicker or
  * are short; what each option means is in docs/adr/0018.
  */
 package io.furrow.analytics.collision;

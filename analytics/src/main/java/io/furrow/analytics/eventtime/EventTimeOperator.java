@@ -27,11 +27,11 @@ import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.format.FormatType;
+import io.furrow.flink.format.FormatType;
 
 /**
  * A keyed stage that acts in event time: messages wait until the watermark has passed them and are then applied in sequence
- * to what is remembered of their key, before the watermark goes on. It holds its keys in plain maps and goes through those
+ * to what is remembered of their key, before the watermark continues. It holds its keys in plain maps and goes through those
  * that have something to do once per watermark, because a timer per key and an access to keyed state per message cost several
  * times what is done with the message. Keyed state, the value {@code pending}, has all of it as of the last checkpoint.
  *
@@ -67,7 +67,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     /** A key and what it has. */
     private static final class Slot<K, M extends Timed, S> extends Pending<M, S> {
         private final K key;
-        /** In which it is awaited; where an earlier message came, it also stands in later ones, which are passed over. */
+        /** In which it is awaited; where an earlier message came, it also stands in later ones, which are skipped. */
         private long step = NEVER;
         /** Of the earliest deadline set. */
         private long expiry = NEVER;
@@ -80,7 +80,7 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
         }
     }
 
-    /** Is left where it is when the end moves away, and set anew when it has passed. */
+    /** Is left where it is when the end moves away, and set again when it has passed. */
     private record Deadline<K, M extends Timed, S>(long time, Slot<K, M, S> slot) {}
 
     protected EventTimeOperator(PendingFormat<M, S> format) {
@@ -93,10 +93,10 @@ public abstract class EventTimeOperator<K, M extends Timed, S, O> extends Abstra
     /**
      * What messages do to what is remembered.
      *
-     * @param before null where nothing is remembered
+     * @param before null if nothing is remembered
      * @param due in sequence; may be empty; must not be kept
      * @param until the watermark
-     * @return null where nothing is remembered from now on
+     * @return null if nothing is remembered from now on
      */
     protected abstract S apply(K key, S before, List<M> due, long until, Collector<O> out) throws Exception;
 

@@ -5,7 +5,7 @@ import java.io.IOException;
 import org.apache.flink.core.memory.DataInputView;
 import org.apache.flink.core.memory.DataOutputView;
 
-import io.furrow.analytics.format.Format;
+import io.furrow.flink.format.Format;
 
 /** How a {@link Pending} is written; a subclass says what its messages and its remembered value are. */
 public abstract class PendingFormat<M extends Timed, S> extends Format<Pending<M, S>> {

@@ -15,7 +15,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads the area of a field, or of another place, from GeoJSON; takes none of which it could not be told what is inside. */
+/** Reads the area of a field, or of another place, from GeoJSON; rejects areas whose inside is ambiguous. */
 public final class FieldArea {
     private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
     private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);

@@ -2,7 +2,7 @@ package io.furrow.analytics.field;
 
 import java.nio.charset.StandardCharsets;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -10,8 +10,8 @@ import io.furrow.model.ngsi.UnreadableException;
 /**
  * What a record of {@code service.fields} says of a version.
  *
- * @param isTaken whether the version is taken away
- * @param field null where the version is taken away or says that the field ends
+ * @param isTaken whether the version is removed
+ * @param field null if the version is removed or says that the field ends
  */
 record FieldChange(FieldVersion.Key key, boolean isTaken, Field field) {
     /**

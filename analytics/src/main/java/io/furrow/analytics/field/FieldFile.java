@@ -18,7 +18,7 @@ import io.furrow.model.ngsi.UnreadableException;
 /**
  * Fields from a GeoJSON FeatureCollection (RFC 7946) of Polygons and MultiPolygons. A field's id is the feature's {@code id},
  * else its property {@code id}; its domain is the property {@code Domain}, its name the property {@code name}. It is there
- * from 1970 on, for ever. A field that crosses the antimeridian is cut there into a MultiPolygon, as the RFC asks.
+ * from 1970 on, forever. A field that crosses the antimeridian is cut there into a MultiPolygon, as the RFC asks.
  */
 final class FieldFile {
     private final Path file;

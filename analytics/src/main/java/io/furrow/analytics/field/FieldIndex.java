@@ -10,18 +10,18 @@ import org.locationtech.jts.geom.Envelope;
 import org.locationtech.jts.geom.Location;
 import org.locationtech.jts.index.strtree.STRtree;
 
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
 
 /**
- * Tells which fields cover a position at a time; a position on the border, also on that of a hole, is covered.
+ * Finds the fields that cover a position at a time; a position on the border, also on that of a hole, is covered.
  *
  * <p>Edges are straight in the plane of longitude and latitude, as RFC 7946 has them. The side of an edge is decided in
  * double-double arithmetic on the coordinates as they are, without tolerance: a position is on the border exactly when its
  * doubles are. Between two corners that are not on one parallel or meridian rounding puts most positions meant to be on the
- * border beside it, by less than a nanometre.
+ * border beside it, by less than a nanometer.
  */
 final class FieldIndex {
-    /** A field with what tells its inside from its outside; that is made once, however often the index is. */
+    /** A field with the index of its inside; that is made once, however often the index is. */
     static final class Located {
         private final Field field;
         private final IndexedPointInAreaLocator locator;

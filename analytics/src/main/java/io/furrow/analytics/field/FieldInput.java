@@ -6,11 +6,11 @@ import java.util.Optional;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.KafkaTopicAtStart;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.KafkaTopicSnapshot;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 
 /**
@@ -19,9 +19,9 @@ import io.furrow.model.field.FieldVersion;
  * @param topic {@code service.fields}, from its beginning and all that come; empty for fields that never change
  * @param atStart those that are known before the first event
  */
-public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicAtStart atStart) {
+public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicSnapshot atStart) {
     /** Fields of a topic that is read beside the events. */
-    public FieldInput(DataStream<TopicRecord> topic, TopicAtStart atStart) {
+    public FieldInput(DataStream<TopicRecord> topic, TopicSnapshot atStart) {
         this(Optional.of(topic), atStart);
     }
 
@@ -32,10 +32,10 @@ public record FieldInput(Optional<DataStream<TopicRecord>> topic, TopicAtStart a
             return new FieldInput(Optional.empty(), new FieldsAtStart(file.get()));
         }
         DataStream<TopicRecord> records = env.fromSource(
-                        KafkaEnds.wholeTopic(job, options.topic()), KafkaEnds.noHindrance(), "Read fields")
+                        KafkaConnectors.wholeTopic(job, options.topic()), KafkaConnectors.alwaysIdle(), "Read fields")
                 .uid("read-fields")
                 .setParallelism(1);
-        return new FieldInput(records, new KafkaTopicAtStart(job, options.topic()));
+        return new FieldInput(records, new KafkaTopicSnapshot(job, options.topic()));
     }
 
     /**

@@ -36,7 +36,7 @@ public final class FieldOptions {
     private String topic;
 
     /**
-     * The fields of the file; empty where none was named.
+     * The fields of the file; empty if none was named.
      *
      * @throws ParameterException if the file cannot be used
      */

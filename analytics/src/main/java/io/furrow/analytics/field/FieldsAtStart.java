@@ -5,13 +5,13 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.topic.Topics;
 
 /** Fields that travel with the job, as if they were all that is on {@code service.fields}. */
-final class FieldsAtStart implements TopicAtStart {
+final class FieldsAtStart implements TopicSnapshot {
     private static final long serialVersionUID = 1L;
 
     private final ArrayList<String> keys = new ArrayList<>(); // by its class, because it travels serialized

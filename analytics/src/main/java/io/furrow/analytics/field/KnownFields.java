@@ -16,18 +16,18 @@ import org.apache.flink.api.common.typeinfo.Types;
 
 import io.furrow.analytics.field.FieldIndex.Located;
 import io.furrow.analytics.field.FieldIndex.Span;
-import io.furrow.flink.Epochs;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
-import io.furrow.model.ngsi.Position;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.Position;
 
 /**
  * The fields as one subtask knows them: all versions of all fields, asked for as of an event time, whose original time counts. A version holds from its
  * {@code validFrom} until that of the field's next version. For one thread.
  *
  * <p>Needs no state of Flink's: the topic is compacted and keeps every version, and is read to its end whenever the subtask
- * opens. The stream that follows repeats what was read; that is passed over by its offset.
+ * opens. The stream that follows repeats what was read; that is skipped by its offset.
  */
 public final class KnownFields {
     /** What Flink wants to know of broadcast state; there is none. */
@@ -43,7 +43,7 @@ public final class KnownFields {
     private KnownFields() {}
 
     /** To be called in {@code open}, before the first event, after restarts too. */
-    public static KnownFields read(TopicAtStart atStart) throws IOException {
+    public static KnownFields read(TopicSnapshot atStart) throws IOException {
         KnownFields known = new KnownFields();
         for (TopicRecord record : atStart.read()) {
             known.take(record);
@@ -52,7 +52,7 @@ public final class KnownFields {
     }
 
     /**
-     * Takes a record of the broadcast stream in. What is no version of a field is passed over: {@link RecognizeFields} has made
+     * Takes a record of the broadcast stream in. What is no version of a field is skipped: {@link RecognizeFields} has made
      * a dead letter of it.
      *
      * @return whether it changes anything that was known
@@ -86,7 +86,7 @@ public final class KnownFields {
         }
     }
 
-    /** The index is made anew when it is asked after changes, so that a thousand fields at the start make it once. */
+    /** The index is made again when it is asked after changes, so that a thousand fields at the start make it once. */
     private void refresh() {
         if (!stale) {
             return;
@@ -110,7 +110,7 @@ public final class KnownFields {
         return index.covering(position, Epochs.original(time));
     }
 
-    /** The field as it is at an event time; empty where there is none of that id at that time. */
+    /** The field as it is at an event time; empty if there is none of that id at that time. */
     public Optional<Field> at(String id, long time) {
         NavigableMap<Long, Optional<Located>> ofField = versions.get(id);
         Map.Entry<Long, Optional<Located>> last = ofField == null ? null : ofField.floorEntry(Epochs.original(time));

@@ -3,8 +3,8 @@ package io.furrow.analytics.field;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** Passes the records of {@code service.fields} on that are versions of fields; the others become dead letters. */

@@ -1,7 +1,6 @@
 package io.furrow.analytics.presence;
 
 import java.util.List;
-import java.util.Set;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
@@ -12,14 +11,14 @@ import io.furrow.analytics.clock.ClockStage;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.field.RecognizeFields;
-import io.furrow.flink.AheadLimit;
-import io.furrow.flink.BroadcastLatenessOperator;
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaInput;
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.Receipt;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.job.AnalyticsJob;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.analytics.position.ReadPositions;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.BroadcastLatenessOperator;
 
 /** The job {@code presence}: which device entered and left which field, and how long it stayed. */
 public final class PresenceJob {
@@ -32,22 +31,11 @@ public final class PresenceJob {
 
     private PresenceJob() {}
 
-    /** Runs the job until it ends, which it does not by itself. */
-    public static void run(PresenceOptions options) throws Exception {
-        assemble(options).execute();
-    }
-
     /** The job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(PresenceOptions options) {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-
-        DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
-
-        KafkaOutput.writeAll(
-                define(new Inputs(records, FieldInput.of(env, options, options.fields())), options),
+        return AnalyticsJob.assemble(
                 options,
-                options.topics().settings(Set.of()));
-        return env;
+                (env, records) -> define(new Inputs(records, FieldInput.of(env, options, options.fields())), options));
     }
 
     /** Passages, late positions, what is wrong with clocks, and dead letters; each record names its topic. */
@@ -64,10 +52,10 @@ public final class PresenceJob {
         String output = options.output();
         String lateOutput = options.lateOutput();
 
-        SingleOutputStreamOperator<PresenceFix> fixes = in.records()
-                .process(new LocateDevices(AheadLimit.of(options)))
-                .uid("locate-devices")
-                .name("Locate devices");
+        SingleOutputStreamOperator<PositionFix> fixes = in.records()
+                .process(new ReadPositions("presence", AheadLimit.of(options)))
+                .uid("read-positions")
+                .name("Read positions");
 
         SingleOutputStreamOperator<TopicRecord> fields = in.fields()
                 .recordsBeside(in.records())
@@ -76,26 +64,26 @@ public final class PresenceJob {
                 .uid("recognize-fields")
                 .name("Recognize fields");
 
-        SingleOutputStreamOperator<Passage> passages = fixes.keyBy(PresenceFix::key)
+        SingleOutputStreamOperator<PresenceTransition> passages = fixes.keyBy(PositionFix::key)
                 .connect(fields.broadcast())
                 .transform(
-                        "Follow devices through fields",
-                        TypeInformation.of(Passage.class),
+                        "Track presence in fields",
+                        TypeInformation.of(PresenceTransition.class),
                         new BroadcastLatenessOperator<>(
-                                new FollowDevices(options.rules(), in.fields().atStart()),
+                                new TrackPresence(options.rules(), in.fields().atStart()),
                                 List.of(KnownFields.BROADCAST)))
-                .uid("follow-devices");
+                .uid("track-presence");
 
         DataStream<TopicRecord> results = passages.map(passage -> PresenceRecord.of(passage, output))
-                .uid("describe-passages")
-                .name("Describe passages as entities");
+                .uid("describe-transitions")
+                .name("Describe transitions as entities");
 
-        DataStream<TopicRecord> late = passages.getSideOutput(FollowDevices.LATE)
+        DataStream<TopicRecord> late = passages.getSideOutput(TrackPresence.LATE)
                 .map(fix -> PresenceRecord.late(fix, lateOutput))
                 .uid("describe-late-positions")
                 .name("Describe late positions as entities");
 
-        DataStream<TopicRecord> behind = clocks(options).watch(passages.getSideOutput(FollowDevices.LAGGING));
+        DataStream<TopicRecord> behind = clocks(options).watch(passages.getSideOutput(TrackPresence.LAGGING));
 
         return results.union(late, behind, fixes.getSideOutput(DeadLetters.TAG), fields.getSideOutput(DeadLetters.TAG));
     }

@@ -1,8 +1,6 @@
 package io.furrow.analytics.presence;
 
 import java.time.Duration;
-import java.util.Optional;
-import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -10,9 +8,7 @@ import picocli.CommandLine.Option;
 
 import io.furrow.analytics.clock.ClockSettings;
 import io.furrow.analytics.field.FieldOptions;
-import io.furrow.flink.AlignmentOptions;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicOptions;
+import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code presence}. An accessor refuses a value that no job could start with. */
@@ -23,13 +19,7 @@ import io.furrow.model.topic.Topics;
                 "Which device entered and left which field, when, and how long it stayed; also where the field changed"
                         + " or went, or the device fell silent. Exact in event time: the same at any parallelism, in any"
                         + " order of arrival and in a second pass.")
-public final class PresenceOptions extends JobOptions implements Callable<Integer> {
-    @Mixin
-    private final TopicOptions topics = new TopicOptions();
-
-    @Mixin
-    private final AlignmentOptions alignment = new AlignmentOptions();
-
+public final class PresenceOptions extends AnalyticsOptions {
     @Mixin
     private final FieldOptions fields = new FieldOptions();
 
@@ -55,24 +45,8 @@ public final class PresenceOptions extends JobOptions implements Callable<Intege
                             + "least twice the time between two reports of a device. Default: ${DEFAULT-VALUE}.")
     private Duration timeToLive;
 
-    @Option(
-            names = "--output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.PRESENCE,
-            description = "Topic of the results. Default: ${DEFAULT-VALUE}.")
-    private String output;
-
-    @Option(
-            names = "--late-output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.PRESENCE_LATE,
-            description = "Topic of the positions that came too late to count. Default: ${DEFAULT-VALUE}.")
-    private String lateOutput;
-
-    @Override
-    public Integer call() throws Exception {
-        PresenceJob.run(this);
-        return 0;
+    public PresenceOptions() {
+        super(Topics.PRESENCE, Topics.PRESENCE_LATE);
     }
 
     public PresenceRules rules() {
@@ -91,23 +65,5 @@ public final class PresenceOptions extends JobOptions implements Callable<Intege
     /** What is done about the clocks of devices. */
     public ClockSettings clockSettings() {
         return clocks;
-    }
-
-    /** How topics are made. */
-    public TopicOptions topics() {
-        return topics;
-    }
-
-    /** How far partitions may be apart. */
-    Optional<Duration> maxDrift() {
-        return alignment.maxDrift(false);
-    }
-
-    public String output() {
-        return output;
-    }
-
-    public String lateOutput() {
-        return lateOutput;
     }
 }

@@ -5,11 +5,14 @@ import java.security.MessageDigest;
 import java.security.NoSuchAlgorithmException;
 import java.util.HexFormat;
 
-import io.furrow.flink.Epochs;
-import io.furrow.flink.ResultRecord;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.record.ResultRecord;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.result.PresenceResult;
+import io.furrow.model.result.ResultTypes;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -17,37 +20,35 @@ import io.furrow.model.topic.Topics;
  * what was found in a replay.
  */
 final class PresenceRecord {
-    static final String TYPE = "Analytics:Presence";
     private static final String SOURCE = "/analytics/presence";
-    private static final String LATE_TYPE = "Analytics:LatePosition";
     private static final int ID_BYTES = 16;
 
     private PresenceRecord() {}
 
     /**
-     * An entity per device and field, so that the context broker keeps the newest passage and does not grow for ever; key = device id,
+     * An entity per device and field, so that the context broker keeps the newest passage and does not grow forever; key = device id,
      * timestamp = when it was certain.
      */
-    static TopicRecord of(Passage passage, String topic) {
-        Stay stay = passage.stay();
-        PresenceFix fix = stay.fix();
+    static TopicRecord of(PresenceTransition passage, String topic) {
+        Visit stay = passage.stay();
+        PositionFix fix = stay.fix();
         String id = id(fix.identity(), stay.field());
-        EntityBuilder entity = Entity.builder(TYPE + ":" + id, TYPE)
-                .text("device", fix.id())
-                .text("field", stay.field())
-                .text("phase", passage.phase().code())
+        EntityBuilder entity = Entity.builder(PresenceResult.TYPE + ":" + id, PresenceResult.TYPE)
+                .text(PresenceResult.DEVICE, fix.id())
+                .text(PresenceResult.FIELD, stay.field())
+                .text(PresenceResult.PHASE, passage.phase().code())
                 .text("cause", stay.cause().code())
-                .integer("time", Epochs.original(passage.time()))
-                .text("stay", id + "-" + Epochs.text(stay.since()))
-                .integer("startTime", Epochs.original(stay.since()))
+                .integer(PresenceResult.TIME, Epochs.original(passage.time()))
+                .text(PresenceResult.STAY, id + "-" + Epochs.text(stay.since()))
+                .integer(PresenceResult.START_TIME, Epochs.original(stay.since()))
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .text("Mission", fix.mission());
-        if (passage.phase() == Passage.Phase.LEFT) {
-            entity.integer("dwell", stay.left() - stay.since());
+        if (passage.phase() == PresenceTransition.Phase.LEFT) {
+            entity.integer(PresenceResult.DWELL, stay.left() - stay.since());
         }
         if (!stay.name().isEmpty()) {
-            entity.text("fieldName", stay.name());
+            entity.text(PresenceResult.FIELD_NAME, stay.name());
         }
         if (!stay.domain().isEmpty()) {
             entity.text("Domain", stay.domain());
@@ -57,8 +58,8 @@ final class PresenceRecord {
     }
 
     /** The position as an entity of the device's id; key = id, timestamp = when the device was there. */
-    static TopicRecord late(PresenceFix fix, String topic) {
-        EntityBuilder entity = Entity.builder(fix.id(), LATE_TYPE)
+    static TopicRecord late(PositionFix fix, String topic) {
+        EntityBuilder entity = Entity.builder(fix.id(), ResultTypes.LATE_POSITION)
                 .number("Latitude", fix.latitude())
                 .number("Longitude", fix.longitude())
                 .integer("Time", Epochs.original(fix.time()))

@@ -11,26 +11,26 @@ import org.apache.flink.util.Collector;
 
 import io.furrow.analytics.field.Field;
 import io.furrow.analytics.field.KnownFields;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 
 /**
  * Gives a reading to every field that covers its position at its time.
  *
  * <p>State: none of Flink's, see {@link KnownFields}. Late: a version that comes after a reading of its time does not change
  * where that went. Emits: a reading once per field; counted are {@code inside} and {@code outside} of all fields, and {@code
- * field-changes}.
+ * fieldChanges}.
  */
 public final class AssignFields extends BroadcastProcessFunction<Reading, TopicRecord, FieldReading> {
     private static final long serialVersionUID = 1L;
 
-    private final TopicAtStart atStart;
+    private final TopicSnapshot atStart;
     private transient KnownFields fields;
     private transient Counter inside;
     private transient Counter outside;
     private transient Counter changes;
 
-    public AssignFields(TopicAtStart atStart) {
+    public AssignFields(TopicSnapshot atStart) {
         this.atStart = atStart;
     }
 
@@ -40,7 +40,7 @@ public final class AssignFields extends BroadcastProcessFunction<Reading, TopicR
         MetricGroup metrics = getRuntimeContext().getMetricGroup();
         inside = metrics.counter("inside");
         outside = metrics.counter("outside");
-        changes = metrics.counter("field-changes");
+        changes = metrics.counter("fieldChanges");
     }
 
     @Override

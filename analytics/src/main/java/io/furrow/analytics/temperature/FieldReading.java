@@ -4,7 +4,7 @@ package io.furrow.analytics.temperature;
  * A reading from inside a field. A device in several fields gives one for each.
  *
  * @param field id of the field
- * @param domain of the field; empty where it belongs to none
+ * @param domain of the field; empty if it belongs to none
  * @param validFrom since when the field is as it is, epoch ms
  */
 public record FieldReading(String field, String domain, long validFrom, Reading reading) {

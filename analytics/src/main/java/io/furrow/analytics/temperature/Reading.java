@@ -1,10 +1,10 @@
 package io.furrow.analytics.temperature;
 
-import io.furrow.flink.Epochs;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.Position;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.Position;
 
 /**
  * What one device measured at one place; the element's timestamp is its event time.
@@ -16,8 +16,8 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 public record Reading(
         String device, FiwareScope scope, Position position, double value, String eventId, TopicRecord record) {
-    /** The topic that told of it, and the tenant. */
-    InputScope input() {
+    /** The topic that it is from, and the tenant. */
+    public InputScope input() {
         return new InputScope(record.topic(), scope);
     }
 

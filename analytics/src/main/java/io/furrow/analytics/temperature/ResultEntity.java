@@ -1,15 +1,19 @@
 package io.furrow.analytics.temperature;
 
 import java.io.Serializable;
-import java.util.Locale;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.flink.Epochs;
-import io.furrow.flink.ResultRecord;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.temperature.suspect.SuspectDevice;
+import io.furrow.analytics.temperature.suspect.Verdict;
+import io.furrow.analytics.temperature.window.FieldAverage;
+import io.furrow.analytics.temperature.window.RobustMean;
+import io.furrow.flink.record.ResultRecord;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.Epochs;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.result.FieldResult;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -23,21 +27,21 @@ import io.furrow.model.topic.Topics;
  */
 record ResultEntity(String attribute, String topic) implements Serializable {
     private static final String SOURCE = "/analytics/temperature";
-    private static final String SUSPECT = "Analytics:SuspectDevice";
 
     /** Key = field id; timestamp = the window's last instant, so that hours made of windows find each in its hour. */
     TopicRecord of(FieldAverage result) {
-        String type = "Analytics:Field" + title();
+        String type = FieldResult.TYPE_PREFIX + title();
         RobustMean average = result.average();
-        EntityBuilder entity = Entity.builder(type + ":" + result.field(), type).text("field", result.field());
-        number(entity, "average" + title(), average.mean());
+        EntityBuilder entity =
+                Entity.builder(type + ":" + result.field(), type).text(FieldResult.FIELD, result.field());
+        number(entity, FieldResult.average(title()), average.mean());
         number(entity, "plainMean", average.plainMean());
         number(entity, "spread", average.spread());
-        entity.integer("devices", average.devices())
-                .texts("suspects", average.suspects())
-                .integer("windowStart", original(result.windowStart(), result.windowEnd()))
-                .integer("windowEnd", original(result.windowEnd(), result.windowEnd()))
-                .text("quality", average.verified() ? "robust" : "unverified");
+        entity.integer(FieldResult.DEVICES, average.devices())
+                .texts(FieldResult.SUSPECTS, average.suspects())
+                .integer(FieldResult.WINDOW_START, original(result.windowStart(), result.windowEnd()))
+                .integer(FieldResult.WINDOW_END, original(result.windowEnd(), result.windowEnd()))
+                .text(FieldResult.QUALITY, average.verified() ? FieldResult.ROBUST : FieldResult.UNVERIFIED);
         if (!result.domain().isEmpty()) {
             entity.text("Domain", result.domain());
         }
@@ -47,17 +51,17 @@ record ResultEntity(String attribute, String topic) implements Serializable {
     /** Key = device id; timestamp = the last instant of the window that was one too many. */
     TopicRecord of(SuspectDevice suspect) {
         Verdict last = suspect.last();
-        String id = SUSPECT + ":" + title() + ":" + last.device();
-        EntityBuilder entity = Entity.builder(id, SUSPECT)
+        String id = FieldResult.SUSPECT_TYPE + ":" + title() + ":" + last.device();
+        EntityBuilder entity = Entity.builder(id, FieldResult.SUSPECT_TYPE)
                 .text("device", last.device())
                 .text("attribute", attribute)
-                .text("field", last.field())
+                .text(FieldResult.FIELD, last.field())
                 .number("value", last.value())
-                .number("average" + title(), last.mean())
+                .number(FieldResult.average(title()), last.mean())
                 .integer("windows", suspect.windows())
                 .integer("since", original(suspect.since(), last.windowEnd()))
-                .integer("windowStart", original(last.windowStart(), last.windowEnd()))
-                .integer("windowEnd", original(last.windowEnd(), last.windowEnd()));
+                .integer(FieldResult.WINDOW_START, original(last.windowStart(), last.windowEnd()))
+                .integer(FieldResult.WINDOW_END, original(last.windowEnd(), last.windowEnd()));
         if (!last.domain().isEmpty()) {
             entity.text("Domain", last.domain());
         }
@@ -74,7 +78,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
         return time - Epochs.begin(windowEnd - 1);
     }
 
-    /** Null where there was nothing to average: the value of an earlier window must not stand beside this one's. */
+    /** Null if there was nothing to average: the value of an earlier window must not stand beside this one's. */
     private static void number(EntityBuilder entity, String name, double value) {
         if (Double.isNaN(value)) {
             entity.attribute(name, "Float", JsonNodeFactory.instance.nullNode());
@@ -84,6 +88,6 @@ record ResultEntity(String attribute, String topic) implements Serializable {
     }
 
     private String title() {
-        return attribute.substring(0, 1).toUpperCase(Locale.ROOT) + attribute.substring(1);
+        return FieldResult.title(attribute);
     }
 }

@@ -1,7 +1,5 @@
 package io.furrow.analytics.temperature;
 
-import java.util.Set;
-
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
@@ -10,14 +8,20 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.field.FieldInput;
 import io.furrow.analytics.field.KnownFields;
 import io.furrow.analytics.field.RecognizeFields;
-import io.furrow.flink.AheadLimit;
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.KafkaInput;
-import io.furrow.flink.KafkaOutput;
-import io.furrow.flink.KeyedLatenessOperator;
-import io.furrow.flink.PassOnce;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.job.AnalyticsJob;
+import io.furrow.analytics.temperature.suspect.AverageVotes;
+import io.furrow.analytics.temperature.suspect.DeviceVote;
+import io.furrow.analytics.temperature.suspect.SuspectDevice;
+import io.furrow.analytics.temperature.suspect.TrackSuspects;
+import io.furrow.analytics.temperature.suspect.Verdict;
+import io.furrow.analytics.temperature.suspect.VoteStage;
+import io.furrow.analytics.temperature.window.FieldAverage;
+import io.furrow.analytics.temperature.window.FillEmptyWindows;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.DeduplicateById;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.KeyedLatenessOperator;
 
 /** The job {@code temperature}: the average temperature of each field in event-time windows, one entity per field and window. */
 public final class TemperatureJob {
@@ -30,22 +34,11 @@ public final class TemperatureJob {
 
     private TemperatureJob() {}
 
-    /** Runs the job until it ends, which it does not by itself. */
-    public static void run(TemperatureOptions options) throws Exception {
-        assemble(options).execute();
-    }
-
     /** The job between its Kafka topics, ready to be executed. */
     public static StreamExecutionEnvironment assemble(TemperatureOptions options) {
-        StreamExecutionEnvironment env = JobEnvironment.create(options);
-
-        DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
-
-        KafkaOutput.writeAll(
-                define(new Inputs(records, FieldInput.of(env, options, options.fields())), options),
+        return AnalyticsJob.assemble(
                 options,
-                options.topics().settings(Set.of()));
-        return env;
+                (env, records) -> define(new Inputs(records, FieldInput.of(env, options, options.fields())), options));
     }
 
     /** Results, late readings and dead letters; each record names its topic. */
@@ -64,10 +57,11 @@ public final class TemperatureJob {
 
         SingleOutputStreamOperator<FieldReading> fieldReadings = readings.keyBy(Reading::deviceIdentity)
                 .transform(
-                        "Let each event pass once",
+                        "Deduplicate events by id",
                         TypeInformation.of(Reading.class),
-                        new KeyedLatenessOperator<>(new PassOnce<Reading>(options.repeatWindow(), Reading::eventId)))
-                .uid("pass-once")
+                        new KeyedLatenessOperator<>(
+                                new DeduplicateById<Reading>(options.repeatWindow(), Reading::eventId)))
+                .uid("deduplicate-by-id")
                 .connect(fields.broadcast(KnownFields.BROADCAST))
                 .process(new AssignFields(in.fields().atStart()))
                 .uid("assign-fields")
@@ -106,9 +100,8 @@ public final class TemperatureJob {
                 .transform(
                         "Follow suspect devices",
                         TypeInformation.of(SuspectDevice.class),
-                        new KeyedLatenessOperator<>(
-                                new FollowSuspects(options.suspectAfter(), options.suspectMemory())))
-                .uid("follow-suspects")
+                        new KeyedLatenessOperator<>(new TrackSuspects(options.suspectAfter(), options.suspectMemory())))
+                .uid("track-suspects")
                 .map(form::of)
                 .uid("describe-suspects")
                 .name("Describe suspect devices as entities");

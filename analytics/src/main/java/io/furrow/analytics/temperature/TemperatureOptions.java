@@ -1,8 +1,6 @@
 package io.furrow.analytics.temperature;
 
 import java.time.Duration;
-import java.util.Optional;
-import java.util.concurrent.Callable;
 import java.util.regex.Pattern;
 
 import picocli.CommandLine.Command;
@@ -10,9 +8,7 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.analytics.field.FieldOptions;
-import io.furrow.flink.AlignmentOptions;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicOptions;
+import io.furrow.analytics.job.AnalyticsOptions;
 import io.furrow.model.topic.Topics;
 
 /** The options of the job {@code temperature}. An accessor refuses a value that no job could start with. */
@@ -22,16 +18,10 @@ import io.furrow.model.topic.Topics;
         description =
                 "The average temperature of each field in event-time windows. Each device has one vote per window, "
                         + "its median; devices that are far from the others are set aside and named as suspects.")
-public final class TemperatureOptions extends JobOptions implements Callable<Integer> {
+public final class TemperatureOptions extends AnalyticsOptions {
     private static final String TEMPERATURE = "Temperature";
     private static final double TEMPERATURE_FLOOR = 0.5;
     private static final Pattern ATTRIBUTE = Pattern.compile("[A-Za-z0-9_:.-]{1,40}");
-
-    @Mixin
-    private final TopicOptions topics = new TopicOptions();
-
-    @Mixin
-    private final AlignmentOptions alignment = new AlignmentOptions();
 
     @Mixin
     private final FieldOptions fields = new FieldOptions();
@@ -119,24 +109,8 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
                     + "--allowed-lateness: after that a repetition is late.")
     private Duration repeatWindow;
 
-    @Option(
-            names = "--output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.TEMPERATURE,
-            description = "Topic of the results. Default: ${DEFAULT-VALUE}.")
-    private String output;
-
-    @Option(
-            names = "--late-output",
-            paramLabel = "TOPIC",
-            defaultValue = Topics.TEMPERATURE_LATE,
-            description = "Topic of the readings that came too late to count. Default: ${DEFAULT-VALUE}.")
-    private String lateOutput;
-
-    @Override
-    public Integer call() throws Exception {
-        TemperatureJob.run(this);
-        return 0;
+    public TemperatureOptions() {
+        super(Topics.TEMPERATURE, Topics.TEMPERATURE_LATE);
     }
 
     /** Where the job learns of the fields. */
@@ -210,24 +184,6 @@ public final class TemperatureOptions extends JobOptions implements Callable<Int
 
     public Duration repeatWindow() {
         return repeatWindow == null ? window().plus(allowedLateness) : positive("--repeat-window", repeatWindow);
-    }
-
-    /** How topics are made. */
-    public TopicOptions topics() {
-        return topics;
-    }
-
-    /** How far partitions may be apart. */
-    Optional<Duration> maxDrift() {
-        return alignment.maxDrift(false);
-    }
-
-    public String output() {
-        return output;
-    }
-
-    public String lateOutput() {
-        return lateOutput;
     }
 
     private Duration positive(String option, Duration value) {

@@ -16,8 +16,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.Receipt;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
 import static org.assertj.core.api.Assertions.assertThat;

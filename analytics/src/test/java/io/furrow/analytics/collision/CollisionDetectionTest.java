@@ -11,6 +11,15 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.JobCounters;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.grid.CellRules;
+import io.furrow.analytics.collision.grid.Geodesy;
+import io.furrow.analytics.collision.matching.CellOverflow;
+import io.furrow.analytics.collision.position.CollisionOracle;
+import io.furrow.analytics.collision.position.DetectionRun;
+import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -67,7 +76,7 @@ class CollisionDetectionTest {
             encounters.addAll(expected.encounters());
             overflows.addAll(expected.overflows());
         }
-        overflows.sort(CollisionOracle.Overflow.ORDER); // a cell may be told of when the next world is there
+        overflows.sort(CollisionOracle.Overflow.ORDER); // a cell may be notified of when the next world is there
         for (int parallelism : new int[] {1, 2, 4}) {
             List<PositionFix> arrivals = new Worlds(seed + parallelism).shuffled(fixes, DetectionRun.BOUND);
             DetectionRun run = DetectionRun.of(arrivals, rules, parallelism);
@@ -140,7 +149,7 @@ class CollisionDetectionTest {
                 .containsExactly(
                         org.assertj.core.groups.Tuple.tuple(START, 5, 10L, 4L, 2),
                         org.assertj.core.groups.Tuple.tuple(START + 60_000, 0, 0L, 0L, 0));
-        assertThat(run.total("pairs.left-out")).isEqualTo(4);
+        assertThat(run.total("pairsLeftOut")).isEqualTo(4);
         CellOverflow told = run.overflows().get(0);
         PositionFix center = Fixes.at("", told.latitude(), told.longitude(), 0);
         assertThat(Geodesy.distance(center, fixes.get(0))).isLessThan(100);

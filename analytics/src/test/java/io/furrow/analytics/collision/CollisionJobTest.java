@@ -16,8 +16,10 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.ParameterException;
 
+import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.JobUids;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -140,7 +142,7 @@ class CollisionJobTest {
                 .containsExactly(START + 900, START + 1000);
         assertThat(run(options("--leave-factor", "2", "--dwell", "1s"), passing))
                 .isEmpty();
-        assertThat(JobUids.of(CollisionJob.assemble(options("--dwell", "1s")))).contains("steady-encounters");
+        assertThat(JobUids.of(CollisionJob.assemble(options("--dwell", "1s")))).contains("debounce-encounters");
     }
 
     @Test
@@ -231,7 +233,7 @@ class CollisionJobTest {
     void refusesRulesThatCannotBeKept() {
         assertThatThrownBy(() -> options("--threshold", "0").rules())
                 .isInstanceOf(ParameterException.class)
-                .hasMessage("the threshold must be 0.1 to 100000 metres, not 0.0");
+                .hasMessage("the threshold must be 0.1 to 100000 meters, not 0.0");
         assertThatThrownBy(() -> options("--cell", "1").rules())
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("the cell must be at least as high as the threshold");
@@ -255,13 +257,13 @@ class CollisionJobTest {
                         "describe-late-positions",
                         "describe-overflows",
                         "ensure-topics",
-                        "follow-encounters",
                         "match-pairs",
                         "read-devices",
+                        "read-events",
                         "read-positions",
                         "recognize-devices",
-                        "reported-changes",
                         "track-devices",
+                        "track-encounters",
                         "watch-clocks",
                         "write-topics");
     }

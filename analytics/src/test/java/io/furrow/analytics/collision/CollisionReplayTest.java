@@ -18,7 +18,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.Seeds;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 
 import static io.furrow.analytics.collision.ReportedRun.START;
 import static io.furrow.analytics.collision.ReportedRun.entity;
@@ -27,7 +27,7 @@ import static io.furrow.analytics.collision.ReportedRun.robot;
 import static io.furrow.analytics.collision.ReportedRun.run;
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Four robots to and fro on 40 metres for a minute, played four times. */
+/** Four robots to and fro on 40 meters for a minute, played four times. */
 class CollisionReplayTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionReplayTest.class);
 

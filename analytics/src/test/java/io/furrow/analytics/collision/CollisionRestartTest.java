@@ -20,10 +20,10 @@ import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
 import io.furrow.flink.device.DeviceInput;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.topic.Topics;
@@ -98,7 +98,7 @@ class CollisionRestartTest {
                     .uid("read-devices")
                     .setParallelism(1);
             return CollisionJob.define(
-                    new CollisionJob.Inputs(records, new DeviceInput(devices, TopicAtStart.NONE)),
+                    new CollisionJob.Inputs(records, new DeviceInput(devices, TopicSnapshot.NONE)),
                     (CollisionOptions) options);
         }
 

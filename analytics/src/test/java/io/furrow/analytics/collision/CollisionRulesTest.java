@@ -6,6 +6,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
+import io.furrow.analytics.collision.debounce.DebounceRules;
+import io.furrow.analytics.collision.grid.CellRules;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
@@ -23,7 +26,7 @@ class CollisionRulesTest {
     void refuseAThresholdThatCannotBeKept(double threshold) {
         assertThatThrownBy(() -> new CollisionRules(threshold, SECOND, SECOND, SECOND, 1e6))
                 .isInstanceOf(IllegalArgumentException.class)
-                .hasMessage("the threshold must be 0.1 to 100000 metres, not " + threshold);
+                .hasMessage("the threshold must be 0.1 to 100000 meters, not " + threshold);
     }
 
     @Test
@@ -41,10 +44,11 @@ class CollisionRulesTest {
 
     @Test
     void refuseSteadinessAndLimitsThatMakeNoSense() {
-        assertThatThrownBy(() -> new Steadiness(0.9, SECOND)).hasMessage("the leave factor must be 1 to 100, not 0.9");
-        assertThatThrownBy(() -> new Steadiness(1, Duration.ofMillis(-1))).hasMessageContaining("dwell");
+        assertThatThrownBy(() -> new DebounceRules(0.9, SECOND))
+                .hasMessage("the leave factor must be 1 to 100, not 0.9");
+        assertThatThrownBy(() -> new DebounceRules(1, Duration.ofMillis(-1))).hasMessageContaining("dwell");
         assertThatThrownBy(() -> new CellRules(100, -1)).hasMessageContaining("--crowd");
-        assertThatThrownBy(() -> CollisionRules.DEFAULT.with(new Steadiness(21, SECOND)))
+        assertThatThrownBy(() -> CollisionRules.DEFAULT.with(new DebounceRules(21, SECOND)))
                 .hasMessageContaining(
                         "the cell must be at least as high as the threshold at which encounters end, 105.0");
     }
@@ -52,7 +56,7 @@ class CollisionRulesTest {
     @Test
     void letTheExactStagesSeeEverythingUpToWhereEncountersEnd() {
         CollisionRules exact =
-                CollisionRules.DEFAULT.with(new Steadiness(2, Duration.ZERO)).exact();
+                CollisionRules.DEFAULT.with(new DebounceRules(2, Duration.ZERO)).exact();
         assertThat(exact.thresholdMeters()).isEqualTo(10);
         assertThat(exact.ongoingEvery()).isZero();
         assertThat(exact.exact()).isEqualTo(exact);

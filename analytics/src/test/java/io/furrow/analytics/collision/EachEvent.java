@@ -5,11 +5,11 @@ import org.apache.flink.api.common.eventtime.WatermarkGenerator;
 import org.apache.flink.api.common.eventtime.WatermarkOutput;
 
 /** A watermark after every event, so that a short job has as many as a long one. */
-final class EachEvent<T> implements WatermarkGenerator<T> {
+public final class EachEvent<T> implements WatermarkGenerator<T> {
     private final long bound;
     private long newest = Long.MIN_VALUE;
 
-    EachEvent(long bound) {
+    public EachEvent(long bound) {
         this.bound = bound;
     }
 

@@ -11,7 +11,18 @@ import org.apache.flink.streaming.api.watermark.Watermark;
 import org.apache.flink.streaming.util.KeyedTwoInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.Test;
 
-import static io.furrow.analytics.collision.Fixes.east;
+import io.furrow.analytics.collision.debounce.DebounceRules;
+import io.furrow.analytics.collision.eager.Arrival;
+import io.furrow.analytics.collision.eager.ProvisionalProximity;
+import io.furrow.analytics.collision.eager.RaiseAlarms;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Pair;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.encounter.Stage;
+import io.furrow.analytics.collision.grid.Presence;
+import io.furrow.analytics.position.PositionFix;
+
+import static io.furrow.analytics.collision.position.Fixes.east;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Each stage of eager mode alone, stopped with a snapshot in the middle. */
@@ -46,13 +57,14 @@ class EagerStagesTest {
         var stage = Stage.spot(RULES);
         stage.receive(resident("a", 0, 1000, 1000));
         stage.receive(resident("b", 3, 1100, 1100));
-        assertThat(stage.told()).containsExactly(new Glimpse(east("a", 0, 1000), east("b", 3, 1100), 1000, 1100, true));
+        assertThat(stage.told())
+                .containsExactly(new ProvisionalProximity(east("a", 0, 1000), east("b", 3, 1100), 1000, 1100, true));
         stage.restart();
         stage.receive(resident("b", 9, 1050, 1050));
         assertThat(stage.told()).as("older than what is known").isEmpty();
         stage.receive(resident("b", 9, 1200, 1200));
         assertThat(stage.told())
-                .extracting(Glimpse::close, Glimpse::secondVersion)
+                .extracting(ProvisionalProximity::close, ProvisionalProximity::secondVersion)
                 .containsExactly(org.assertj.core.groups.Tuple.tuple(false, 1200L));
         assertThat(stage.timers()).isEqualTo(1);
         stage.advance(4199);
@@ -69,7 +81,7 @@ class EagerStagesTest {
         stage.told();
         stage.restart();
         assertThat(stage.advance(3999)).isEmpty();
-        assertThat(stage.advance(4000)).extracting(Glimpse::close).containsExactly(false);
+        assertThat(stage.advance(4000)).extracting(ProvisionalProximity::close).containsExactly(false);
         stage.advance(9000);
         assertLeavesNothing(stage);
     }
@@ -128,10 +140,10 @@ class EagerStagesTest {
         alarms.stop();
     }
 
-    /** The start is told at the end of the dwell, and is the start of what was told at its beginning. */
+    /** The start is reported at the end of the dwell, and is the start of what was reported at its beginning. */
     @Test
     void waitsForTheDwellBeforeItWithdraws() throws Exception {
-        Alarms alarms = new Alarms(RULES.with(new Steadiness(1, Duration.ofMillis(500))));
+        Alarms alarms = new Alarms(RULES.with(new DebounceRules(1, Duration.ofMillis(500))));
         Encounter provisional = alarms.glimpse(0, 2, 1000, true).get(0);
         assertThat(alarms.advance(1500)).isEmpty();
         Encounter start = alarms.exact(Phase.STARTED, 1000, 1500);
@@ -143,7 +155,7 @@ class EagerStagesTest {
         alarms.stop();
     }
 
-    /** Of a pair that is close a glimpse comes with each report; rules that were changed on a savepoint tell of it no more. */
+    /** Of a pair that is close a glimpse comes with each report; rules that were changed on a savepoint report it no more. */
     @Test
     void forgetsAPairThatNobodySeesForATimeToLive() throws Exception {
         long timeToLive = RULES.timeToLive().toMillis();
@@ -174,7 +186,7 @@ class EagerStagesTest {
     /** The last stage, of one pair. */
     private static final class Alarms {
         private final CollisionRules rules;
-        private KeyedTwoInputStreamOperatorTestHarness<Pair, Encounter, Glimpse, Encounter> harness;
+        private KeyedTwoInputStreamOperatorTestHarness<Pair, Encounter, ProvisionalProximity, Encounter> harness;
 
         Alarms(CollisionRules rules) throws Exception {
             this.rules = rules;
@@ -185,7 +197,7 @@ class EagerStagesTest {
         List<Encounter> glimpse(double first, double second, long time, boolean close) throws Exception {
             PositionFix a = east("a", first, time);
             PositionFix b = east("b", second, time);
-            harness.processElement2(new Glimpse(a, b, time, time, close), time);
+            harness.processElement2(new ProvisionalProximity(a, b, time, time, close), time);
             return told();
         }
 
@@ -227,7 +239,7 @@ class EagerStagesTest {
             harness = new KeyedTwoInputStreamOperatorTestHarness<>(
                     new KeyedCoProcessOperator<>(new RaiseAlarms(rules)),
                     Encounter::pair,
-                    Glimpse::pair,
+                    ProvisionalProximity::pair,
                     TypeInformation.of(Pair.class));
         }
 

@@ -17,9 +17,11 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.TestEnvironment;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.device.DeviceInput;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
@@ -29,7 +31,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
-/** What the job tells of courses and of the ways between reports, as it is written. */
+/** What the job reports courses and of the ways between reports, as it is written. */
 class MotionJobTest {
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
@@ -43,7 +45,7 @@ class MotionJobTest {
     void tellsAPredictionOnceASecondUntilTheEncounterStarts() throws Exception {
         List<TopicRecord> records = new ArrayList<>();
         for (int second = 0; second <= 20; second++) {
-            // Two metres per second towards the other, which stands 30.3 m away; reports four times a second.
+            // Two meters per second towards the other, which stands 30.3 m away; reports four times a second.
             for (int quarter = 0; quarter < 4; quarter++) {
                 records.add(robot("r1", "Robot", 2 * second + 0.5 * quarter, 1000 * second + 250 * quarter));
                 records.add(robot("r2", "Robot", 30.3, 1000 * second + 250 * quarter));
@@ -134,9 +136,9 @@ class MotionJobTest {
             records.add(robot("r1", "Robot", 20 * second - 90, 1000 * second));
             records.add(robot("r2", "Robot", 0, 1000 * second));
         }
-        assertThat(run(options("--crossed", "--horizon", "10s", "--greatest-speed", "19"), records))
+        assertThat(run(options("--crossed", "--horizon", "10s", "--max-speed", "19"), records))
                 .isEmpty();
-        assertThat(run(options("--crossed", "--horizon", "10s", "--greatest-speed", "21"), records))
+        assertThat(run(options("--crossed", "--horizon", "10s", "--max-speed", "21"), records))
                 .isNotEmpty();
     }
 
@@ -146,7 +148,7 @@ class MotionJobTest {
                 .isInstanceOf(ParameterException.class)
                 .hasMessage("the horizon of 600.0 s at the greatest speed of 30.0 m/s leads more than 10000.0 m ahead; "
                         + "make one of them less");
-        assertThatThrownBy(() -> options("--greatest-speed", "0").motionRules())
+        assertThatThrownBy(() -> options("--max-speed", "0").motionRules())
                 .isInstanceOf(ParameterException.class)
                 .hasMessage("the greatest speed must be above 0 m/s, not 0.0");
         assertThat(options().motionRules().any()).isFalse();

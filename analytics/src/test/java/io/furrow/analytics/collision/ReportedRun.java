@@ -16,10 +16,12 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.AfterBroadcast;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.position.PositionFix;
 import io.furrow.flink.device.DeviceInput;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -27,11 +29,11 @@ import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.topic.Topics;
 
 /** The job {@code collision} over a few reports of devices on the equator. */
-final class ReportedRun {
+public final class ReportedRun {
     static final long START = 1_700_000_000_000L;
 
     /** A laser on the robot r1; until the test's start it was on r2. */
-    private static final TopicAtStart DEVICES = () -> List.of(
+    private static final TopicSnapshot DEVICES = () -> List.of(
             device(new DeviceVersion("l1", "farm", "/north", "", "", 0, null, 1, "r2")),
             device(new DeviceVersion("l1", "farm", "/north", "", "", START, null, 2, "r1")));
 
@@ -95,13 +97,13 @@ final class ReportedRun {
                 Map.of());
     }
 
-    static CollisionOptions options(String... args) {
+    public static CollisionOptions options(String... args) {
         CollisionOptions options = new CollisionOptions();
         JobCommandLine.of(options).parseArgs(args);
         return options;
     }
 
-    /** So many metres east of a place on the equator. */
+    /** So many meters east of a place on the equator. */
     static TopicRecord robot(String id, double east, long time) {
         EntityBuilder robot = Entity.builder(id, "ROBOT").text("Mission", "hoeing");
         return record(id, time, text(placed(robot, east)));

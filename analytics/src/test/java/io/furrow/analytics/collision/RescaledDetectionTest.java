@@ -40,7 +40,14 @@ import org.junit.jupiter.api.io.TempDir;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.analytics.collision.debounce.DebounceRules;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.position.CollisionOracle;
+import io.furrow.analytics.collision.position.DetectionRun;
+import io.furrow.analytics.collision.position.Fixes;
 import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -72,7 +79,7 @@ class RescaledDetectionTest {
     void tellsTheSameAsAnUndisturbedRun(@InjectMiniCluster MiniCluster cluster) throws Exception {
         long seed = System.nanoTime();
         LOG.info("rescaled run from seed {}", seed);
-        CollisionRules rules = Worlds.rules(5, 10, false).with(new Steadiness(1.5, DWELL));
+        CollisionRules rules = Worlds.rules(5, 10, false).with(new DebounceRules(1.5, DWELL));
         List<PositionFix> fixes = worlds(rules.thresholdMeters(), seed);
         arrivals = new Worlds(seed).shuffled(fixes, DetectionRun.BOUND);
         List<Encounter> expected = CollisionOracle.encounters(fixes, rules);

@@ -13,10 +13,18 @@ import org.locationtech.jts.geom.Geometry;
 import org.locationtech.jts.geom.GeometryFactory;
 
 import io.furrow.analytics.Seeds;
+import io.furrow.analytics.collision.debounce.DebounceRules;
+import io.furrow.analytics.collision.grid.CellRules;
+import io.furrow.analytics.collision.grid.Geodesy;
+import io.furrow.analytics.collision.matching.ExclusionZones;
+import io.furrow.analytics.collision.matching.Thresholds;
+import io.furrow.analytics.collision.position.Fixes;
+import io.furrow.analytics.collision.position.PositionRules;
+import io.furrow.analytics.position.PositionFix;
 
 /** Made-up farms: a handful of devices that wander about a place, with silences, repetitions and shared instants. */
-final class Worlds {
-    static final double[] THRESHOLDS = {0.5, 5, 50, 1000};
+public final class Worlds {
+    public static final double[] THRESHOLDS = {0.5, 5, 50, 1000};
 
     private static final long STEP = 100;
     private static final int STEPS = 200;
@@ -24,19 +32,19 @@ final class Worlds {
 
     private final Random random;
 
-    Worlds(long seed) {
+    public Worlds(long seed) {
         random = Seeds.random(seed);
     }
 
     /** Time-to-live 3 s, an ongoing record every 500 ms, sometimes a greatest skew. */
-    static CollisionRules rules(double threshold, double cellsPerThreshold, boolean skewed) {
+    public static CollisionRules rules(double threshold, double cellsPerThreshold, boolean skewed) {
         Duration skew = skewed ? Duration.ofMillis(700) : Duration.ZERO;
         return new CollisionRules(
                 threshold, Duration.ofSeconds(3), skew, Duration.ofMillis(500), threshold * cellsPerThreshold);
     }
 
     /** Rules of any kind; the same for the same seed. */
-    static CollisionRules anyRules(double threshold, long seed) {
+    public static CollisionRules anyRules(double threshold, long seed) {
         Random random = Seeds.random(seed);
         double factor = random.nextInt(3) == 0 ? 1 + random.nextDouble() : 1;
         long dwell = random.nextInt(3) == 0 ? random.nextLong(2000) : 0;
@@ -54,12 +62,12 @@ final class Worlds {
         return new CollisionRules(
                 thresholds,
                 new PositionRules(Duration.ofSeconds(3), skew, zones),
-                new Steadiness(factor, Duration.ofMillis(dwell)),
+                new DebounceRules(factor, Duration.ofMillis(dwell)),
                 Duration.ofMillis(500),
                 new CellRules(reach * (1 + random.nextInt(30)), crowd));
     }
 
-    /** A rectangle beside each centre, some thresholds wide. */
+    /** A rectangle beside each center, some thresholds wide. */
     private static ExclusionZones yards(double threshold, Random random) {
         double degrees = Math.toDegrees(threshold * 3 / Geodesy.EARTH_RADIUS_METERS);
         List<Geometry> yards = new ArrayList<>();
@@ -75,7 +83,7 @@ final class Worlds {
     }
 
     /** Where grids go wrong, and one place where they do not: latitude and longitude. */
-    static double[] centre(int which) {
+    public static double[] centre(int which) {
         return switch (which % 6) {
             case 0 -> new double[] {40.3125, -3.4821};
             case 1 -> new double[] {0, 0};
@@ -87,7 +95,7 @@ final class Worlds {
     }
 
     /** The positions of one world, 20 s from the start on, in no order. */
-    List<PositionFix> wander(double[] centre, double threshold, long start) {
+    public List<PositionFix> wander(double[] centre, double threshold, long start) {
         List<PositionFix> fixes = new ArrayList<>();
         int devices = 2 + random.nextInt(6);
         double room = threshold * (1 + 2 * random.nextDouble());
@@ -115,7 +123,7 @@ final class Worlds {
     }
 
     /** An order of arrival in which nothing comes more than the bound behind something later. */
-    List<PositionFix> shuffled(List<PositionFix> fixes, long bound) {
+    public List<PositionFix> shuffled(List<PositionFix> fixes, long bound) {
         Map<PositionFix, Long> arrivals = new HashMap<>();
         fixes.forEach(fix -> arrivals.put(fix, fix.time() + random.nextLong(bound)));
         List<PositionFix> order = new ArrayList<>(fixes);
@@ -123,8 +131,8 @@ final class Worlds {
         return order;
     }
 
-    /** A place so many metres from the centre, which around a pole may lie on any meridian. */
-    static double[] place(double[] centre, double east, double north) {
+    /** A place so many meters from the center, which around a pole may lie on any meridian. */
+    public static double[] place(double[] centre, double east, double north) {
         double perDegree = Geodesy.EARTH_RADIUS_METERS * Math.PI / 180;
         if (Math.abs(centre[0]) == 90) {
             double latitude = centre[0] - Math.signum(centre[0]) * Math.hypot(east, north) / perDegree;
@@ -134,7 +142,7 @@ final class Worlds {
         return new double[] {centre[0] + north / perDegree, wrapped(longitude)};
     }
 
-    static double wrapped(double longitude) {
+    public static double wrapped(double longitude) {
         return longitude > 180 ? longitude - 360 : longitude < -180 ? longitude + 360 : longitude;
     }
 }

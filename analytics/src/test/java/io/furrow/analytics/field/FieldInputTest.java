@@ -31,9 +31,9 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.analytics.presence.PresenceOptions;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.record.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

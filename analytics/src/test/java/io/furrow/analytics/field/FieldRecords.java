@@ -8,8 +8,8 @@ import java.util.Map;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -58,7 +58,7 @@ public final class FieldRecords {
     }
 
     /** What stands on the topic now; it travels no further than to an operator of this JVM. */
-    public TopicAtStart atStart() {
+    public TopicSnapshot atStart() {
         return this::all;
     }
 

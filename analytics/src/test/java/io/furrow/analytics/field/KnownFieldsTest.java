@@ -4,8 +4,8 @@ import java.nio.charset.StandardCharsets;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.TopicRecord;
-import io.furrow.model.ngsi.Position;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.position.Position;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -12,8 +12,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 
 import static org.assertj.core.api.Assertions.assertThat;

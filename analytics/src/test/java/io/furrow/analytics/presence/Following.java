@@ -15,18 +15,19 @@ import org.apache.flink.streaming.util.KeyedBroadcastOperatorTestHarness;
 
 import io.furrow.analytics.clock.LaggingPosition;
 import io.furrow.analytics.field.KnownFields;
-import io.furrow.flink.BroadcastLatenessOperator;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.BroadcastLatenessOperator;
 
-/** {@link FollowDevices} alone, with time as data; can be stopped and go on with other subtasks, as from a savepoint. */
+/** {@link TrackPresence} alone, with time as data; can be stopped and continue with other subtasks, as from a savepoint. */
 final class Following {
     private static final int KEY_GROUPS = 16;
 
     private PresenceRules rules;
     private final ArrayList<TopicRecord> topic = new ArrayList<>();
-    private final List<PresenceFix> late = new ArrayList<>();
-    private List<BroadcastLatenessOperator<String, PresenceFix, TopicRecord, Passage>> operators;
-    private List<KeyedBroadcastOperatorTestHarness<String, PresenceFix, TopicRecord, Passage>> subtasks;
+    private final List<PositionFix> late = new ArrayList<>();
+    private List<BroadcastLatenessOperator<String, PositionFix, TopicRecord, PresenceTransition>> operators;
+    private List<KeyedBroadcastOperatorTestHarness<String, PositionFix, TopicRecord, PresenceTransition>> subtasks;
 
     Following(PresenceRules rules, int parallelism, List<TopicRecord> known) throws Exception {
         this.rules = rules;
@@ -34,19 +35,20 @@ final class Following {
         start(parallelism, null, 0);
     }
 
-    void receive(PresenceFix fix) throws Exception {
+    void receive(PositionFix fix) throws Exception {
         subtasks.get(subtaskOf(fix)).processElement(new StreamRecord<>(fix, fix.time()));
     }
 
     /** What comes out of one subtask, on the way to a watermark that the others have not seen. */
-    List<Passage> advance(int subtask, long watermark) throws Exception {
+    List<PresenceTransition> advance(int subtask, long watermark) throws Exception {
         subtasks.get(subtask).processWatermark(new Watermark(watermark));
-        List<Passage> passages = new ArrayList<>(subtasks.get(subtask).extractOutputValues());
+        List<PresenceTransition> passages =
+                new ArrayList<>(subtasks.get(subtask).extractOutputValues());
         subtasks.get(subtask).getOutput().clear();
         return passages;
     }
 
-    int subtaskOf(PresenceFix fix) {
+    int subtaskOf(PositionFix fix) {
         return KeyGroupRangeAssignment.assignKeyToParallelOperator(fix.key(), KEY_GROUPS, subtasks.size());
     }
 
@@ -58,17 +60,17 @@ final class Following {
     }
 
     /** What comes out on the way to the watermark. */
-    List<Passage> advance(long watermark) throws Exception {
-        List<Passage> passages = new ArrayList<>();
+    List<PresenceTransition> advance(long watermark) throws Exception {
+        List<PresenceTransition> passages = new ArrayList<>();
         for (int subtask = 0; subtask < subtasks.size(); subtask++) {
             passages.addAll(advance(subtask, watermark));
         }
         return passages;
     }
 
-    List<PresenceFix> late() {
+    List<PositionFix> late() {
         for (var subtask : subtasks) {
-            var side = subtask.getSideOutput(FollowDevices.LATE);
+            var side = subtask.getSideOutput(TrackPresence.LATE);
             if (side != null) {
                 side.forEach(record -> late.add(record.getValue()));
                 side.clear();
@@ -80,7 +82,7 @@ final class Following {
     /** Late positions that are the newest of their device. */
     List<LaggingPosition> lagging() {
         return subtasks.stream()
-                .map(subtask -> subtask.getSideOutput(FollowDevices.LAGGING))
+                .map(subtask -> subtask.getSideOutput(TrackPresence.LAGGING))
                 .filter(Objects::nonNull)
                 .flatMap(side -> side.stream().map(StreamRecord::getValue))
                 .toList();
@@ -96,7 +98,7 @@ final class Following {
         return subtasks.stream().mapToInt(one -> one.numEventTimeTimers()).sum();
     }
 
-    /** Stops with a snapshot and goes on from it with so many subtasks. */
+    /** Stops with a snapshot and continues from it with so many subtasks. */
     void restart(int parallelism) throws Exception {
         late();
         OperatorSubtaskState[] snapshots = new OperatorSubtaskState[subtasks.size()];
@@ -125,9 +127,9 @@ final class Following {
         for (int index = 0; index < parallelism; index++) {
             ArrayList<TopicRecord> known = new ArrayList<>(topic);
             var operator = new BroadcastLatenessOperator<>(
-                    new FollowDevices(rules, () -> known), List.of(KnownFields.BROADCAST));
+                    new TrackPresence(rules, () -> known), List.of(KnownFields.BROADCAST));
             var harness = new KeyedBroadcastOperatorTestHarness<>(
-                    operator, PresenceFix::key, Types.STRING, KEY_GROUPS, parallelism, index);
+                    operator, PositionFix::key, Types.STRING, KEY_GROUPS, parallelism, index);
             operators.add(operator);
             if (state != null) {
                 harness.initializeState(AbstractStreamOperatorTestHarness.repartitionOperatorState(

@@ -8,12 +8,13 @@ import java.util.Locale;
 import java.util.Map;
 import java.util.stream.Collectors;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.record.TopicRecord;
 
 /**
  * A version of a field of rectangles, to be asked without geometry. Border counts.
  *
- * @param parts apart from each other; empty where the field ends
+ * @param parts apart from each other; empty if the field ends
  * @param hole in the first part, its border belongs to the field; null for none
  */
 record Plot(String id, long validFrom, List<Box> parts, Box hole) implements Serializable {
@@ -38,7 +39,7 @@ record Plot(String id, long validFrom, List<Box> parts, Box hole) implements Ser
         }
     }
 
-    boolean covers(PresenceFix fix) {
+    boolean covers(PositionFix fix) {
         return parts.stream().anyMatch(part -> part.covers(fix.longitude(), fix.latitude()))
                 && (hole == null || !hole.surrounds(fix.longitude(), fix.latitude()));
     }

@@ -19,8 +19,9 @@ import org.slf4j.LoggerFactory;
 import picocli.CommandLine.ParameterException;
 
 import io.furrow.analytics.Replayed;
+import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.Plot.Box;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -208,8 +209,8 @@ class PresenceJobTest {
                 .orElseThrow();
     }
 
-    private static boolean hasPassages(Story story, Predicate<PresenceFix> half) {
-        List<PresenceFix> fixes = story.fixes.stream().filter(half).toList();
+    private static boolean hasPassages(Story story, Predicate<PositionFix> half) {
+        List<PositionFix> fixes = story.fixes.stream().filter(half).toList();
         return !PresenceOracle.passages(fixes, story.plots, story.rules).isEmpty();
     }
 

@@ -4,9 +4,11 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.TreeSet;
 
+import io.furrow.analytics.position.PositionFix;
+
 /** The definition, millisecond by millisecond: no events, no timers, no state; for short stories only. */
 final class PresenceOracle {
-    private final List<PresenceFix> fixes;
+    private final List<PositionFix> fixes;
     private final List<Plot> plots;
     private final long timeToLive;
     private final long dwell;
@@ -14,7 +16,7 @@ final class PresenceOracle {
     /** From {@code from} until {@code until}, exclusive. */
     private record Span(long from, long until) {}
 
-    private PresenceOracle(List<PresenceFix> fixes, List<Plot> plots, PresenceRules rules) {
+    private PresenceOracle(List<PositionFix> fixes, List<Plot> plots, PresenceRules rules) {
         this.fixes = fixes;
         this.plots = plots;
         this.timeToLive = rules.timeToLive().toMillis();
@@ -22,10 +24,10 @@ final class PresenceOracle {
     }
 
     /** One line per passage, sorted. */
-    static List<String> passages(List<PresenceFix> fixes, List<Plot> plots, PresenceRules rules) {
+    static List<String> passages(List<PositionFix> fixes, List<Plot> plots, PresenceRules rules) {
         List<String> lines = new ArrayList<>();
-        for (String device : new TreeSet<>(fixes.stream().map(PresenceFix::key).toList())) {
-            List<PresenceFix> own =
+        for (String device : new TreeSet<>(fixes.stream().map(PositionFix::key).toList())) {
+            List<PositionFix> own =
                     fixes.stream().filter(fix -> fix.key().equals(device)).toList();
             PresenceOracle oracle = new PresenceOracle(own, plots, rules);
             for (String field : new TreeSet<>(plots.stream().map(Plot::id).toList())) {
@@ -36,13 +38,13 @@ final class PresenceOracle {
         return lines;
     }
 
-    static String line(Passage passage) {
-        Stay stay = passage.stay();
+    static String line(PresenceTransition passage) {
+        Visit stay = passage.stay();
         return line(stay.fix(), stay.field(), passage.phase().code(), passage.time(), passage.told()) + " "
                 + stay.cause().code() + " since " + stay.since();
     }
 
-    private static String line(PresenceFix fix, String field, String phase, long time, long told) {
+    private static String line(PositionFix fix, String field, String phase, long time, long told) {
         return "%s %s %s at %d told %d from %s,%s"
                 .formatted(fix.key(), field, phase, time, told, fix.longitude(), fix.latitude());
     }
@@ -75,7 +77,7 @@ final class PresenceOracle {
 
     private void tellLeft(String field, Span stay, List<String> lines) {
         long time = stay.until();
-        PresenceFix newest = newest(time);
+        PositionFix newest = newest(time);
         String cause = reportedAt(time) ? "moved" : "field-changed";
         if (newest.time() + timeToLive <= time) {
             cause = "silent";
@@ -88,8 +90,8 @@ final class PresenceOracle {
     }
 
     private List<Span> spans(String field) {
-        long first = fixes.stream().mapToLong(PresenceFix::time).min().orElseThrow();
-        long last = fixes.stream().mapToLong(PresenceFix::time).max().orElseThrow() + timeToLive + 1;
+        long first = fixes.stream().mapToLong(PositionFix::time).min().orElseThrow();
+        long last = fixes.stream().mapToLong(PositionFix::time).max().orElseThrow() + timeToLive + 1;
         List<Span> spans = new ArrayList<>();
         long from = -1;
         for (long time = first; time <= last; time++) {
@@ -104,7 +106,7 @@ final class PresenceOracle {
     }
 
     private boolean isInside(String field, long time) {
-        PresenceFix fix = newest(time);
+        PositionFix fix = newest(time);
         Plot plot = plot(field, time);
         return plot != null && fix.time() + timeToLive > time && plot.covers(fix);
     }
@@ -113,10 +115,10 @@ final class PresenceOracle {
         return fixes.stream().anyMatch(fix -> fix.time() == time);
     }
 
-    private PresenceFix newest(long time) {
+    private PositionFix newest(long time) {
         return fixes.stream()
                 .filter(fix -> fix.time() <= time)
-                .max(PresenceFix.SEQUENCE)
+                .max(PositionFix.SEQUENCE)
                 .orElseThrow();
     }
 

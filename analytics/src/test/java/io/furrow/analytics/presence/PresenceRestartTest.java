@@ -21,10 +21,11 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.event.HeaderNames;
@@ -70,7 +71,7 @@ class PresenceRestartTest {
         }
 
         private static TopicRecord report(Random random, String device, long time) {
-            PresenceFix fix = Story.fix(device, random.nextInt(12), random.nextInt(12), time);
+            PositionFix fix = Story.fix(device, random.nextInt(12), random.nextInt(12), time);
             Entity entity = Entity.builder(device, "ROBOT")
                     .number("Latitude", fix.latitude())
                     .number("Longitude", fix.longitude())
@@ -104,7 +105,7 @@ class PresenceRestartTest {
             DataStream<TopicRecord> versions = env.fromData(records(known), TypeInformation.of(TopicRecord.class))
                     .uid("fields")
                     .setParallelism(1)
-                    .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                    .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                     .uid("no-hindrance")
                     .setParallelism(1);
             return PresenceJob.define(
@@ -125,7 +126,7 @@ class PresenceRestartTest {
 
         @Override
         public List<String> judges() {
-            return List.of("Follow devices through fields");
+            return List.of("Track presence in fields");
         }
     }
 }

@@ -18,8 +18,9 @@ import io.furrow.analytics.AfterBroadcast;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
@@ -43,9 +44,7 @@ final class PresenceRun {
                 .setParallelism(1)
                 .uid("timestamps")
                 .filter(new AfterBroadcast(
-                        "Follow devices through fields",
-                        options.parallelism().orElse(2),
-                        () -> PresenceJobTest.METRICS))
+                        "Track presence in fields", options.parallelism().orElse(2), () -> PresenceJobTest.METRICS))
                 .setParallelism(1)
                 .uid("after-fields");
         ArrayList<Plot> known = new ArrayList<>(plots);
@@ -104,7 +103,7 @@ final class PresenceRun {
         return options;
     }
 
-    static TopicRecord report(PresenceFix fix) {
+    static TopicRecord report(PositionFix fix) {
         Entity entity = Entity.builder(fix.id(), "ROBOT")
                 .text("Mission", "hoeing")
                 .number("Latitude", fix.latitude())

@@ -13,19 +13,20 @@ import org.apache.flink.core.memory.DataOutputSerializer;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.analytics.position.PositionFix;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class PresenceTypesTest {
-    private static final PresenceFix FIX = Story.fix("d", 2, 3, 1000);
-    private static final Stay STAY = new Stay("f", "North", "farm", 500, true, 900, Cause.SILENT, FIX);
+    private static final PositionFix FIX = Story.fix("d", 2, 3, 1000);
+    private static final Visit STAY = new Visit("f", "North", "farm", 500, true, 900, Cause.SILENT, FIX);
 
     static Object[] records() {
         return new Object[] {
-            FIX,
             STAY,
-            new Passage(Passage.Phase.LEFT, STAY, 950),
-            new Whereabouts(FIX, 1000, List.of(STAY, STAY.back())),
-            Whereabouts.NOWHERE
+            new PresenceTransition(PresenceTransition.Phase.LEFT, STAY, 950),
+            new PresenceState(FIX, 1000, List.of(STAY, STAY.back())),
+            PresenceState.NOWHERE
         };
     }
 

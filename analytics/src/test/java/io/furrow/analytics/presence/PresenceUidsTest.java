@@ -2,8 +2,8 @@ package io.furrow.analytics.presence;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.job.JobCommandLine;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -9,6 +9,7 @@ import java.util.Map;
 import java.util.Random;
 
 import io.furrow.analytics.Seeds;
+import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.Plot.Box;
 
 /**
@@ -22,7 +23,7 @@ final class Story {
     private static final int SIZE = 12;
 
     final PresenceRules rules;
-    final List<PresenceFix> fixes = new ArrayList<>();
+    final List<PositionFix> fixes = new ArrayList<>();
     final List<Plot> plots;
     private final Random random;
 
@@ -45,8 +46,8 @@ final class Story {
     }
 
     /** Each position at most {@link #BOUND} behind a newer one. */
-    List<PresenceFix> arrivals() {
-        Map<PresenceFix, Long> delays = new HashMap<>();
+    List<PositionFix> arrivals() {
+        Map<PositionFix, Long> delays = new HashMap<>();
         fixes.forEach(fix -> delays.put(fix, fix.time() + random.nextInt((int) BOUND)));
         return fixes.stream().sorted(Comparator.comparing(delays::get)).toList();
     }
@@ -89,8 +90,8 @@ final class Story {
         return new Box(at(west), at(south), at(east), at(north));
     }
 
-    static PresenceFix fix(String id, int x, int y, long time) {
-        return new PresenceFix("data.raw", "farm|/|" + id, id, "", at(y), at(x), time);
+    static PositionFix fix(String id, int x, int y, long time) {
+        return new PositionFix("data.raw", "farm|/|" + id, id, "", "", "", at(y), at(x), Double.NaN, Double.NaN, time);
     }
 
     /** Not 0: the position 0,0 is none. */

@@ -11,8 +11,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.FieldRecords;
 import io.furrow.analytics.field.KnownFields;
-import io.furrow.flink.TopicRecord;
-import io.furrow.model.ngsi.Position;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.position.Position;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -71,7 +71,7 @@ final class BatchRecomputation {
         }
     }
 
-    /** Null where there is no such field then. */
+    /** Null if there is no such field then. */
     private Change at(String field, long time) {
         Change last = null;
         for (Change version : known.get(field).values()) {
@@ -201,7 +201,7 @@ final class BatchRecomputation {
         return result;
     }
 
-    /** Whether a vote is far from those that are nearer to the middle, of so many in all. */
+    /** Whether a vote is far from those that are nearer to the middle, of this many in all. */
     private static boolean isTooFar(double vote, List<Double> nearer, int all, double floor) {
         double k = nearer.size();
         double squares = nearer.stream()

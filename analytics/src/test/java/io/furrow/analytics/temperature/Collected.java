@@ -10,7 +10,7 @@ import org.apache.flink.api.connector.sink2.Sink;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.apache.flink.api.connector.sink2.WriterInitContext;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 
 /** A sink that keeps what a job in this JVM wrote. Each has a name of its own, because the job works on copies of it. */
 final class Collected implements Sink<TopicRecord> {

@@ -9,8 +9,8 @@ import java.util.stream.Stream;
 
 import picocli.CommandLine;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
@@ -19,10 +19,10 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
 /** Records as a source writes them, from devices on the fields of {@code fields.geojson}. */
-final class Farm {
-    static final Path FIELDS = Path.of("src/test/resources/field/fields.geojson");
-    static final FiwareScope SCOPE = new FiwareScope("farm", "/");
-    static final InputScope INPUT = new InputScope(Topics.RAW, SCOPE);
+public final class Farm {
+    public static final Path FIELDS = Path.of("src/test/resources/field/fields.geojson");
+    public static final FiwareScope SCOPE = new FiwareScope("farm", "/");
+    public static final InputScope INPUT = new InputScope(Topics.RAW, SCOPE);
 
     static final List<TopicRecord> FOUR_DEVICES_ONE_DEFECTIVE =
             List.of(north("t1", 18, 1_000), north("t2", 19, 2_000), north("t4", 60, 3_000), north("t3", 20, 4_000));
@@ -30,7 +30,7 @@ final class Farm {
     private Farm() {}
 
     /** A thermometer inside the field {@code north} alone. */
-    static TopicRecord north(String device, double temperature, long time) {
+    public static TopicRecord north(String device, double temperature, long time) {
         return reading(device, temperature, 52, 12, time);
     }
 
@@ -59,7 +59,7 @@ final class Farm {
     }
 
     /** Options as the command line gives them. */
-    static TemperatureOptions options(Path fields, String... more) {
+    public static TemperatureOptions options(Path fields, String... more) {
         TemperatureOptions options = new TemperatureOptions();
         CommandLine line = JobCommandLine.of(options).setOverwrittenOptionsAllowed(true);
         List<String> args = new ArrayList<>(List.of("--fields", fields.toString()));

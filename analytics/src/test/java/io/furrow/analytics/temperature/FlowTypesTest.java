@@ -13,7 +13,9 @@ import org.apache.flink.api.java.typeutils.PojoTypeInfo;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.field.Field;
-import io.furrow.flink.TopicRecord;
+import io.furrow.analytics.temperature.suspect.DeviceVote;
+import io.furrow.analytics.temperature.window.DeviceReadings;
+import io.furrow.flink.record.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -49,11 +51,12 @@ class FlowTypesTest {
     }
 
     private static List<Class<?>> publicRecords() throws IOException {
-        Path classes = Path.of("target/classes", Reading.class.getPackageName().replace('.', '/'));
-        try (Stream<Path> files = Files.list(classes)) {
-            Stream<Class<?>> ours = files.map(file -> file.getFileName().toString())
-                    .filter(file -> file.endsWith(".class") && !file.equals("package-info.class"))
-                    .map(file -> named(Reading.class.getPackageName() + "." + file.replace(".class", "")));
+        Path root = Path.of("target/classes");
+        Path classes = root.resolve(Reading.class.getPackageName().replace('.', '/'));
+        try (Stream<Path> files = Files.walk(classes)) {
+            Stream<Class<?>> ours = files.map(file -> root.relativize(file).toString())
+                    .filter(file -> file.endsWith(".class") && !file.endsWith("package-info.class"))
+                    .map(file -> named(file.replace(".class", "").replace('/', '.')));
             return Stream.concat(ours, Stream.of(TopicRecord.class))
                     .filter(type -> type.isRecord() && Modifier.isPublic(type.getModifiers()))
                     .toList();

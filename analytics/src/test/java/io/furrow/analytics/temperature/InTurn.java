@@ -1,10 +1,12 @@
 package io.furrow.analytics.temperature;
 
+import java.io.Serializable;
 import java.time.Duration;
 import java.util.Collection;
 import java.util.EnumMap;
 import java.util.List;
 import java.util.Map;
+import java.util.function.LongUnaryOperator;
 import java.util.function.Predicate;
 import java.util.function.ToLongFunction;
 
@@ -21,11 +23,11 @@ import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.awaitility.Awaitility;
 import org.awaitility.core.ConditionTimeoutException;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 
 /**
  * Lets readings and changes of fields into the job in one order: each record waits until the job has joined the readings and
- * taken the changes that stand before it. Looks at the job's metrics, so it needs a {@link #cluster}.
+ * taken the changes that stand before it, and the watermark of the readings before it. Looks at the job's metrics, so it needs a {@link #cluster}.
  */
 final class InTurn extends RichFilterFunction<TopicRecord> {
     /** Of the newest cluster: closed with its cluster, a reporter sees nothing of another. */
@@ -36,7 +38,7 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     private enum Awaited {
         PASSED(1, ".*Assign readings to fields.*currentOutputWatermark"),
         JOINED(3, ".*\\.(inside|outside|repeated)"),
-        TAKEN(1, ".*field-changes");
+        TAKEN(1, ".*fieldChanges");
 
         private final int perSubtask;
         private final String pattern;
@@ -53,24 +55,34 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     private final boolean isField;
     private final int subtasks;
     private final int[] before;
+    private final Watermarks watermark;
     private transient Map<Awaited, Collection<Metric>> known;
     private transient int next;
     private transient int awaited;
+    private transient long newest;
 
-    /** @param before of each record of the stream, how many of the other stand before it */
-    private InTurn(boolean isField, int subtasks, int[] before) {
+    /**
+     * @param before of each record of the stream, how many of the other stand before it
+     * @param watermark that follows a newest timestamp
+     */
+    private InTurn(boolean isField, int subtasks, int[] before, Watermarks watermark) {
         this.isField = isField;
         this.subtasks = subtasks;
         this.before = before;
+        this.watermark = watermark;
     }
 
-    static InTurn readings(int[] changesBefore, int subtasks) {
-        return new InTurn(false, subtasks, changesBefore);
+    /** Each of which waits also for the watermark that the readings before it caused. */
+    static InTurn readings(int[] changesBefore, int subtasks, Watermarks watermarks) {
+        return new InTurn(false, subtasks, changesBefore, watermarks);
     }
 
     static InTurn changes(int[] readingsBefore, int subtasks) {
-        return new InTurn(true, subtasks, readingsBefore);
+        return new InTurn(true, subtasks, readingsBefore, newest -> BEGIN.timestamp());
     }
+
+    /** The watermark that follows a newest timestamp. */
+    interface Watermarks extends LongUnaryOperator, Serializable {}
 
     static MiniClusterExtension cluster(int slots) {
         return cluster(slots, InMemoryReporter.create());
@@ -100,6 +112,7 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
     @Override
     public void open(OpenContext context) {
         known = new EnumMap<>(Awaited.class);
+        newest = BEGIN.timestamp();
     }
 
     @Override
@@ -108,10 +121,10 @@ final class InTurn extends RichFilterFunction<TopicRecord> {
             return false;
         }
         int needed = before[next++];
-        if (!isField && next == 1) {
-            await(
-                    Awaited.PASSED,
-                    metrics -> least(metrics, metric -> (long) ((Gauge<?>) metric).getValue()) >= BEGIN.timestamp());
+        if (!isField) {
+            long due = watermark.applyAsLong(newest);
+            await(Awaited.PASSED, metrics -> least(metrics, metric -> (long) ((Gauge<?>) metric).getValue()) >= due);
+            newest = Math.max(newest, record.timestamp());
         }
         if (isField && needed > awaited) {
             await(

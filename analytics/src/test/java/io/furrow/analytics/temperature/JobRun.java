@@ -20,8 +20,8 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.TestEnvironment;
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -44,11 +44,12 @@ record JobRun(JobID id, List<TopicRecord> records) {
     static JobRun over(RandomCases random) throws Exception {
         TemperatureOptions options = random.options();
         StreamExecutionEnvironment env = environment(options);
-        DataStream<TopicRecord> readings = source(env, random.arrivals(), random.changesBefore(), options);
+        InTurn inTurn = InTurn.readings(random.changesBefore(), env.getParallelism(), JobRun::unknown);
+        DataStream<TopicRecord> readings = source(env, random.arrivals(), inTurn, options);
         DataStream<TopicRecord> fields = env.fromData(random.fieldRecords(), TypeInformation.of(TopicRecord.class))
                 .setParallelism(1)
                 .uid("read-fields")
-                .assignTimestampsAndWatermarks(KafkaEnds.noHindrance())
+                .assignTimestampsAndWatermarks(KafkaConnectors.alwaysIdle())
                 .setParallelism(1)
                 .uid("no-hindrance")
                 .filter(InTurn.changes(random.readingsBefore(), env.getParallelism()))
@@ -70,19 +71,25 @@ record JobRun(JobID id, List<TopicRecord> records) {
     }
 
     static StreamExecutionEnvironment environment(TemperatureOptions options) {
-        return TestEnvironment.of(options);
+        StreamExecutionEnvironment env = TestEnvironment.of(options);
+        env.setBufferTimeout(0); // each record waits until the job has seen the one before it
+        return env;
     }
 
     static DataStream<TopicRecord> source(
             StreamExecutionEnvironment env, List<TopicRecord> arrivals, TemperatureOptions options) {
-        return source(env, arrivals, new int[arrivals.size()], options);
+        InTurn.Watermarks seen =
+                options.inputTopics().replay().isPresent() ? JobRun::unknown : afterEachRecord(options);
+        return source(env, arrivals, InTurn.readings(new int[arrivals.size()], env.getParallelism(), seen), options);
+    }
+
+    /** As of a replay, or where the job's fields have no event time of their own. */
+    private static long unknown(long newest) {
+        return InTurn.BEGIN.timestamp();
     }
 
     private static DataStream<TopicRecord> source(
-            StreamExecutionEnvironment env,
-            List<TopicRecord> arrivals,
-            int[] changesBefore,
-            TemperatureOptions options) {
+            StreamExecutionEnvironment env, List<TopicRecord> arrivals, InTurn inTurn, TemperatureOptions options) {
         List<TopicRecord> all = new ArrayList<>(arrivals);
         all.add(0, InTurn.BEGIN);
         return env.fromData(all, TypeInformation.of(TopicRecord.class))
@@ -91,7 +98,7 @@ record JobRun(JobID id, List<TopicRecord> records) {
                 .assignTimestampsAndWatermarks(watermarks(options))
                 .setParallelism(1)
                 .uid("watermarks")
-                .filter(InTurn.readings(changesBefore, env.getParallelism()))
+                .filter(inTurn)
                 .setParallelism(1)
                 .uid("in-turn");
     }
@@ -100,9 +107,14 @@ record JobRun(JobID id, List<TopicRecord> records) {
         if (options.inputTopics().replay().isPresent()) {
             return Replayed.watermarks(options);
         }
-        long bound = options.outOfOrderness().toMillis();
-        return WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(bound))
+        InTurn.Watermarks watermarks = afterEachRecord(options);
+        return WatermarkStrategy.<TopicRecord>forGenerator(context -> new AfterEachRecord(watermarks))
                 .withTimestampAssigner((record, unused) -> record.timestamp());
+    }
+
+    private static InTurn.Watermarks afterEachRecord(TemperatureOptions options) {
+        long bound = options.outOfOrderness().toMillis();
+        return newest -> Math.max(newest, InTurn.BEGIN.timestamp() + bound + 1) - bound - 1;
     }
 
     List<TopicRecord> to(String topic) {
@@ -147,17 +159,17 @@ record JobRun(JobID id, List<TopicRecord> records) {
 
     /** Unlike the periodic one it makes lateness a matter of the records alone. */
     private static final class AfterEachRecord implements WatermarkGenerator<TopicRecord> {
-        private final long bound;
+        private final InTurn.Watermarks watermarks;
         private long newest = Long.MIN_VALUE;
 
-        AfterEachRecord(long bound) {
-            this.bound = bound;
+        AfterEachRecord(InTurn.Watermarks watermarks) {
+            this.watermarks = watermarks;
         }
 
         @Override
         public void onEvent(TopicRecord record, long timestamp, WatermarkOutput output) {
             newest = Math.max(newest, timestamp);
-            output.emitWatermark(new Watermark(Math.max(newest, InTurn.BEGIN.timestamp() + bound + 1) - bound - 1));
+            output.emitWatermark(new Watermark(watermarks.applyAsLong(newest)));
         }
 
         @Override

@@ -4,11 +4,11 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 
 /** Records that are known at the start, in a form that travels with the job. */
-final class KnownRecords implements TopicAtStart {
+final class KnownRecords implements TopicSnapshot {
     private static final long serialVersionUID = 1L;
 
     private final ArrayList<Object[]> records = new ArrayList<>();

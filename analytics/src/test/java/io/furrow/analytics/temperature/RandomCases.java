@@ -7,15 +7,15 @@ import java.util.Random;
 
 import io.furrow.analytics.Seeds;
 import io.furrow.analytics.field.FieldRecords;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 
 /**
  * Several cases that run as one job, because a job takes longer to start than a case to run. They are at places and times so far apart
  * that none sees anything of another; what they share are the options.
  *
  * <p>A case: fields, devices and the readings that arrive from them: out of order, repeated, from defective devices, from borders, while
- * fields come, change, go and are taken away. Corners are on whole and half degrees, and devices stand on half degrees, so
+ * fields come, change, go and are removed. Corners are on whole and half degrees, and devices stand on half degrees, so
  * that many stand on borders and corners.
  *
  * @param changes of fields, in the order in which they come; those before the first reading are known at the start
@@ -30,8 +30,8 @@ record RandomCases(
      * What is said of a field at one point of the run.
      *
      * @param before how many readings come first
-     * @param shape null where the field ends
-     * @param taken whether the version is taken away
+     * @param shape null if the field ends
+     * @param taken whether the version is removed
      */
     record Change(int before, String field, long validFrom, String domain, Shape shape, boolean taken) {
         /** What is known at the start stays so. */
@@ -198,7 +198,7 @@ record RandomCases(
         return records.all();
     }
 
-    TopicAtStart fieldsAtStart() {
+    TopicSnapshot fieldsAtStart() {
         int known =
                 (int) changes.stream().filter(change -> change.before() == 0).count();
         return new KnownRecords(fieldRecords().subList(0, known));

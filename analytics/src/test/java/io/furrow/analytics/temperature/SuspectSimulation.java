@@ -9,10 +9,11 @@ import java.util.function.IntToDoubleFunction;
 import java.util.stream.IntStream;
 
 import io.furrow.analytics.Seeds;
+import io.furrow.analytics.temperature.window.RobustMean;
 
 /**
  * Windows of a field in which sound devices vote normally distributed around one temperature, and maybe some that are off by a
- * number of standard deviations. The temperature is anywhere between two steps to which votes are rounded, anew in each trial.
+ * number of standard deviations. The temperature is anywhere between two steps to which votes are rounded, again in each trial.
  *
  * @param trials of each share
  * @param floor option of the job
@@ -44,12 +45,12 @@ record SuspectSimulation(int trials, double floor) {
         return (double) named / trials;
     }
 
-    /** The share of trials in which a device that is so many standard deviations off is named in one of so many windows. */
+    /** The share of trials in which a device that is so many standard deviations off is named in one of this many windows. */
     Map<Integer, Double> namedWithin(int windows, double off, double step) {
         return byDevices(devices -> namedWithin(windows, devices, step, off));
     }
 
-    /** The share of trials in which all devices that are off by so many standard deviations are named in one of the windows. */
+    /** The share of trials in which all devices that are off by this many standard deviations are named in one of the windows. */
     double namedWithin(int windows, int devices, double step, double... off) {
         List<String> wanted = IntStream.range(0, off.length)
                 .mapToObj(SuspectSimulation::name)

@@ -12,7 +12,6 @@ import java.util.TreeSet;
 import java.util.concurrent.atomic.AtomicLong;
 import java.util.stream.Stream;
 
-import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -28,8 +27,8 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.analytics.field.FieldRecords;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.embedded.EmbeddedKafka;
-import io.furrow.flink.JobCommandLine;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -130,14 +129,9 @@ class TemperatureJobIT {
 
     /** They keep records of 1970: retention goes by the record timestamp. */
     private static void makeTopics(EmbeddedKafka kafka) throws Exception {
-        try (Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
-            admin.createTopics(Stream.of(Topics.RAW, OTHER, Topics.FIELDS, Topics.TEMPERATURE, Topics.dead(OTHER))
-                            .map(name -> new NewTopic(name, Optional.of(1), Optional.empty())
-                                    .configs(Map.of("retention.ms", "-1")))
-                            .toList())
-                    .all()
-                    .get();
-        }
+        kafka.createTopics(Stream.of(Topics.RAW, OTHER, Topics.FIELDS, Topics.TEMPERATURE, Topics.dead(OTHER))
+                .map(name -> new NewTopic(name, Optional.of(1), Optional.empty()).configs(Map.of("retention.ms", "-1")))
+                .toList());
     }
 
     private static TemperatureOptions onTopics(EmbeddedKafka kafka) {

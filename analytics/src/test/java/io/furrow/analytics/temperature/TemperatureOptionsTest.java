@@ -6,8 +6,8 @@ import java.time.Duration;
 import org.junit.jupiter.api.Test;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
 import io.furrow.flink.JobUids;
+import io.furrow.flink.job.JobCommandLine;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;

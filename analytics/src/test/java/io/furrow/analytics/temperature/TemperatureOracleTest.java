@@ -11,7 +11,7 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
@@ -20,7 +20,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
 
 /**
- * The job against a recomputation in one pass over lists that shares no code with it. A seed makes ten whole cases that run as one
+ * The job against a recomputation in one skip lists that shares no code with it. A seed makes ten whole cases that run as one
  * job; those without late readings with one, two and four subtasks.
  */
 @Timeout(120)

@@ -14,7 +14,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.analytics.Replayed;
 import io.furrow.analytics.Seeds;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -18,8 +18,8 @@ import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.analytics.field.FieldInput;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.restart.JobCase;
 import io.furrow.flink.restart.Restarts;
 import io.furrow.model.ngsi.Entity;
@@ -113,7 +113,7 @@ class TemperatureRestartTest {
 
         @Override
         public List<String> judges() {
-            return List.of("Let each event pass once", "Cast one vote per device", "Follow suspect devices");
+            return List.of("Deduplicate events by id", "Cast one vote per device", "Follow suspect devices");
         }
 
         /** A corrected result replaces the one before. */

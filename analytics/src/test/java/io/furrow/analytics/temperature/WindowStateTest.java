@@ -15,8 +15,11 @@ import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.TopicRecord;
-import io.furrow.model.ngsi.Position;
+import io.furrow.analytics.temperature.suspect.DeviceVote;
+import io.furrow.analytics.temperature.suspect.VoteStage;
+import io.furrow.analytics.temperature.window.FieldAverage;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.position.Position;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.tuple;
@@ -74,7 +77,7 @@ class WindowStateTest {
 
     @Test
     void idsOfEventsAreForgottenOnceARepetitionWouldBeLate() throws Exception {
-        KeyedOneInputStreamOperatorTestHarness<String, Reading, Reading> once = operator("pass-once");
+        KeyedOneInputStreamOperatorTestHarness<String, Reading, Reading> once = operator("deduplicate-by-id");
         Reading reading = inField("t1", 18, 1_000).reading();
         once.processElement(reading, 1_000);
         once.processWatermark(MINUTE + 10_000);

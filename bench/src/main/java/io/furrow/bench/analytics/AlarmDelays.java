@@ -9,17 +9,18 @@ import org.apache.flink.api.connector.sink2.Sink;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.apache.flink.api.connector.sink2.WriterInitContext;
 
-import io.furrow.analytics.collision.Encounter;
-import io.furrow.analytics.collision.Phase;
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.bench.analytics.load.Fleet;
 
 /** Nanoseconds from the arrival of the position that makes a pair close to its provisional record, within this JVM. */
-final class AlarmDelays {
+public final class AlarmDelays {
     private static final ConcurrentHashMap<String, AlarmDelays> RUNS = new ConcurrentHashMap<>();
-    private static final long LONGEST = 60_000_000_000L;
+    private static final long MAX = 60_000_000_000L;
 
     private final AtomicLongArray arrivals;
-    private final Histogram delays = new ConcurrentHistogram(LONGEST, 3);
+    private final Histogram delays = new ConcurrentHistogram(MAX, 3);
 
     private AlarmDelays(int devices) {
         arrivals = new AtomicLongArray(devices);
@@ -31,7 +32,7 @@ final class AlarmDelays {
         return delays;
     }
 
-    static AlarmDelays of(String run) {
+    public static AlarmDelays of(String run) {
         return RUNS.get(run);
     }
 
@@ -39,7 +40,7 @@ final class AlarmDelays {
         return delays;
     }
 
-    void arrived(PositionFix fix) {
+    public void arrived(PositionFix fix) {
         arrivals.set(Fleet.number(fix), System.nanoTime());
     }
 
@@ -48,7 +49,7 @@ final class AlarmDelays {
         if (encounter.phase() == Phase.PROVISIONAL) {
             long arrival = Math.max(
                     arrivals.get(Fleet.number(encounter.first())), arrivals.get(Fleet.number(encounter.second())));
-            delays.recordValue(Math.min(LONGEST, Math.max(0, System.nanoTime() - arrival)));
+            delays.recordValue(Math.min(MAX, Math.max(0, System.nanoTime() - arrival)));
         }
     }
 

@@ -8,15 +8,16 @@ import java.util.function.UnaryOperator;
 
 import org.HdrHistogram.Histogram;
 
-import io.furrow.analytics.collision.Cell;
-import io.furrow.analytics.collision.CellUpdate;
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.Matching;
-import io.furrow.analytics.collision.Pair;
-import io.furrow.analytics.collision.PositionFix;
-import io.furrow.analytics.collision.Sighting;
-import io.furrow.analytics.collision.Track;
-import io.furrow.analytics.collision.Tracker;
+import io.furrow.analytics.collision.encounter.Pair;
+import io.furrow.analytics.collision.encounter.PairObservation;
+import io.furrow.analytics.collision.grid.Cell;
+import io.furrow.analytics.collision.grid.CellUpdate;
+import io.furrow.analytics.collision.grid.Track;
+import io.furrow.analytics.collision.grid.Tracker;
+import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.bench.analytics.load.Fleet;
 
 /**
  * The same grid and predicate in one thread and plain maps, for positions in order: no serialization, no state backend, no
@@ -39,7 +40,7 @@ final class BareLoop {
         this(devices, UnaryOperator.identity());
     }
 
-    /** @param told what a report tells of where a device is */
+    /** @param told what a report reports where a device is */
     BareLoop(int devices, UnaryOperator<PositionFix> told) {
         this.told = told;
         fleet = new Fleet(devices, 0, 1);
@@ -101,7 +102,7 @@ final class BareLoop {
         changes.clear();
     }
 
-    private void see(Sighting sighting) {
+    private void see(PairObservation sighting) {
         if (sighting.change() != 0) {
             changes.merge(sighting.pair(), sighting.change(), Integer::sum);
         }

@@ -23,14 +23,16 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.collision.CollisionDetection;
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.bench.analytics.load.CollisionPlan;
+import io.furrow.bench.analytics.load.MoveFleet;
 
 /** Runs the three stages of collision detection in a Flink cluster of this JVM, fed from memory inside the job. */
 public final class CollisionMeasurement {
     private static final Duration BUFFER_TIMEOUT = Duration.ofMillis(5);
     static final int MAX_PARALLELISM = 720;
-    /** The first second has everything start at once; few more are enough to tell whether the stages agree. */
-    private static final int MOST_COMPARED = 20;
+    /** The first second has everything start at once; few more are enough to decide whether the stages agree. */
+    private static final int MAX_COMPARED = 20;
 
     private final Path directory;
 
@@ -115,7 +117,7 @@ public final class CollisionMeasurement {
 
     private static Bare bare(CollisionPlan plan, Progress progress) {
         BareLoop loop = new BareLoop(plan.devices());
-        int complete = (int) Math.min(MOST_COMPARED, progress.millis() / 1000 - 1);
+        int complete = (int) Math.min(MAX_COMPARED, progress.millis() / 1000 - 1);
         int different = 0;
         long second = 0;
         for (; second < complete; second++) {

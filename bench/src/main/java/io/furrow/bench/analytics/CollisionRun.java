@@ -1,5 +1,7 @@
 package io.furrow.bench.analytics;
 
+import io.furrow.bench.analytics.load.CollisionPlan;
+
 /**
  * What was measured of one plan.
  *

@@ -5,9 +5,9 @@ import org.apache.flink.api.connector.sink2.Sink;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.apache.flink.api.connector.sink2.WriterInitContext;
 
-import io.furrow.analytics.collision.Encounter;
+import io.furrow.analytics.collision.encounter.Encounter;
 
-/** The end of a measured job: counts, and tells {@link Progress} how far event time has come. */
+/** The end of a measured job: counts, and notifies {@link Progress} how far event time has come. */
 record CountEncounters(String run) implements Sink<Encounter> {
     private static final long serialVersionUID = 1L;
 

@@ -22,7 +22,7 @@ public record CrowdHeld(
         List<String> overflows,
         int secondsCompared,
         int secondsDifferent) {
-    private static final long MOST_LAG = 10_000;
+    private static final long MAX_LAG = 10_000;
 
     /**
      * What is measured.
@@ -35,7 +35,7 @@ public record CrowdHeld(
 
     /** Whether no result was more than 10 s behind, and all of the fleet was found. */
     public boolean isHeld() {
-        return Collections.max(lags) <= MOST_LAG && secondsDifferent == 0 && secondsCompared > 0;
+        return Collections.max(lags) <= MAX_LAG && secondsDifferent == 0 && secondsCompared > 0;
     }
 
     public void addTo(Figures figures) {

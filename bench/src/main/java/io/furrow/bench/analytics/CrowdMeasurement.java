@@ -8,12 +8,14 @@ import java.util.List;
 import java.util.Random;
 import java.util.stream.IntStream;
 
-import io.furrow.analytics.collision.Cell;
-import io.furrow.analytics.collision.CellRules;
-import io.furrow.analytics.collision.CellUpdate;
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.Matching;
-import io.furrow.analytics.collision.Presence;
+import io.furrow.analytics.collision.grid.Cell;
+import io.furrow.analytics.collision.grid.CellRules;
+import io.furrow.analytics.collision.grid.CellUpdate;
+import io.furrow.analytics.collision.grid.Presence;
+import io.furrow.analytics.collision.matching.Matching;
+import io.furrow.bench.analytics.load.CrowdedFleet;
+import io.furrow.bench.analytics.load.Fleet;
 
 /** What devices on one spot cost in the cell that they share, by processor time of one thread and without Flink. */
 public final class CrowdMeasurement {

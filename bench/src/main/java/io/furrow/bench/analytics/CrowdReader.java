@@ -19,6 +19,9 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.bench.analytics.load.CrowdedFleet;
+import io.furrow.bench.analytics.load.FleetTopic;
+
 /** Follows what is found of a crowd and of the fleet beside it. */
 final class CrowdReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(CrowdReader.class);

@@ -12,9 +12,10 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
 import io.furrow.analytics.collision.CollisionDetection;
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.bench.analytics.load.PacedFleet;
 
-/** How soon eager detection tells of a pair that has come close, fed from memory inside the job. */
+/** How soon eager detection reports a pair that has come close, fed from memory inside the job. */
 public final class EagerMeasurement {
     private static final double MILLI = 1e6;
 

@@ -19,16 +19,18 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.streaming.api.functions.sink.v2.DiscardingSink;
 
 import io.furrow.analytics.field.KnownFields;
-import io.furrow.analytics.presence.FollowDevices;
-import io.furrow.analytics.presence.Passage;
-import io.furrow.analytics.presence.PresenceFix;
+import io.furrow.analytics.position.PositionFix;
 import io.furrow.analytics.presence.PresenceRules;
+import io.furrow.analytics.presence.PresenceTransition;
+import io.furrow.analytics.presence.TrackPresence;
 import io.furrow.analytics.temperature.AssignFields;
 import io.furrow.analytics.temperature.Reading;
-import io.furrow.flink.BroadcastLatenessOperator;
-import io.furrow.flink.TopicRecord;
+import io.furrow.bench.analytics.load.Fleet;
+import io.furrow.bench.analytics.load.MadeUpFields;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.BroadcastLatenessOperator;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
 
 /** Points per second and core through the operators that join readings and devices with fields, beside a bare loop. */
 public final class FieldMeasurement {
@@ -60,7 +62,7 @@ public final class FieldMeasurement {
         this.progress = progress;
     }
 
-    /** Rounds by turns, of which only the last counts: before it the JVM is cold. */
+    /** Rounds in turns, of which only the last counts: before it the JVM is cold. */
     public void run(Iterable<Integer> parallelisms, Figures figures) throws Exception {
         for (int parallelism : parallelisms) {
             Taken bare = null;
@@ -112,25 +114,36 @@ public final class FieldMeasurement {
     private void presence(int parallelism) throws Exception {
         StreamExecutionEnvironment env = environment(parallelism);
         MadeUpFields where = fields;
-        GeneratorFunction<Long, PresenceFix> nth = n -> {
+        GeneratorFunction<Long, PositionFix> nth = n -> {
             Position position = where.position(n);
             String id = "urn:ngsi-ld:Robot:" + n % DEVICES;
             long time = Fleet.START + n * 1000 / DEVICES;
-            return new PresenceFix(TOPIC, "farm|/|" + id, id, "", position.latitude(), position.longitude(), time);
+            return new PositionFix(
+                    TOPIC,
+                    "farm|/|" + id,
+                    id,
+                    "",
+                    "",
+                    "",
+                    position.latitude(),
+                    position.longitude(),
+                    Double.NaN,
+                    Double.NaN,
+                    time);
         };
         stream(
                         env,
                         nth,
-                        PresenceFix.class,
-                        WatermarkStrategy.<PresenceFix>forBoundedOutOfOrderness(Duration.ofSeconds(1))
+                        PositionFix.class,
+                        WatermarkStrategy.<PositionFix>forBoundedOutOfOrderness(Duration.ofSeconds(1))
                                 .withTimestampAssigner((fix, previous) -> fix.time()))
-                .keyBy(PresenceFix::key)
+                .keyBy(PositionFix::key)
                 .connect(changes(env).broadcast())
                 .transform(
-                        "FollowDevices",
-                        TypeInformation.of(Passage.class),
+                        "TrackPresence",
+                        TypeInformation.of(PresenceTransition.class),
                         new BroadcastLatenessOperator<>(
-                                new FollowDevices(PRESENCE, fields), List.of(KnownFields.BROADCAST)))
+                                new TrackPresence(PRESENCE, fields), List.of(KnownFields.BROADCAST)))
                 .sinkTo(new DiscardingSink<>());
         env.execute();
     }

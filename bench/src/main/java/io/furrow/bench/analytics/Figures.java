@@ -20,7 +20,7 @@ public final class Figures {
         this.title = title;
     }
 
-    /** @param namesAndValues by turns */
+    /** @param namesAndValues in turns */
     public void add(Object... namesAndValues) {
         Map<String, Object> row = new LinkedHashMap<>();
         for (int i = 0; i < namesAndValues.length; i += 2) {

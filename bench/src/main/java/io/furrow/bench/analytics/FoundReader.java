@@ -16,6 +16,8 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.bench.analytics.load.FleetTopic;
+
 /** Follows the topic of results: how far event time has come in it, and how long after their time alarms are there. */
 final class FoundReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(FoundReader.class);

@@ -12,8 +12,10 @@ import org.apache.kafka.clients.admin.OffsetSpec;
 import org.apache.kafka.clients.consumer.OffsetAndMetadata;
 import org.apache.kafka.common.TopicPartition;
 
+import io.furrow.bench.analytics.load.FleetTopic;
+
 /** How many records of a topic the consumer group of a job has not committed, which it does at each checkpoint. */
-final class GroupLag implements AutoCloseable {
+public final class GroupLag implements AutoCloseable {
     private final Admin admin;
     private final String topic;
     private final String group;
@@ -32,7 +34,7 @@ final class GroupLag implements AutoCloseable {
     }
 
     /** Records of a partition that the group has committed; 0 before it has. */
-    long committed(int partition) throws InterruptedException, ExecutionException {
+    public long committed(int partition) throws InterruptedException, ExecutionException {
         OffsetAndMetadata offset = admin.listConsumerGroupOffsets(group)
                 .partitionsToOffsetAndMetadata()
                 .get()

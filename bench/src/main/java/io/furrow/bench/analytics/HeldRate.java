@@ -7,7 +7,7 @@ import java.util.List;
 /**
  * A fleet that reported once a second, and the job behind it.
  *
- * @param side metres, of the square in which they are
+ * @param side meters, of the square in which they are
  * @param sentPerSecond what the fleet really sent
  * @param foundPerSecond records that the job wrote
  * @param lags the least of the job's consumer in each second, in records, as of its newest checkpoint

@@ -4,10 +4,11 @@ import java.util.Arrays;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.atomic.LongAdder;
 
-import io.furrow.analytics.collision.Encounter;
-import io.furrow.analytics.collision.Phase;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.bench.analytics.load.Fleet;
 
-/** How far a job of this JVM has come, told by its last operator. */
+/** Progress of a job of this JVM, measured at its last operator. */
 final class Progress {
     private static final ConcurrentHashMap<String, Progress> RUNS = new ConcurrentHashMap<>();
 

@@ -12,21 +12,25 @@ import org.HdrHistogram.Histogram;
 
 import io.furrow.analytics.collision.CollisionJob;
 import io.furrow.analytics.collision.CollisionOptions;
+import io.furrow.bench.analytics.load.Backlog;
+import io.furrow.bench.analytics.load.CrowdedFleet;
+import io.furrow.bench.analytics.load.Fleet;
+import io.furrow.bench.analytics.load.FleetTopic;
 import io.furrow.bench.ingest.IngestMeasurement.Cluster;
 import io.furrow.bench.ingest.IngestMeasurement.Running;
-import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.job.JobCommandLine;
 
-/** Lets the job {@code collision} read NGSI entities from a topic and write what it finds to another. */
+/** Runs the job {@code collision} on NGSI entities from a topic, with its results on another. */
 public final class TopicMeasurement {
-    private static final Duration PATIENCE = Duration.ofMinutes(10);
-    private static final long LOOK_MS = 20;
-    private static final long LOOK_AT_ALARMS_S = 5;
+    private static final Duration TIMEOUT = Duration.ofMinutes(10);
+    private static final long POLL_INTERVAL_MS = 20;
+    private static final long ALARMS_POLL_INTERVAL_S = 5;
     private static final long PROMPT_MS = 1000;
     private static final Duration WARM_UP_AT_MOST = Duration.ofMinutes(4);
     /** The default of jobs. */
     static final int CHECKPOINTS_SECONDS = 10;
 
-    private static final int LOOKS_PER_SECOND = 5;
+    private static final int POLLS_PER_SECOND = 5;
     /** Event time at the end of the input that the watermark never passes, and a little more. */
     private static final long BEHIND_MS = 3000;
 
@@ -80,7 +84,7 @@ public final class TopicMeasurement {
      * What is to be held, and for how long.
      *
      * @param devices each reports once a second
-     * @param side metres, of the square in which they are
+     * @param side meters, of the square in which they are
      * @param ongoingEvery option of the job
      */
     public record Held(
@@ -120,8 +124,8 @@ public final class TopicMeasurement {
     /** In the second that begins at this time. */
     private static long leastLag(GroupLag lag, long begin) throws Exception {
         long least = Long.MAX_VALUE;
-        for (int look = 1; look <= LOOKS_PER_SECOND; look++) {
-            long next = begin + Duration.ofSeconds(look).toNanos() / LOOKS_PER_SECOND;
+        for (int look = 1; look <= POLLS_PER_SECOND; look++) {
+            long next = begin + Duration.ofSeconds(look).toNanos() / POLLS_PER_SECOND;
             TimeUnit.NANOSECONDS.sleep(next - System.nanoTime());
             least = Math.min(least, lag.records());
         }
@@ -139,7 +143,7 @@ public final class TopicMeasurement {
             try (FoundReader found = new FoundReader(cluster.kafka(), topic.results(), false);
                     GroupLag lag = new GroupLag(cluster.kafka(), topic.name(), jobName())) {
                 while (found.newest() < plan.end() - BEHIND_MS) {
-                    TimeUnit.SECONDS.sleep(Backlog.LOOK_SECONDS);
+                    TimeUnit.SECONDS.sleep(Backlog.POLL_INTERVAL_SECONDS);
                     progress.accept(reading.look(lag));
                 }
                 reading.addTo(figures, (System.nanoTime() - begin) / 1e9, found.count());
@@ -173,7 +177,7 @@ public final class TopicMeasurement {
         long end = System.nanoTime() + WARM_UP_AT_MOST.toNanos();
         do {
             found.alarms().reset();
-            TimeUnit.SECONDS.sleep(LOOK_AT_ALARMS_S);
+            TimeUnit.SECONDS.sleep(ALARMS_POLL_INTERVAL_S);
         } while (System.nanoTime() < end
                 && (found.alarms().getTotalCount() == 0 || found.alarms().getValueAtPercentile(99) > PROMPT_MS));
     }
@@ -212,13 +216,13 @@ public final class TopicMeasurement {
     }
 
     private static Reading await(FoundReader found, long event) throws InterruptedException {
-        long end = System.nanoTime() + PATIENCE.toNanos();
+        long end = System.nanoTime() + TIMEOUT.toNanos();
         while (found.newest() < event) {
             if (System.nanoTime() > end) {
                 throw new IllegalStateException("%d results after %d s, event time at %d, awaited %d"
-                        .formatted(found.count(), PATIENCE.toSeconds(), found.newest(), event));
+                        .formatted(found.count(), TIMEOUT.toSeconds(), found.newest(), event));
             }
-            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
         }
         return new Reading(System.nanoTime(), SYSTEM.getProcessCpuTime(), found.newest());
     }

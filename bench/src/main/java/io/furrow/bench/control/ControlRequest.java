@@ -6,7 +6,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.model.topic.Topics;
 
 /**
- * The n-th request of a load: by turns a change of a domain, and a step of a mission without devices, which is
+ * The n-th request of a load: in turns a change of a domain, and a step of a mission without devices, which is
  * started, stopped and deleted, so that no manager has more and more to remember but ids. At most {@value #OUTSTANDING} may wait for
  * their answer, so that the steps of a mission stay in order.
  *

@@ -21,7 +21,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 
-import io.furrow.model.control.Response;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
@@ -66,7 +66,7 @@ public final class KafkaControlClient implements ControlClient {
         while (closing.getCount() > 0) {
             for (ConsumerRecord<String, byte[]> record : consumer.poll(POLL)) {
                 try {
-                    Response response = Response.read(record.value());
+                    CommandResult response = CommandResult.read(record.value());
                     CompletableFuture<String> answer =
                             waiting.remove(response.requestId().orElse(""));
                     if (answer == null) {

@@ -6,7 +6,7 @@ import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.util.concurrent.CompletableFuture;
 
-import io.furrow.model.control.Response;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -32,7 +32,7 @@ public final class RestControlClient implements ControlClient {
 
     private static String status(HttpResponse<byte[]> answer) {
         try {
-            return Response.read(answer.body()).status();
+            return CommandResult.read(answer.body()).status();
         } catch (UnreadableException e) {
             return "no answer of a manager, but " + answer.statusCode();
         }

@@ -34,7 +34,7 @@ import io.furrow.model.topic.Topics;
 
 /** Wants devices on {@code service.devices}, lets a host in a JVM of its own run them, and counts what they report. */
 public final class FleetMeasurement {
-    private static final Duration PATIENCE = Duration.ofMinutes(3);
+    private static final Duration TIMEOUT = Duration.ofMinutes(3);
     private static final Duration POLL = Duration.ofMillis(100);
 
     private final FleetPlan plan;
@@ -128,7 +128,7 @@ public final class FleetMeasurement {
                         failures.add(status.reason());
                     }
                 }
-                if (!failures.isEmpty() || System.nanoTime() - begun > PATIENCE.toNanos()) {
+                if (!failures.isEmpty() || System.nanoTime() - begun > TIMEOUT.toNanos()) {
                     throw new IOException("%d of %d devices run after %d s%s; see %s"
                             .formatted(
                                     running.size(),
@@ -139,7 +139,7 @@ public final class FleetMeasurement {
                 }
             }
         } catch (UnreadableException e) {
-            throw new IOException("a status is none", e);
+            throw new IOException("a status record cannot be read", e);
         }
     }
 }

@@ -16,11 +16,11 @@ import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 /** A subscriber to all measures that counts them by device. */
 final class MeasureListener implements MqttCallback, AutoCloseable {
     private static final String TIME = "\"time\":";
-    private static final long LONGEST_MS = 60_000;
+    private static final long MAX_MS = 60_000;
 
     private final MqttAsyncClient client;
     private final Map<String, Integer> byTopic = new ConcurrentHashMap<>();
-    private final Histogram delays = new Histogram(LONGEST_MS, 3);
+    private final Histogram delays = new Histogram(MAX_MS, 3);
     private volatile MqttException broken;
     private volatile boolean counting;
     private long arrived;
@@ -54,7 +54,7 @@ final class MeasureListener implements MqttCallback, AutoCloseable {
             String json = new String(message.getPayload(), StandardCharsets.UTF_8);
             int from = json.indexOf(TIME) + TIME.length();
             long due = Long.parseLong(json, from, json.indexOf(',', from), 10);
-            delays.recordValue(Math.max(0, Math.min(LONGEST_MS, System.currentTimeMillis() - due)));
+            delays.recordValue(Math.max(0, Math.min(MAX_MS, System.currentTimeMillis() - due)));
         }
     }
 

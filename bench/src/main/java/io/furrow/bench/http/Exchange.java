@@ -8,7 +8,7 @@ import java.nio.channels.SelectionKey;
 import java.nio.channels.Selector;
 import java.nio.channels.SocketChannel;
 
-/** One request at a time over a connection that is kept, or made anew for each. */
+/** One request at a time over a connection that is kept, or made again for each. */
 final class Exchange {
     private final InetSocketAddress target;
     private final Selector selector;

@@ -19,7 +19,7 @@ import org.HdrHistogram.Histogram;
  * delay counts from then: a server that stops for a second is seen to have kept a second's worth of senders waiting.
  */
 public final class HttpLoad {
-    private static final long LONGEST_MICROS = TimeUnit.MINUTES.toMicros(5);
+    private static final long MAX_MICROS = TimeUnit.MINUTES.toMicros(5);
     private static final int DIGITS = 3;
     private static final long LAST_ANSWERS_NANOS = TimeUnit.SECONDS.toNanos(15);
     private static final long SECOND = TimeUnit.SECONDS.toNanos(1);
@@ -27,7 +27,7 @@ public final class HttpLoad {
     private final InetSocketAddress target;
     private final HttpLoadPlan plan;
     private final long firstNumber;
-    private final Histogram latency = new Histogram(LONGEST_MICROS, DIGITS);
+    private final Histogram latency = new Histogram(MAX_MICROS, DIGITS);
     private final BitSet acknowledged = new BitSet();
     private final Deque<Exchange> idle = new ArrayDeque<>();
     private final List<Exchange> failed = new ArrayList<>();
@@ -113,7 +113,7 @@ public final class HttpLoad {
             }
             due = dueNanos(now);
         }
-        idle.addAll(failed); // not at once, or a server that is away would keep this loop for ever
+        idle.addAll(failed); // not at once, or a server that is unavailable would keep this loop forever
         failed.clear();
     }
 
@@ -139,7 +139,7 @@ public final class HttpLoad {
             if (status / 100 == 2) {
                 acknowledged.set((int) (exchange.number() - firstNumber));
                 long micros = TimeUnit.NANOSECONDS.toMicros(lastAnswerNanos - exchange.dueNanos());
-                latency.recordValue(Math.min(LONGEST_MICROS, Math.max(0, micros)));
+                latency.recordValue(Math.min(MAX_MICROS, Math.max(0, micros)));
                 answered = answered + 1;
             } else {
                 refused++;

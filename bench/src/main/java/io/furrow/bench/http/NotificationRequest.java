@@ -25,14 +25,14 @@ public final class NotificationRequest {
     public static final int DIGITS = 15;
 
     /** Smallest body. */
-    public static final int LEAST_BYTES = 500;
+    public static final int MIN_BYTES = 500;
 
     private static final byte[] BEFORE = BEFORE_NUMBER.getBytes(StandardCharsets.US_ASCII);
     private static final int ID_DIGITS = 6;
     private static final String DATA = "\"data\":[";
     private static final String END_OF_DATA = "]}";
     private static final String ID_PREFIX = "urn:ngsi-ld:SoilProbe:";
-    private static final int MOST_MEASURES = 8;
+    private static final int MAX_MEASURES = 8;
     private static final String NO_ID = "0".repeat(ID_DIGITS);
     private static final String NO_NUMBER = "1" + "0".repeat(DIGITS - 1);
     private static final String NO_TIME = "2026-01-01T00:00:00.000Z";
@@ -67,7 +67,7 @@ public final class NotificationRequest {
     /**
      * A request.
      *
-     * @param bodyBytes at least {@value #LEAST_BYTES}
+     * @param bodyBytes at least {@value #MIN_BYTES}
      * @param entities how many ids there are, at most a million
      */
     public static NotificationRequest to(InetSocketAddress target, int bodyBytes, int entities) {
@@ -153,9 +153,9 @@ public final class NotificationRequest {
     }
 
     private static String body(int length) {
-        if (length < LEAST_BYTES) {
+        if (length < MIN_BYTES) {
             throw new IllegalArgumentException(
-                    "a body of " + length + " bytes is asked for, the least is " + LEAST_BYTES);
+                    "a body of " + length + " bytes is asked for, the least is " + MIN_BYTES);
         }
         StringBuilder body = new StringBuilder("{\"subscriptionId\":\"6b00efa61933b059d608cbc4\",\"data\":[{\"id\":")
                 .append("\"" + ID_PREFIX)
@@ -170,7 +170,7 @@ public final class NotificationRequest {
                 .append(NO_NUMBER)
                 .append(",\"metadata\":{}},");
         String end = "\"note\":{\"type\":\"Text\",\"value\":\"\",\"metadata\":{}}}]}";
-        for (int i = 0; i < MOST_MEASURES; i++) {
+        for (int i = 0; i < MAX_MEASURES; i++) {
             String measure = measure(i);
             if (body.length() + measure.length() + end.length() <= length) {
                 body.append(measure);

@@ -13,34 +13,34 @@ import org.apache.flink.util.Collector;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.ProducerRecord;
 
-import io.furrow.flink.AnyTopicSerializer;
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaEnds;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.AnyTopicSerializer;
+import io.furrow.flink.kafka.KafkaConnectors;
 
 import static org.apache.flink.api.common.eventtime.WatermarkStrategy.noWatermarks;
 
 /**
- * The least that a Flink job between the same topics can do: key, value, headers and timestamp of each record go on as the
+ * The least that a Flink job between the same topics can do: key, value, headers and timestamp of each record are forwarded as the
  * bytes that they are, with the environment and the Kafka clients of the job {@code ingest}. Nothing is decoded, nothing sent
  * from one subtask to another, no state kept.
  */
 final class CopyJob {
     private CopyJob() {}
 
-    /** @param missionTopics used in turn; empty where each record goes to the topic of the domain only */
+    /** @param missionTopics used in turn; empty if each record goes to the topic of the domain only */
     static StreamExecutionEnvironment assemble(JobOptions options, String domainTopic, List<String> missionTopics) {
         StreamExecutionEnvironment env = JobEnvironment.create(options);
         Configuration anyType = new Configuration();
         anyType.set(PipelineOptions.GENERIC_TYPES, true); // never serialized: source to sink is one task
         env.configure(anyType);
 
-        env.fromSource(KafkaEnds.source(options, new AsReceived()), noWatermarks(), "Read records")
+        env.fromSource(KafkaConnectors.source(options, new AsReceived()), noWatermarks(), "Read records")
                 .uid("read-records")
                 .flatMap(new NameTopics(domainTopic, missionTopics))
                 .uid("name-topics")
                 .name("Name topics")
-                .sinkTo(KafkaEnds.sink(options, "copies", new AsWasReceived()))
+                .sinkTo(KafkaConnectors.sink(options, "copies", new AsWasReceived()))
                 .uid("write-copies")
                 .name("Write copies");
 

@@ -15,19 +15,21 @@ import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 
-import io.furrow.flink.Delivery;
-import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.job.Delivery;
+import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.IngestJob;
 import io.furrow.ingest.IngestOptions;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Lets the job ingest and jobs that only copy bytes read the same topic by turns, and tells how fast each was. */
+/**
+ * Runs the job ingest and jobs that only copy bytes on the same topic, in turns, and reports the throughput of each.
+ */
 public final class IngestMeasurement {
     private static final int PARTITIONS = 4;
     private static final short REPLICAS = 1;
-    private static final long LOOK_MS = 20;
-    private static final Duration PATIENCE = Duration.ofMinutes(5);
+    private static final long POLL_INTERVAL_MS = 20;
+    private static final Duration TIMEOUT = Duration.ofMinutes(5);
 
     private final IngestPlan plan;
     private final Properties kafka;
@@ -49,7 +51,7 @@ public final class IngestMeasurement {
     /** Where it is measured. */
     public record Cluster(Properties kafka, Jobs flink, Path checkpoints) {}
 
-    /** @param progress is told after each job's turn */
+    /** @param progress is reported after each job's turn */
     public IngestMeasurement(IngestPlan plan, Cluster cluster, Consumer<String> progress) {
         this.plan = plan;
         this.kafka = cluster.kafka();
@@ -103,16 +105,16 @@ public final class IngestMeasurement {
             Throughput throughput = new Throughput(expected);
             Running job = flink.start(name, job(name, peer, delivery));
             try {
-                long end = System.nanoTime() + PATIENCE.toNanos();
+                long end = System.nanoTime() + TIMEOUT.toNanos();
                 while (!throughput.areAll()) {
                     if (System.nanoTime() > end) {
                         throw new IllegalStateException("%s: %d of %d records after %d s"
-                                .formatted(name, written.readable(), expected, PATIENCE.toSeconds()));
+                                .formatted(name, written.readable(), expected, TIMEOUT.toSeconds()));
                     }
-                    TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+                    TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
                     throughput.add(written.readable());
                 }
-                long missing = expected - written.counted(expected, PATIENCE);
+                long missing = expected - written.counted(expected, TIMEOUT);
                 Throughput.Pace pace = throughput.pace();
                 return new IngestRun(
                         peer,

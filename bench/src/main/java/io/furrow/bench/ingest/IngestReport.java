@@ -8,7 +8,7 @@ import java.util.function.ToDoubleFunction;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.flink.Delivery;
+import io.furrow.flink.job.Delivery;
 
 /** The runs of a measurement, their medians, and the medians of their ratios to the runs of the same turn that only copy. */
 public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
@@ -19,7 +19,7 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
         return median(delivery, peer, IngestRun::recordsPerSecond);
     }
 
-    /** Records per second to those of another job in the same turn; NaN where that had none. */
+    /** Records per second to those of another job in the same turn; NaN if that had none. */
     public double ratio(Delivery delivery, Peer peer, Peer other) {
         return ratio(delivery, peer, other, IngestRun::recordsPerSecond);
     }

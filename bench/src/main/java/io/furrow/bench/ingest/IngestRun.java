@@ -1,6 +1,6 @@
 package io.furrow.bench.ingest;
 
-import io.furrow.flink.Delivery;
+import io.furrow.flink.job.Delivery;
 
 /**
  * What one job did in one turn.

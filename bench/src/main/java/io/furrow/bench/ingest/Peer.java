@@ -11,7 +11,7 @@ public enum Peer {
     /** The job {@code ingest}, routes only. */
     ROUTES("ingest, routes only", 2),
     /** The job {@code ingest} as it is by default. */
-    INGEST("ingest, with latest and catalogue", 2);
+    INGEST("ingest, with latest and catalog", 2);
 
     private final String title;
     private final int writes;

@@ -38,7 +38,7 @@ final class ReportedEntities {
         return "mission-" + number;
     }
 
-    /** @param progress is told how many are written, now and then */
+    /** @param progress is called with the number written, now and then */
     void writeTo(String topic, Properties kafka, java.util.function.IntConsumer progress) throws UnreadableException {
         AtomicReference<Exception> failed = new AtomicReference<>();
         Properties properties = new Properties();

@@ -17,7 +17,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 
 /**
  * The topics that a job writes to, empty at first. How many records a reader of committed records could
- * read is told from the ends of the partitions: reading them would take processor time from the job.
+ * read is reported from the ends of the partitions: reading them would take processor time from the job.
  */
 final class WrittenTopics implements AutoCloseable {
     private final Admin admin;
@@ -56,11 +56,11 @@ final class WrittenTopics implements AutoCloseable {
     }
 
     /** Reads them all, to know that they are there. */
-    long counted(long expected, Duration patience) {
+    long counted(long expected, Duration timeout) {
         consumer.assign(partitions);
         consumer.seekToBeginning(partitions);
         long records = 0;
-        long end = System.nanoTime() + patience.toNanos();
+        long end = System.nanoTime() + timeout.toNanos();
         while (records < expected && System.nanoTime() < end) {
             records += consumer.poll(Duration.ofMillis(100)).count();
         }

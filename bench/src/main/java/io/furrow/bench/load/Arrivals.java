@@ -15,7 +15,7 @@ import io.furrow.model.event.HeaderNames;
 
 /** What has arrived: distinct events, repeats, and the delay of each {@link Hop} of the first arrival of each event. */
 final class Arrivals {
-    private static final long LONGEST_MS = 3_600_000;
+    private static final long MAX_MS = 3_600_000;
     private static final int DIGITS = 3;
 
     private final Set<String> ids = new HashSet<>();
@@ -24,7 +24,7 @@ final class Arrivals {
 
     Arrivals() {
         for (Hop hop : Hop.values()) {
-            delays.put(hop, new Histogram(LONGEST_MS, DIGITS));
+            delays.put(hop, new Histogram(MAX_MS, DIGITS));
         }
     }
 
@@ -64,7 +64,7 @@ final class Arrivals {
 
     /** The clock of one machine may be set back by a millisecond between two stamps. */
     private void record(Hop hop, long millis) {
-        delays.get(hop).recordValue(Math.min(LONGEST_MS, Math.max(0, millis)));
+        delays.get(hop).recordValue(Math.min(MAX_MS, Math.max(0, millis)));
     }
 
     private static long stamp(Headers headers, String name) {

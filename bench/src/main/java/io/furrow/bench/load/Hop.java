@@ -1,6 +1,6 @@
 package io.furrow.bench.load;
 
-/** A part of the way of a measure, told by the stamps at both its ends. */
+/** One hop of a measure, between two timestamps. */
 enum Hop {
     DEVICE_TO_SOURCE("device → source"),
     SOURCE_TO_INGEST("source → ingest"),

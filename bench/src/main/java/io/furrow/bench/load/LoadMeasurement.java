@@ -40,14 +40,14 @@ public final class LoadMeasurement {
     private static final Duration SETTLED = Duration.ofSeconds(2);
 
     private static final int PARTITIONS = 4;
-    private static final long LOOK_MS = 100;
-    private static final int LOOKS_PER_SECOND = (int) (1000 / LOOK_MS);
+    private static final long POLL_INTERVAL_MS = 100;
+    private static final int POLLS_PER_SECOND = (int) (1000 / POLL_INTERVAL_MS);
 
     private final FleetSettings devices;
     private final Properties kafka;
     private final Consumer<String> progress;
 
-    /** @param progress is told once a second how far it is */
+    /** @param progress is reported once a second how far it is */
     public LoadMeasurement(FleetSettings devices, Properties kafka, Consumer<String> progress) {
         this.devices = devices;
         this.kafka = kafka;
@@ -73,9 +73,9 @@ public final class LoadMeasurement {
         try (LoadFleet fleet = LoadFleet.start(devices, plan)) {
             long looks = 0;
             while (fleet.sent() < plan.messages()
-                    && looks * LOOK_MS < plan.duration().toMillis() * 2) {
-                TimeUnit.MILLISECONDS.sleep(LOOK_MS);
-                if (looks++ % LOOKS_PER_SECOND == 0) {
+                    && looks * POLL_INTERVAL_MS < plan.duration().toMillis() * 2) {
+                TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
+                if (looks++ % POLLS_PER_SECOND == 0) {
                     progress.accept(
                             "%d of %d sent, %d arrived".formatted(fleet.sent(), plan.messages(), arrivals.distinct()));
                 }
@@ -93,7 +93,7 @@ public final class LoadMeasurement {
                 seen = arrivals.distinct();
                 movedNanos = System.nanoTime();
             }
-            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
         }
         TimeUnit.SECONDS.sleep(1); // repeats that are still on their way
     }
@@ -111,7 +111,7 @@ public final class LoadMeasurement {
         }
     }
 
-    /** The context broker tells of each new device; only what comes after that is the load. */
+    /** The context broker reports each new device; only what comes after that is the load. */
     private void awaitQuiet(String topic) throws InterruptedException, ExecutionException {
         try (Admin admin = Admin.create(kafka)) {
             Map<TopicPartition, OffsetSpec> ends = new HashMap<>();

@@ -18,7 +18,7 @@ import com.mongodb.client.model.WriteModel;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.bson.RawBsonDocument;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.mission.ComposeDocuments;
 import io.furrow.ingest.mission.MissionDocument;
 import io.furrow.ingest.mission.MissionEvent;
@@ -27,7 +27,7 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Writes the same events into MongoDB in two ways by turns: as the job does (records of JSON through the composing of documents
+ * Writes the same events into MongoDB in two ways in turns: as the job does (records of JSON through the composing of documents
  * and the sink writer, with a checkpoint's flush now and then), and in a bare loop around the driver (bulks of the same upserts,
  * made beforehand).
  */

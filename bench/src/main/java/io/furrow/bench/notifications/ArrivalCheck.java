@@ -20,7 +20,7 @@ final class ArrivalCheck {
     private long repeats;
     private long lastNanos;
 
-    /** @param firstNumber of this load; smaller numbers are of an earlier one and are passed over */
+    /** @param firstNumber of this load; smaller numbers are of an earlier one and are skipped */
     ArrivalCheck(long firstNumber) {
         this.firstNumber = firstNumber;
     }

@@ -9,7 +9,7 @@ import java.util.Map;
 
 import com.sun.management.OperatingSystemMXBean;
 
-/** The processor time of this JVM by part, told by the names of threads; what no Java thread used is the JVM's own. */
+/** Processor time of this JVM by part, attributed by thread names; what no Java thread used is the JVM's own. */
 public final class CpuByPart {
     private static final ThreadMXBean THREADS = ManagementFactory.getThreadMXBean();
     private static final OperatingSystemMXBean SYSTEM =

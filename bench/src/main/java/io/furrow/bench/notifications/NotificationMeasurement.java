@@ -37,8 +37,8 @@ public final class NotificationMeasurement implements AutoCloseable {
     private static final long NUMBERS_PER_RUN = 1_000_000_000L;
     private static final Duration QUIET = Duration.ofSeconds(20);
     private static final Duration REPEATS_ON_THEIR_WAY = Duration.ofMillis(500);
-    private static final long LOOK_MS = 100;
-    private static final int LOOKS_PER_SECOND = (int) (1000 / LOOK_MS);
+    private static final long POLL_INTERVAL_MS = 100;
+    private static final int POLLS_PER_SECOND = (int) (1000 / POLL_INTERVAL_MS);
 
     private final InetSocketAddress source;
     private final String topic;
@@ -54,7 +54,7 @@ public final class NotificationMeasurement implements AutoCloseable {
      * Of a source that listens already.
      *
      * @param topic that it writes to
-     * @param progress is told once a second how far it is
+     * @param progress is reported once a second how far it is
      */
     public NotificationMeasurement(
             InetSocketAddress source, String topic, Properties kafka, Consumer<String> progress) {
@@ -103,16 +103,16 @@ public final class NotificationMeasurement implements AutoCloseable {
         HttpLoad load = new HttpLoad(target, plan, firstNumber);
         CompletableFuture<HttpLoadResult> result = CompletableFuture.supplyAsync(load::run, sender);
         for (int looks = 0; !result.isDone(); looks++) {
-            if (looks % LOOKS_PER_SECOND == 0) {
+            if (looks % POLLS_PER_SECOND == 0) {
                 progress.accept("%s: %d s of %d, %d acknowledged%s"
                         .formatted(
                                 name,
-                                looks / LOOKS_PER_SECOND,
+                                looks / POLLS_PER_SECOND,
                                 plan.duration().toSeconds(),
                                 load.answered(),
                                 check == null ? "" : ", " + check.distinct() + " in Kafka"));
             }
-            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
         }
         return result.join();
     }
@@ -127,7 +127,7 @@ public final class NotificationMeasurement implements AutoCloseable {
                 movedNanos = System.nanoTime();
                 progress.accept("%s: %d acknowledged, %d in Kafka".formatted(name, load.answered(), seen));
             }
-            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
         }
     }
 

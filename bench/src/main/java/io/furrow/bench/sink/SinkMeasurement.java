@@ -26,14 +26,14 @@ import io.furrow.bench.http.HttpLoadPlan;
 import io.furrow.bench.http.NotificationRequest;
 import io.furrow.model.event.HeaderNames;
 
-/** Fills a topic, lets the sink empty it into a context broker, and tells how long that took. */
+/** Fills a topic, lets the sink write it into a context broker, and reports the time. */
 public final class SinkMeasurement {
     private static final int PARTITIONS = 4;
     private static final short REPLICAS = 1;
     private static final int ENTITIES_PER_REQUEST = 100;
-    private static final Duration PATIENCE = Duration.ofMinutes(3);
-    private static final long LOOK_MS = 100;
-    private static final int LOOKS_PER_SECOND = (int) (1000 / LOOK_MS);
+    private static final Duration TIMEOUT = Duration.ofMinutes(3);
+    private static final long POLL_INTERVAL_MS = 100;
+    private static final int POLLS_PER_SECOND = (int) (1000 / POLL_INTERVAL_MS);
 
     private final Properties kafka;
     private final Consumer<String> progress;
@@ -43,7 +43,7 @@ public final class SinkMeasurement {
         void start(String name, String topic, URI contextBroker);
     }
 
-    /** @param progress is told once a second how far it is */
+    /** @param progress is reported once a second how far it is */
     public SinkMeasurement(Properties kafka, Consumer<String> progress) {
         this.kafka = kafka;
         this.progress = progress;
@@ -106,17 +106,17 @@ public final class SinkMeasurement {
 
     private void awaitCommitted(String sink, long records, Supplier<String> state)
             throws InterruptedException, ExecutionException {
-        long end = System.nanoTime() + PATIENCE.toNanos();
+        long end = System.nanoTime() + TIMEOUT.toNanos();
         try (Admin admin = Admin.create(kafka)) {
             for (int looks = 0; committed(admin, sink) < records; looks++) {
                 if (System.nanoTime() > end) {
                     throw new IllegalStateException("the sink has not committed %d records within %d s"
-                            .formatted(records, PATIENCE.toSeconds()));
+                            .formatted(records, TIMEOUT.toSeconds()));
                 }
-                if (looks % LOOKS_PER_SECOND == 0) {
-                    progress.accept("%s: %d s, %s".formatted(sink, looks / LOOKS_PER_SECOND, state.get()));
+                if (looks % POLLS_PER_SECOND == 0) {
+                    progress.accept("%s: %d s, %s".formatted(sink, looks / POLLS_PER_SECOND, state.get()));
                 }
-                TimeUnit.MILLISECONDS.sleep(LOOK_MS);
+                TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
             }
         }
     }

@@ -5,7 +5,7 @@ import java.util.List;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.Delivery;
+import io.furrow.flink.job.Delivery;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

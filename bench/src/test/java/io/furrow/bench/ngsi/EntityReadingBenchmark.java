@@ -21,10 +21,10 @@ import org.openjdk.jmh.infra.Blackhole;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityReader;
-import io.furrow.model.ngsi.PositionReading;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.position.PositionReading;
 
-/** Id, type, position and mission out of the bytes of an entity: with a tree of what is wanted, and without one. */
+/** Id, type, position and mission out of the bytes of an entity: with a tree of what is requested, and without one. */
 @State(Scope.Thread)
 @BenchmarkMode(Mode.AverageTime)
 @OutputTimeUnit(TimeUnit.NANOSECONDS)

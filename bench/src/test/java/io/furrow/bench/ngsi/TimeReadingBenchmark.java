@@ -16,7 +16,7 @@ import org.openjdk.jmh.annotations.Scope;
 import org.openjdk.jmh.annotations.State;
 import org.openjdk.jmh.annotations.Warmup;
 
-import io.furrow.model.ngsi.Instants;
+import io.furrow.model.time.Instants;
 
 /** A date and time as context brokers write it, read digit by digit and by the JDK. */
 @State(Scope.Thread)

@@ -67,7 +67,7 @@ class NotificationReportTest {
                 .containsPattern("listener +25.0");
     }
 
-    /** One second of so many notifications, and 50 ms of a listener's processor time. */
+    /** One second of this many notifications, and 50 ms of a listener's processor time. */
     private static NotificationRun run(int count, long missing) {
         return new NotificationRun(
                 load(count), count, missing, 0, Map.of("listener", 50_000_000L), load(10_000), 50_000);

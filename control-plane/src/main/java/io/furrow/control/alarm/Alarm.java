@@ -11,26 +11,26 @@ import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
 
 /**
- * Something that needs attention: stored, and a record of {@code service.alarms} under its id. Members that an earlier version
- * did not write are null.
+ * A condition that needs attention: stored, and published as a record of {@code service.alarms} keyed by its id.
+ * Members that an earlier version did not write are null.
  *
- * @param alarm its id, {@code <kind>-<number>}; never given twice
- * @param change what happened to it last
- * @param text a sentence for people
- * @param devices that it concerns; of a group of many the first {@value Cause#MAX_DEVICES}
+ * @param alarm its id, {@code <kind>-<number>}; never reused
+ * @param change its latest change
+ * @param text human-readable sentence
+ * @param devices devices concerned, at most {@value Cause#MAX_DEVICES}
  * @param raised when, epoch ms
- * @param changed when it last changed, epoch ms; that its cause is seen again is no change
- * @param count how often the cause was seen, as of the last change
- * @param until when it is over by itself, epoch ms; null where something else says so
- * @param mutedUntil until when it is not delivered, epoch ms; null where it is not muted
- * @param acknowledgedBy who acknowledged it; null where no user was named
- * @param reason why it is closed; null where it is not
- * @param sequence grows with each change of any alarm
- * @param group entity of the mission, domain or field that it belongs to; null where it belongs to none
- * @param affected how many devices or pairs a group alarm stands for now; null where the alarm is of one only
- * @param total out of how many; null where that is not known
- * @param seen when its cause was last seen, epoch ms, as of the last change; null in a group alarm
- * @param inhibitedBy id of the alarm that says more, because of which this one is not delivered; null where there is none
+ * @param changed when it last changed, epoch ms; a repeated cause is not a change
+ * @param count how often the cause was observed, as of the last change
+ * @param until when it expires, epoch ms; null if it is ended explicitly
+ * @param mutedUntil end of its mute, epoch ms; null if it is not muted
+ * @param acknowledgedBy user who acknowledged it; null if not named
+ * @param reason why it was closed; null if it is not closed
+ * @param sequence increases with each change of any alarm
+ * @param group entity of the mission, domain or field that it belongs to; null if none
+ * @param affected number of devices or pairs that a group alarm stands for now; null for an individual alarm
+ * @param total out of how many; null if unknown
+ * @param seen when its cause was last observed, epoch ms, as of the last change; null in a group alarm
+ * @param inhibitedBy id of the alarm that inhibits its delivery; null if none
  */
 public record Alarm(
         String alarm,
@@ -54,17 +54,17 @@ public record Alarm(
         Integer total,
         Long seen,
         String inhibitedBy) {
-    /** What may happen to an alarm. */
+    /** Kinds of changes. */
     public enum Change {
         OPENED,
-        /** Its extent, its text or what inhibits it. */
+        /** Its extent, its text or its inhibiting alarm changed. */
         UPDATED,
         ACKNOWLEDGED,
         CLOSED,
         MUTED,
         UNMUTED;
 
-        /** As records have it. */
+        /** The value in records. */
         @JsonValue
         public String word() {
             return name().toLowerCase(Locale.ROOT);
@@ -76,8 +76,8 @@ public record Alarm(
         }
     }
 
-    /** @param mutedUntil null where nothing mutes it */
-    static Alarm raised(Cause cause, Long mutedUntil, long sequence, long now) {
+    /** @param mutedUntil null if it is not muted */
+    public static Alarm raised(Cause cause, Long mutedUntil, long sequence, long now) {
         AlarmDraft draft = new AlarmDraft();
         draft.alarm = cause.kind().code() + "-" + sequence;
         draft.kind = cause.kind();
@@ -101,16 +101,16 @@ public record Alarm(
         return Cause.key(kind, subject);
     }
 
-    boolean isMuted(long now) {
+    public boolean isMuted(long now) {
         return mutedUntil != null && now < mutedUntil;
     }
 
-    /** Whether it stands for many: then its cause is known at every moment. */
+    /** Whether it is a group alarm, whose cause is always known. */
     boolean isOfGroup() {
         return affected != null;
     }
 
-    /** Whether it says what a cause says. */
+    /** Whether its text, devices and extent equal those of a cause. */
     boolean says(Cause cause) {
         Cause.Extent extent = cause.extent();
         return extent == null
@@ -120,14 +120,14 @@ public record Alarm(
                         && Objects.equals(total, extent.total());
     }
 
-    Alarm numbered(long newSequence) {
+    public Alarm numbered(long newSequence) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.sequence = newSequence;
         return draft.build();
     }
 
-    /** The same in another state; the reason is null but where it is closed. */
-    Alarm become(AlarmState newState, String by, String why, long now) {
+    /** Returns the alarm in another state; the reason is null unless it is closed. */
+    public Alarm become(AlarmState newState, String by, String why, long now) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.state = newState;
         draft.change = newState == AlarmState.CLOSED ? Change.CLOSED : Change.ACKNOWLEDGED;
@@ -138,8 +138,8 @@ public record Alarm(
         return draft.build();
     }
 
-    /** @param newMutedUntil null for not any more */
-    Alarm muted(Long newMutedUntil, long now) {
+    /** @param newMutedUntil null to unmute */
+    public Alarm muted(Long newMutedUntil, long now) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.change = newMutedUntil == null ? Change.UNMUTED : Change.MUTED;
         draft.changed = now;
@@ -147,7 +147,7 @@ public record Alarm(
         return draft.build();
     }
 
-    /** The cause was seen once more; what the alarm says stays. */
+    /** Counts another observation of the cause; text and extent stay unchanged. */
     Alarm repeated(Long newUntil, long now) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.count = count == Integer.MAX_VALUE ? count : count + 1;
@@ -156,7 +156,7 @@ public record Alarm(
         return draft.build();
     }
 
-    /** Says what the cause says. */
+    /** Copies text, devices and extent from the cause. */
     Alarm updated(Cause cause, long now) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.describe(cause);
@@ -165,8 +165,8 @@ public record Alarm(
         return draft.build();
     }
 
-    /** @param by id of an alarm; null for none any more */
-    Alarm inhibited(String by, long now) {
+    /** @param by id of the inhibiting alarm; null if no longer inhibited */
+    public Alarm inhibited(String by, long now) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.inhibitedBy = by;
         draft.change = Change.UPDATED;
@@ -174,15 +174,15 @@ public record Alarm(
         return draft.build();
     }
 
-    /** The same alarm that was inhibited when it was raised. */
-    Alarm inhibitedFromStart(String by) {
+    /** Returns the alarm as inhibited when it was raised, without a further change. */
+    public Alarm inhibitedFromStart(String by) {
         AlarmDraft draft = new AlarmDraft(this);
         draft.inhibitedBy = by;
         return draft.build();
     }
 
-    /** UTF-8 JSON; members without a value are left out. */
-    byte[] toBytes() {
+    /** UTF-8 JSON; members without a value are omitted. */
+    public byte[] toBytes() {
         return StateJson.write(this);
     }
 }

@@ -10,13 +10,18 @@ import java.util.concurrent.ArrayBlockingQueue;
 import java.util.concurrent.ThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 
+import io.furrow.control.alarm.action.AlarmDelivery;
+import io.furrow.control.alarm.action.StopFollower;
+import io.furrow.control.alarm.action.StopRobots;
+import io.furrow.control.alarm.action.Webhook;
+import io.furrow.control.alarm.watch.DeviceTypes;
 import io.furrow.control.audit.AuditEntry;
-import io.furrow.control.readiness.PartStatus;
-import io.furrow.control.readiness.RestartingWorker;
+import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.RestartingWorker;
 
 /**
- * Acts on alarms: delivers them to a webhook, and stops robots that are predicted to meet. The two share no thread, so that neither
- * delays the other. Several instances share the work.
+ * Delivers alarms to a webhook and stops robots that are predicted to meet. The two actions share no thread, so that
+ * neither delays the other. Several instances share the work.
  */
 public final class AlarmActions implements AutoCloseable {
     private static final int STOP_THREADS = 8;
@@ -31,7 +36,7 @@ public final class AlarmActions implements AutoCloseable {
 
     /**
      * @param client settings of Kafka clients
-     * @param webhook null for none
+     * @param webhook null to deliver nothing
      * @param stop null to stop nothing
      * @throws IOException if the webhook's secret cannot be used; the message says what to do
      */
@@ -82,7 +87,7 @@ public final class AlarmActions implements AutoCloseable {
                 .formatted(stops.getActiveCount(), stops.getQueue().size());
     }
 
-    /** How it is with each thread that acts, for a health page. */
+    /** Returns the status of each worker thread, for a health page. */
     public List<PartStatus> followers() {
         return followers.stream().map(RestartingWorker::status).toList();
     }

@@ -4,7 +4,7 @@ import java.util.List;
 
 import io.furrow.model.control.AlarmKind;
 
-/** The members of an {@link Alarm} that is being made, because a record of that many cannot be copied but as a whole. */
+/** Mutable builder of {@link Alarm}, a record with too many components to copy by constructor. */
 final class AlarmDraft {
     String alarm;
     AlarmKind kind;

@@ -1,28 +1,32 @@
 package io.furrow.control.alarm;
 
-/** What happens to an alarm that there is. */
+/** An event in the life of an existing alarm. */
 public sealed interface AlarmEvent {
     /**
-     * The cause was seen again.
+     * The cause was observed again.
      *
-     * @param until how long it is so from now on, epoch ms; null until something says that it is over
+     * @param until new end of validity, epoch ms; null if the alarm lasts until it is ended explicitly
      */
     record Repeated(Long until) implements AlarmEvent {}
 
     /**
-     * How it is with the many that a group alarm stands for.
+     * The current extent of a group alarm.
      *
-     * @param inhibitedBy id of the alarm that says more; null where none does
+     * @param inhibitedBy id of the inhibiting alarm; null if none
      */
     record Reported(Cause cause, String inhibitedBy) implements AlarmEvent {}
 
-    /** @param reason why it is over */
+    /** @param reason why the alarm ended */
     record Ended(String reason) implements AlarmEvent {}
 
-    /** A user asks to close it. @param user null where none is named */
+    /**
+     * A user closes the alarm.
+     *
+     * @param user null if not named
+     */
     record Dismissed(String user) implements AlarmEvent {}
 
-    /** @param user null where none is named */
+    /** @param user null if not named */
     record Acknowledged(String user) implements AlarmEvent {}
 
     /** @param until end of the mute, epoch ms */
@@ -30,6 +34,6 @@ public sealed interface AlarmEvent {
 
     record Unmuted() implements AlarmEvent {}
 
-    /** Nothing but time. */
+    /** Time has passed without any other event. */
     record TimePassed() implements AlarmEvent {}
 }

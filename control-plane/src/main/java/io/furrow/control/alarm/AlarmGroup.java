@@ -1,21 +1,23 @@
 package io.furrow.control.alarm;
 
-/** Names the entities that alarms of many devices are about: a mission, a domain, a field. */
+import io.furrow.model.result.FieldResult;
+
+/** Builds the ids of the entities that group alarms refer to: a mission, a domain or a field. */
 public final class AlarmGroup {
-    /** Of devices that are on no mission and in no domain. */
+    /** Group of devices without mission and domain. */
     static final String NONE = "without-mission";
 
     private static final String MISSION = "urn:ngsi-ld:Mission:";
     private static final String DOMAIN = "urn:ngsi-ld:Domain:";
-    private static final String FIELD = "Analytics:FieldTemperature:";
+    private static final String FIELD = FieldResult.TEMPERATURE_TYPE + ":";
 
     private AlarmGroup() {}
 
     /**
-     * The mission's entity, else that of the domain.
+     * Returns the id of the mission's entity, or that of the domain's entity if there is no mission.
      *
-     * @param mission empty for none
-     * @param domain empty for none
+     * @param mission empty if none
+     * @param domain empty if none
      */
     public static String of(String mission, String domain) {
         if (!mission.isEmpty()) {
@@ -24,11 +26,11 @@ public final class AlarmGroup {
         return domain.isEmpty() ? NONE : DOMAIN + domain;
     }
 
-    static String ofField(String field) {
+    public static String ofField(String field) {
         return FIELD + field;
     }
 
-    /** For people, for instance {@code mission weeding}. */
+    /** Human-readable name, for instance {@code mission weeding}. */
     public static String label(String group) {
         if (group.startsWith(MISSION)) {
             return "mission " + group.substring(MISSION.length());

@@ -6,19 +6,19 @@ import java.util.Objects;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 
-/** The life of an alarm: open, acknowledged, closed. Pure: an alarm, what happens, the alarm after that. */
+/** Computes the life cycle of an alarm: open, acknowledged, closed. A pure function of an alarm and an event. */
 final class AlarmLife {
-    /** A cause that was seen within this time is taken to last, so that its alarm cannot be closed by hand. */
+    /** A cause observed within this time is considered active, so that its alarm cannot be closed manually. */
     static final Duration CAUSE_LASTS = Duration.ofMinutes(1);
-    /** The least time between two updates of a group alarm whose extent changes all the time. */
+    /** Minimum time between two updates of the extent of a group alarm. */
     static final Duration UPDATE_INTERVAL = Duration.ofSeconds(10);
 
     private AlarmLife() {}
 
     /**
-     * Answers the same alarm where nothing changes.
+     * Returns the next state of the alarm, or the same instance if nothing changes.
      *
-     * @throws RefusedException where that cannot happen to an alarm in its state
+     * @throws RefusedException if the event is not allowed in the alarm's state
      */
     static Alarm next(Alarm alarm, AlarmEvent event, long now) throws RefusedException {
         if (event instanceof AlarmEvent.TimePassed) {
@@ -74,7 +74,7 @@ final class AlarmLife {
             return alarm;
         }
         if (alarm.until() != null && alarm.until() <= now) {
-            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), "it was not seen any more", now);
+            return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), "its cause was no longer observed", now);
         }
         return alarm.mutedUntil() != null && alarm.mutedUntil() <= now ? alarm.muted(null, now) : alarm;
     }

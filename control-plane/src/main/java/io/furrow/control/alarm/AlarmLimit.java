@@ -10,20 +10,20 @@ import java.util.Objects;
 import java.util.Set;
 import java.util.TreeMap;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.AlarmKind;
 
 /**
- * Limits how many alarms of a kind a mission or field has at a time. Causes beyond the limit are counted, and have one alarm
- * together.
+ * Limits the number of open alarms per kind and mission or field. Causes beyond the limit are counted and share one
+ * group alarm.
  */
 final class AlarmLimit {
-    /** Alarms of a kind and group; further causes are counted. */
+    /** Maximum number of alarms per kind and group; further causes are only counted. */
     static final int MAX_ALARMS = 20;
-    /** Causes that are counted of a kind and group; further ones are not stored until there is room. */
+    /** Maximum number of counted causes per kind and group; further causes are not stored until there is room. */
     static final int MAX_COUNTED = 1000;
 
-    /** Those that are raised one by one. */
+    /** Kinds that are raised per subject. */
     static final Set<AlarmKind> KINDS = EnumSet.of(
             AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR, AlarmKind.CLOCK_BEHIND);
 
@@ -34,12 +34,12 @@ final class AlarmLimit {
     private long recounted;
 
     /**
-     * What there is of a kind and group.
+     * Alarms and counted causes of a kind and group.
      *
      * @param key kind and group
-     * @param alarms how many are open
-     * @param counted how many causes have no alarm
-     * @param devices some of these concern
+     * @param alarms number of open alarms
+     * @param counted number of causes without an alarm
+     * @param devices some of the devices concerned
      */
     record Group(String key, AlarmKind kind, String group, int alarms, int counted, List<Cause.Device> devices) {
         Group with(int newAlarms, int newCounted) {
@@ -51,7 +51,7 @@ final class AlarmLimit {
      * A cause without an alarm.
      *
      * @param key kind and subject
-     * @param until how long it is so, epoch ms; null until something says that it is over
+     * @param until end of validity, epoch ms; null if it lasts until ended explicitly
      */
     record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until) {}
 
@@ -60,7 +60,11 @@ final class AlarmLimit {
         this.counted = counted;
     }
 
-    /** Counts a cause that has no alarm yet. @return whether it was counted; else it is to have an alarm */
+    /**
+     * Counts a cause that has no alarm yet.
+     *
+     * @return whether it was counted; if not, the caller raises an alarm
+     */
     boolean take(Cause cause, long now) {
         if (cause.group() == null) {
             return false;
@@ -89,7 +93,7 @@ final class AlarmLimit {
         return true;
     }
 
-    /** A cause without an alarm is over, if there is one. */
+    /** Removes the counted cause of a kind and subject, if there is one. */
     void end(AlarmKind kind, String subject) {
         Counted known = counted.get(Cause.key(kind, subject));
         if (known != null) {
@@ -99,7 +103,7 @@ final class AlarmLimit {
         }
     }
 
-    /** An alarm was opened or closed. */
+    /** Updates the number of alarms after one was opened or closed. */
     void changed(Alarm alarm, int by) {
         if (alarm.group() != null && !alarm.isOfGroup()) {
             Group group = group(alarm.kind(), alarm.group());
@@ -107,7 +111,7 @@ final class AlarmLimit {
         }
     }
 
-    /** What the groups are to have an alarm of, after causes that are over by themselves were forgotten. */
+    /** Removes expired causes and returns the causes of the group alarms. */
     List<Cause> causes(long now) {
         if (now - recounted >= RECOUNT_EVERY) {
             recounted = now;
@@ -178,10 +182,10 @@ final class AlarmLimit {
         String what = switch (group.kind()) {
             case COLLISION -> "%s pairs of %s are too close";
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
-            case SUSPECT_SENSOR -> "%s sensors of %s show what the others do not";
-            case CLOCK_BEHIND -> "positions of %s devices of %s come too late and do not count";
+            case SUSPECT_SENSOR -> "%s sensors of %s deviate from the others";
+            case CLOCK_BEHIND -> "positions of %s devices of %s arrive too late and are dropped";
             case SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
-                throw new IllegalStateException("alarms of silence are grouped already: " + group.key());
+                throw new IllegalStateException("kinds of silence have group alarms of their own: " + group.key());
         };
         return what.formatted(number, AlarmGroup.label(group.group()));
     }

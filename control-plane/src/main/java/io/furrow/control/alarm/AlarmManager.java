@@ -9,18 +9,21 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 
-import io.furrow.control.manager.AnswerRequests;
-import io.furrow.control.manager.AnsweredRequests;
-import io.furrow.control.manager.Desk;
-import io.furrow.control.manager.Inlet;
+import io.furrow.control.manager.CommandHandler;
+import io.furrow.control.manager.CommandProcessor;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
-import io.furrow.control.manager.Outbox;
-import io.furrow.control.manager.Outgoing;
-import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.manager.OutputRecord;
+import io.furrow.control.manager.RequestLog;
+import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.AlarmCommand;
 
-/** Answers {@code service.alarmmanager} and keeps {@code service.alarms}. Whatever raises alarms shares its stores, in one task. */
+/**
+ * Processes requests on {@code service.alarmmanager} and maintains {@code service.alarms}. All processors that raise
+ * alarms share its stores, in one task.
+ */
 public final class AlarmManager {
     private static final String ALARMS = "alarms";
     private static final String CURRENT = "current-alarms";
@@ -32,35 +35,36 @@ public final class AlarmManager {
 
     private AlarmManager() {}
 
-    /** Stores that whoever uses {@link #desk} needs. */
+    /** Names of the stores that users of {@link #handler} need. */
     public static List<String> stores() {
         return List.of(ALARMS, CURRENT, MUTES, SEQUENCE, GROUPS, COUNTED);
     }
 
-    /** Alarms as they are in the stores of a processor. */
-    public static AlarmDesk desk(ProcessorContext<?, ?> context, Outbox outbox) {
+    /** Creates a handler on the stores of a processor. */
+    public static AlarmCommandHandler handler(ProcessorContext<?, ?> context, EventPublisher outbox) {
         AlarmRecords records = new AlarmRecords(
-                StoreRecords.of(context, ALARMS, Alarm.class),
-                StoreRecords.of(context, CURRENT, String.class),
-                StoreRecords.of(context, MUTES, AlarmRecords.Mute.class),
-                StoreRecords.of(context, GROUPS, AlarmLimit.Group.class),
-                StoreRecords.of(context, COUNTED, AlarmLimit.Counted.class));
-        return new AlarmDesk(records, new Sequence(StoreRecords.of(context, SEQUENCE, Long.class)), outbox);
+                StoredRecords.of(context, ALARMS, Alarm.class),
+                StoredRecords.of(context, CURRENT, String.class),
+                StoredRecords.of(context, MUTES, AlarmRecords.Mute.class),
+                StoredRecords.of(context, GROUPS, AlarmLimit.Group.class),
+                StoredRecords.of(context, COUNTED, AlarmLimit.Counted.class));
+        return new AlarmCommandHandler(records, new Sequence(StoredRecords.of(context, SEQUENCE, Long.class)), outbox);
     }
 
-    /** @param remembered how long ids of requests are */
+    /** @param remembered how long ids of requests are remembered */
     public static void add(StreamsBuilder builder, Duration remembered) {
-        stores().forEach(store -> builder.addStateStore(StoreRecords.builder(store)));
-        builder.addStateStore(AnsweredRequests.builder(TOPIC.answers(), remembered));
-        BiFunction<ProcessorContext<?, ?>, Outbox, Desk<AlarmCommand>> opening = AlarmManager::desk;
+        stores().forEach(store -> builder.addStateStore(StoredRecords.builder(store)));
+        builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<AlarmCommand>> opening =
+                AlarmManager::handler;
         String[] stores = Stream.of(stores(), List.of(TOPIC.answers()))
                 .flatMap(List::stream)
                 .toArray(String[]::new);
 
-        Outgoing.send(
-                Inlet.requests(builder, TOPIC)
+        OutputRecord.send(
+                ManagerInput.requests(builder, TOPIC)
                         .process(
-                                () -> new AnswerRequests<>(TOPIC, remembered, opening),
+                                () -> new CommandProcessor<>(TOPIC, remembered, opening),
                                 Named.as("answer-alarm-requests"),
                                 stores),
                 "alarms-out");

@@ -1,14 +1,14 @@
 package io.furrow.control.alarm;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.record.Records;
 
 /**
- * All that the manager of alarms remembers.
+ * The stores of the alarm manager.
  *
  * @param alarms by id; closed ones for a while
- * @param current ids of those that are not closed, by kind and subject
- * @param mutes until when, epoch ms, by kind and subject; no subject stands for all of a kind
- * @param groups how many alarms and causes without an alarm there are, by kind and group
+ * @param current ids of the alarms that are not closed, by kind and subject
+ * @param mutes active mutes by kind and subject; an empty subject stands for all of a kind
+ * @param groups numbers of alarms and of causes without an alarm, by kind and group
  * @param counted causes without an alarm, by kind and subject
  */
 record AlarmRecords(
@@ -18,7 +18,7 @@ record AlarmRecords(
         Records<AlarmLimit.Group> groups,
         Records<AlarmLimit.Counted> counted) {
     /**
-     * That nobody is told of alarms, those to come too.
+     * Suppresses the delivery of alarms, including future ones.
      *
      * @param key kind and subject
      * @param until epoch ms

@@ -5,20 +5,20 @@ import java.util.Locale;
 import com.fasterxml.jackson.annotation.JsonCreator;
 import com.fasterxml.jackson.annotation.JsonValue;
 
-/** Where an alarm is in its life. */
+/** State in the life cycle of an alarm. */
 public enum AlarmState {
     OPEN,
-    /** Somebody looks at it. */
+    /** Somebody is dealing with it. */
     ACKNOWLEDGED,
-    /** It is over; should the same happen again, that is another alarm. */
+    /** It has ended; the same cause raises a new alarm. */
     CLOSED;
 
-    /** Whether the one may follow the other. */
+    /** Whether the transition is allowed. */
     boolean canBecome(AlarmState next) {
         return next.ordinal() > ordinal();
     }
 
-    /** As records have it. */
+    /** The value in records. */
     @JsonValue
     public String word() {
         return name().toLowerCase(Locale.ROOT);

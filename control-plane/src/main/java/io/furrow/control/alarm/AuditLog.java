@@ -19,7 +19,10 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.model.topic.Topics;
 
-/** Writes to {@code service.audit} from its own thread, so that the caller never waits for Kafka; what cannot be written is logged. */
+/**
+ * Writes audit entries to {@code service.audit} from its own thread, so that the caller never waits for Kafka. An entry
+ * that cannot be written is logged.
+ */
 final class AuditLog implements Consumer<AuditEntry>, AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(AuditLog.class);
     private static final int MAX_WAITING = 10_000;
@@ -60,7 +63,12 @@ final class AuditLog implements Consumer<AuditEntry>, AutoCloseable {
     }
 
     private static void failed(AuditEntry entry, Exception failure) {
-        LOG.error("not on the audit topic: {} {}, {}", entry.command(), entry.about(), entry.result(), failure);
+        LOG.error(
+                "audit entry was not written to the audit topic: {} {}, {}",
+                entry.command(),
+                entry.about(),
+                entry.result(),
+                failure);
     }
 
     @Override

@@ -6,14 +6,14 @@ import java.util.List;
 import io.furrow.model.control.AlarmKind;
 
 /**
- * What raises an alarm.
+ * The cause of an alarm.
  *
- * @param subject what it is about; of a kind and subject there is one alarm at a time
- * @param text a sentence for people
- * @param devices that it concerns, at most {@value #MAX_DEVICES}
- * @param holds how long it is so when nothing says that it still is; null until something says that it is over
- * @param group entity of the mission, domain or field that it belongs to, of which only so many have an alarm each; null for none
- * @param extent how many it stands for; null for one
+ * @param subject the affected entity or pair; there is at most one open alarm per kind and subject
+ * @param text human-readable sentence
+ * @param devices devices concerned, at most {@value #MAX_DEVICES}
+ * @param holds validity unless the cause is repeated; null if it lasts until ended explicitly
+ * @param group entity of the mission, domain or field, which limits the number of individual alarms; null if none
+ * @param extent how many devices or pairs a group cause stands for; null for an individual cause
  */
 public record Cause(
         AlarmKind kind,
@@ -23,19 +23,19 @@ public record Cause(
         Duration holds,
         String group,
         Extent extent) {
-    /** How many devices an alarm names. */
+    /** Maximum number of devices that an alarm names. */
     public static final int MAX_DEVICES = 20;
 
     /**
      * @param id of its entity
-     * @param type of its entity; null where that is not known
+     * @param type of its entity; null if unknown
      */
     public record Device(String id, String type) {}
 
     /**
-     * How many devices or pairs.
+     * Number of affected devices or pairs.
      *
-     * @param total out of how many; null where that is not known
+     * @param total out of how many; null if unknown
      */
     public record Extent(int affected, Integer total) {}
 
@@ -43,7 +43,7 @@ public record Cause(
         devices = List.copyOf(devices.subList(0, Math.min(devices.size(), MAX_DEVICES)));
     }
 
-    /** A cause that stands for itself and belongs to no group. */
+    /** Creates an individual cause without a group. */
     public Cause(AlarmKind kind, String subject, String text, List<Device> devices, Duration holds) {
         this(kind, subject, text, devices, holds, null, null);
     }
@@ -52,7 +52,7 @@ public record Cause(
         return new Cause(kind, subject, text, devices, holds, newGroup, extent);
     }
 
-    /** A cause that stands for many, which lasts until something says that it is over. */
+    /** Creates a group cause that lasts until it is ended explicitly. */
     public static Cause ofMany(AlarmKind kind, String group, String text, List<Device> devices, Extent extent) {
         return new Cause(kind, group, text, devices, null, group, extent);
     }

@@ -7,7 +7,7 @@ import com.fasterxml.jackson.annotation.JsonValue;
 
 import io.furrow.model.control.AlarmKind;
 
-/** How much an alarm matters, in the words of ITU-T X.733. */
+/** Severity of an alarm, in the terms of ITU-T X.733. */
 public enum Severity {
     CRITICAL,
     MAJOR,
@@ -23,7 +23,7 @@ public enum Severity {
         };
     }
 
-    /** As records have it. */
+    /** The value in records. */
     @JsonValue
     public String word() {
         return name().toLowerCase(Locale.ROOT);

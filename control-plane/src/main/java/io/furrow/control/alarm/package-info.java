@@ -1,2 +1,2 @@
-/** Alarms: what raises and ends them, their life, who is told, what is done. */
+/** Alarms: causes, life cycle, delivery by webhook, and automatic actions. */
 package io.furrow.control.alarm;

@@ -7,22 +7,22 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.Response;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * A command that somebody gave: a record of {@code service.audit}.
+ * A command and its result: a record of {@code service.audit}.
  *
  * @param time when it was answered, epoch ms
- * @param user who gave it; {@value #KAFKA} where a record on Kafka did not say
- * @param target whom it was given to: the topic of a manager, or {@value #DEVICE}
- * @param command what to do; null where that could not be read
- * @param about members of the command that are texts, numbers and flags: which mission, which device
- * @param result {@code error} where it was refused or failed
- * @param error code of the error; null where there is none
- * @param reason of the error, a sentence; null where there is none
- * @param requestId null where it has none
+ * @param user user who issued it; {@value #KAFKA} if a record on Kafka did not name one
+ * @param target its recipient: the topic of a manager, or {@value #DEVICE}
+ * @param command name of the command; null if unreadable
+ * @param about members of the command that are strings, numbers or booleans, for instance mission and device
+ * @param result {@code error} if it was rejected or failed
+ * @param error code of the error; null if none
+ * @param reason of the error, a sentence; null if none
+ * @param requestId null if it has none
  */
 public record AuditEntry(
         long time,
@@ -36,20 +36,20 @@ public record AuditEntry(
         String requestId) {
     /** As target: a command to a device, through the context broker. */
     public static final String DEVICE = "device";
-    /** As user: whoever may write to the topics of the managers. */
+    /** As user: anybody with write access to the topics of the managers. */
     public static final String KAFKA = "kafka";
-    /** Who asks: a member of requests that no manager acts on. */
+    /** Member of requests that names the requesting user; it does not affect the decision of a manager. */
     public static final String USER = "user";
 
-    private static final int LONGEST = 200;
-    private static final int MOST_MEMBERS = 20;
+    private static final int MAX_LENGTH = 200;
+    private static final int MAX_MEMBERS = 20;
 
-    /** What a manager was asked and answered. The request may be anything, also no JSON. */
-    public static AuditEntry of(String topic, byte[] request, Response answer, long now) {
+    /** Creates the entry of a request to a manager and its answer. The request may be anything, even invalid JSON. */
+    public static AuditEntry of(String topic, byte[] request, CommandResult answer, long now) {
         JsonNode json = read(request);
         ObjectNode about = JsonNodeFactory.instance.objectNode();
         for (Map.Entry<String, JsonNode> member : json.properties()) {
-            if (about.size() < MOST_MEMBERS && isPlain(member.getKey()) && isShort(member.getValue())) {
+            if (about.size() < MAX_MEMBERS && isPlain(member.getKey()) && isShort(member.getValue())) {
                 about.set(member.getKey(), member.getValue());
             }
         }
@@ -69,7 +69,11 @@ public record AuditEntry(
                 answer.requestId().orElse(null));
     }
 
-    /** A command to a device that the context broker took, or that failed for a reason. @param reason null where it did not fail */
+    /**
+     * Creates the entry of a command to a device.
+     *
+     * @param reason why it failed; null if the context broker accepted it
+     */
     public static AuditEntry ofDevice(long now, String user, String command, ObjectNode about, String reason) {
         boolean failed = reason != null;
         return new AuditEntry(
@@ -78,7 +82,7 @@ public record AuditEntry(
                 DEVICE,
                 command,
                 about,
-                failed ? Response.ERROR : "sent",
+                failed ? CommandResult.ERROR : "sent",
                 failed ? "context-broker" : null,
                 reason,
                 null);
@@ -87,7 +91,7 @@ public record AuditEntry(
     private static JsonNode read(byte[] request) {
         try {
             return NgsiJson.read(request);
-        } catch (UnreadableException e) { // as the answer says already
+        } catch (UnreadableException e) { // the answer reports it already
             return JsonNodeFactory.instance.objectNode();
         }
     }
@@ -96,16 +100,17 @@ public record AuditEntry(
         boolean number = value.isIntegralNumber() && value.canConvertToLong()
                 || value.isNumber()
                         && Double.isFinite(value.doubleValue())
-                        && value.asText().length() <= LONGEST;
+                        && value.asText().length() <= MAX_LENGTH;
         return value.isBoolean() || number || value.isTextual() && isPlain(value.textValue());
     }
 
-    /** Half of a surrogate pair has no form in UTF-8. */
+    /** A lone surrogate cannot be encoded in UTF-8. */
     private static boolean isPlain(String text) {
-        return text.length() <= LONGEST && StandardCharsets.UTF_8.newEncoder().canEncode(text);
+        return text.length() <= MAX_LENGTH
+                && StandardCharsets.UTF_8.newEncoder().canEncode(text);
     }
 
-    /** UTF-8 JSON; members without a value are left out. */
+    /** UTF-8 JSON; members without a value are omitted. */
     public byte[] toBytes() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.put("time", time).put("user", user).put("target", target);

@@ -1,2 +1,2 @@
-/** Who commanded what, when, and what came of it. */
+/** Audit log: who issued which command, when, and its result. */
 package io.furrow.control.audit;

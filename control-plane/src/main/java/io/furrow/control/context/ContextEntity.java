@@ -15,14 +15,14 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 
 /**
- * Domains and missions as entities, {@code urn:ngsi-ld:Domain:<name>} and {@code urn:ngsi-ld:Mission:<name>}. An entity always has
- * all of its attributes, null where there is nothing to say, so that no older value stands beside a newer one. It counts what there may be
- * many of, and lists none: an entity stays small whatever a mission holds.
+ * Builds the entities of domains and missions, {@code urn:ngsi-ld:Domain:<name>} and
+ * {@code urn:ngsi-ld:Mission:<name>}. An entity always has all of its attributes, null if there is no value, so that no
+ * stale value remains. It contains counts instead of lists, so that it stays small whatever a mission holds.
  */
 final class ContextEntity {
     private static final String DOMAIN = "Domain";
     private static final String MISSION = "Mission";
-    /** The context broker refuses quotes and brackets in texts of other types. */
+    /** The context broker rejects quotes and brackets in texts of other types. */
     private static final String FREE_TEXT = "TextUnrestricted";
 
     private ContextEntity() {}
@@ -36,8 +36,8 @@ final class ContextEntity {
     }
 
     /**
-     * @param missions how many there are in it
-     * @param fields what is known of its fields
+     * @param missions number of missions in the domain
+     * @param fields states of its fields
      */
     static EntityBuilder of(Domain domain, int missions, List<FieldState> fields) {
         EntityBuilder entity = Entity.builder(domainId(domain.domain()), DOMAIN);
@@ -65,7 +65,7 @@ final class ContextEntity {
                 .integer("changed", domain.changed());
     }
 
-    /** @param status null where it is not known yet */
+    /** @param status null if not known yet */
     static EntityBuilder of(Mission mission, MissionStatus status, MissionTally tally) {
         EntityBuilder entity = Entity.builder(missionId(mission.mission()), MISSION)
                 .text("name", mission.mission())
@@ -83,12 +83,12 @@ final class ContextEntity {
         return entity;
     }
 
-    /** Share of its devices that are as wanted; 1 where it has none. */
+    /** Fraction of its devices that are confirmed; 1 if it has none. */
     private static double progress(MissionStatus status) {
         return status.devices() == 0 ? 1 : (double) status.confirmed() / status.devices();
     }
 
-    /** Hosted devices that are not as they are wanted; 0 while it starts, stops or does not run. */
+    /** Number of devices that are not confirmed; 0 unless the mission runs. */
     private static int missing(MissionStatus status) {
         boolean runs = status != null && status.state() == MissionState.RUNNING;
         return runs ? status.devices() - status.confirmed() : 0;

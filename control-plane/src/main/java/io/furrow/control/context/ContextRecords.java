@@ -1,20 +1,20 @@
 package io.furrow.control.context;
 
 import io.furrow.control.domain.Domain;
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.record.Records;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
 
 /**
- * What is known of domains and missions, and what of it the context broker was told.
+ * The stores of domains and missions, and of the entities published to the context broker.
  *
  * @param domains by name
  * @param missions by name
  * @param statuses by name of the mission
  * @param tallies by name of the mission
  * @param fields by id
- * @param outdated ids of entities that may have changed since they were told
- * @param told the entities as they were told, by id
+ * @param outdated ids of entities that may have changed since they were published
+ * @param told the entities as last published, by id
  */
 record ContextRecords(
         Records<Domain> domains,

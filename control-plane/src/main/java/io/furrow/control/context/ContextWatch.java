@@ -16,16 +16,16 @@ import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.ProcessorSupplier;
 import org.apache.kafka.streams.processor.api.Record;
 
-import io.furrow.control.alarm.Encounter;
-import io.furrow.control.alarm.FieldWindow;
+import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.alarm.watch.FieldWindow;
 import io.furrow.control.domain.Domain;
-import io.furrow.control.manager.Inlet;
-import io.furrow.control.manager.ObserveRecords;
-import io.furrow.control.manager.ObserveRecords.Observer;
-import io.furrow.control.manager.Outgoing;
-import io.furrow.control.manager.RecordScope;
+import io.furrow.control.manager.ManagerInput;
+import io.furrow.control.manager.ObserverProcessor;
+import io.furrow.control.manager.ObserverProcessor.Observer;
+import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.manager.record.RecordScope;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.control.mission.Mission;
 import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.event.EntityDeletion;
@@ -39,7 +39,7 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Reads what is known of domains and missions and writes their entities to {@code data.context}. */
+/** Reads domains and missions and writes their entities to {@code data.context}. */
 public final class ContextWatch {
     private static final String SOURCE = "/control-plane";
     private static final List<String> STORES = List.of(
@@ -59,67 +59,75 @@ public final class ContextWatch {
         this.scope = scope;
     }
 
-    /** What analytics find, in one line each: the records of {@code data.collision} and {@code data.temperature}. */
+    /**
+     * Results of analytics, in a single partition each: the records of {@code data.collision} and
+     * {@code data.temperature}.
+     */
     public record Results(KStream<String, byte[]> collisions, KStream<String, byte[]> temperatures) {}
 
     /** @param scope of the entities */
     public static void add(StreamsBuilder builder, Results results, FiwareScope scope) {
-        STORES.forEach(store -> builder.addStateStore(StoreRecords.builder(store)));
+        STORES.forEach(store -> builder.addStateStore(StoredRecords.builder(store)));
         ContextWatch watch = new ContextWatch(builder, scope);
 
         watch.send(
                 "domains",
                 watch.wanted(Topics.DOMAINS, "domains"),
-                desk -> new Telling((record, now) -> desk.domain(record.key(), read(record, Domain.class)), desk));
+                projection -> new Telling(
+                        (record, now) -> projection.domain(record.key(), read(record, Domain.class)), projection));
 
         watch.send(
                 "missions",
                 watch.wanted(Topics.MISSIONS, "missions"),
-                desk -> (record, now) -> desk.mission(record.key(), read(record, Mission.class)));
+                projection -> (record, now) -> projection.mission(record.key(), read(record, Mission.class)));
 
         watch.send(
                 "statuses",
                 watch.wanted(Topics.MISSIONS_STATUS, "mission-statuses"),
-                desk -> (record, now) -> desk.status(record.key(), read(record, MissionStatus.class)));
+                projection -> (record, now) -> projection.status(record.key(), read(record, MissionStatus.class)));
 
-        watch.sendResults("encounters", results.collisions(), desk -> (record, now) -> {
+        watch.sendResults("encounters", results.collisions(), projection -> (record, now) -> {
             if (record.value() != null) {
-                desk.encounter(Encounter.read(record.value(), RecordScope.of(record)));
+                projection.encounter(Encounter.read(record.value(), RecordScope.of(record)));
             }
         });
 
-        watch.sendResults("fields", results.temperatures(), desk -> (record, now) -> {
+        watch.sendResults("fields", results.temperatures(), projection -> (record, now) -> {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
             if (window != null) {
-                desk.window(window, now);
+                projection.window(window, now);
             }
         });
     }
 
     private KStream<String, byte[]> wanted(String topic, String name) {
-        return Inlet.observed(builder, topic, "context-" + name, AutoOffsetReset.earliest());
+        return ManagerInput.observed(builder, topic, "context-" + name, AutoOffsetReset.earliest());
     }
 
-    private void send(String name, KStream<String, byte[]> records, Function<ContextDesk, Observer> observing) {
-        send(name, records, () -> new ObserveRecords((context, outbox) -> observing.apply(desk(context))));
+    private void send(String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
+        send(name, records, () -> new ObserverProcessor((context, outbox) -> observing.apply(projection(context))));
     }
 
-    /** Results have dead letters already, of the processors that make alarms of them. */
-    private void sendResults(String name, KStream<String, byte[]> results, Function<ContextDesk, Observer> observing) {
-        send(name, results, () -> ObserveRecords.besideAnother((context, outbox) -> observing.apply(desk(context))));
+    /** Does not write dead letters: the processors that raise alarms from the results already do. */
+    private void sendResults(
+            String name, KStream<String, byte[]> results, Function<ContextProjection, Observer> observing) {
+        send(
+                name,
+                results,
+                () -> ObserverProcessor.besideAnother((context, outbox) -> observing.apply(projection(context))));
     }
 
     private void send(
             String name,
             KStream<String, byte[]> records,
-            ProcessorSupplier<String, byte[], String, Outgoing> observers) {
-        Outgoing.send(
+            ProcessorSupplier<String, byte[], String, OutputRecord> observers) {
+        OutputRecord.send(
                 records.process(observers, Named.as("context-of-" + name), STORES.toArray(String[]::new)),
                 "context-of-" + name + "-out");
     }
 
-    /** One of the observers lets the desk know that time passes. */
-    private record Telling(Observer observer, ContextDesk desk) implements Observer {
+    /** The one observer that notifies the projection about the passing of time. */
+    private record Telling(Observer observer, ContextProjection projection) implements Observer {
         @Override
         public void take(Record<String, byte[]> record, long now) throws UnreadableException {
             observer.take(record, now);
@@ -127,7 +135,7 @@ public final class ContextWatch {
 
         @Override
         public void passTime(long now) {
-            desk.passTime(now);
+            projection.passTime(now);
         }
     }
 
@@ -139,21 +147,21 @@ public final class ContextWatch {
         }
     }
 
-    private ContextDesk desk(ProcessorContext<String, Outgoing> context) {
+    private ContextProjection projection(ProcessorContext<String, OutputRecord> context) {
         ContextRecords records = new ContextRecords(
-                StoreRecords.of(context, STORES.get(0), Domain.class),
-                StoreRecords.of(context, STORES.get(1), Mission.class),
-                StoreRecords.of(context, STORES.get(2), MissionStatus.class),
-                StoreRecords.of(context, STORES.get(3), MissionTally.class),
-                StoreRecords.of(context, STORES.get(4), FieldState.class),
-                StoreRecords.of(context, STORES.get(5), String.class),
-                StoreRecords.of(context, STORES.get(6), Function.identity(), Function.identity()));
-        return new ContextDesk(records, new Forwarding(context, scope));
+                StoredRecords.of(context, STORES.get(0), Domain.class),
+                StoredRecords.of(context, STORES.get(1), Mission.class),
+                StoredRecords.of(context, STORES.get(2), MissionStatus.class),
+                StoredRecords.of(context, STORES.get(3), MissionTally.class),
+                StoredRecords.of(context, STORES.get(4), FieldState.class),
+                StoredRecords.of(context, STORES.get(5), String.class),
+                StoredRecords.of(context, STORES.get(6), Function.identity(), Function.identity()));
+        return new ContextProjection(records, new Forwarding(context, scope));
     }
 
-    /** Entities as records of {@code data.context}, with the headers that all {@code data.*} have. */
-    private record Forwarding(ProcessorContext<String, Outgoing> context, FiwareScope scope)
-            implements ContextDesk.Told {
+    /** Forwards entities as records of {@code data.context}, with the headers of all {@code data.*} topics. */
+    private record Forwarding(ProcessorContext<String, OutputRecord> context, FiwareScope scope)
+            implements ContextProjection.PublicationListener {
         @Override
         public void changed(EntityBuilder entity) {
             Instant now = Instant.ofEpochMilli(context.currentSystemTimeMs());
@@ -180,8 +188,8 @@ public final class ContextWatch {
         }
 
         private void forward(String key, byte[] value, Map<String, String> headers, Instant now) {
-            Record<String, Outgoing> record =
-                    new Record<>(key, new Outgoing(Topics.CONTEXT, value), now.toEpochMilli());
+            Record<String, OutputRecord> record =
+                    new Record<>(key, new OutputRecord(Topics.CONTEXT, value), now.toEpochMilli());
             headers.forEach((name, text) -> record.headers().add(name, text.getBytes(StandardCharsets.UTF_8)));
             context.forward(record);
         }

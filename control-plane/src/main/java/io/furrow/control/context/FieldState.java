@@ -2,15 +2,15 @@ package io.furrow.control.context;
 
 import java.util.List;
 
-import io.furrow.control.alarm.FieldWindow;
+import io.furrow.control.alarm.watch.FieldWindow;
 
 /**
- * What the newest window of a field found.
+ * Result of the newest window of a field.
  *
- * @param average null where there was nothing to average
+ * @param average null if there was nothing to average
  * @param windowEnd epoch ms
- * @param domain that the field says it belongs to; null where it says none
- * @param known when that became known, epoch ms
+ * @param domain domain that the field's record names; null if none
+ * @param known when it was received, epoch ms
  */
 record FieldState(String field, Double average, List<String> suspects, long windowEnd, String domain, long known) {
     static FieldState of(FieldWindow window, long now) {

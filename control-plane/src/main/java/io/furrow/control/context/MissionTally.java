@@ -3,25 +3,25 @@ package io.furrow.control.context;
 import java.util.ArrayList;
 import java.util.List;
 
-import io.furrow.control.alarm.Encounter;
+import io.furrow.control.alarm.watch.Encounter;
 
 /**
- * What analytics found of a mission since it was started.
+ * Results of analytics for a mission since it was started.
  *
  * @param mission its name
- * @param start of the run that this is of, epoch ms; null before the first
- * @param collisions how many encounters began
- * @param open ids of those that have not ended, at most {@value #MOST_OPEN}
- * @param minDistance metres, the least of all; null where there was none
+ * @param start start of the run, epoch ms; null before the first
+ * @param collisions number of encounters that began
+ * @param open ids of encounters that have not ended, at most {@value #MAX_OPEN}
+ * @param minDistance meters, the minimum of all; null if none
  */
 record MissionTally(String mission, Long start, long collisions, List<String> open, Double minDistance) {
-    private static final int MOST_OPEN = 1000;
+    private static final int MAX_OPEN = 1000;
 
     static MissionTally of(String mission, Long start) {
         return new MissionTally(mission, start, 0, List.of(), null);
     }
 
-    /** The same where the encounter says nothing new. */
+    /** Returns the tally after an encounter's record, or the same instance if its phase does not count. */
     MissionTally with(Encounter encounter) {
         boolean began = encounter.phase().equals("started") && !open.contains(encounter.id());
         boolean ended = encounter.phase().equals("ended");
@@ -29,7 +29,7 @@ record MissionTally(String mission, Long start, long collisions, List<String> op
             return this;
         }
         List<String> nowOpen = new ArrayList<>(open);
-        if (began && nowOpen.size() < MOST_OPEN) {
+        if (began && nowOpen.size() < MAX_OPEN) {
             nowOpen.add(encounter.id());
         } else if (ended) {
             nowOpen.remove(encounter.id());

@@ -1,2 +1,2 @@
-/** Domains and missions as entities of the context broker. */
+/** Publishes domains and missions as entities of the context broker. */
 package io.furrow.control.context;

@@ -7,14 +7,16 @@ import java.io.IOException;
 public interface CommandSender {
 
     /**
-     * Returns once the context broker has taken the command, which does not say that the device obeyed.
+     * Sends the command and returns once the context broker has accepted it. This does not mean that the device has
+     * executed it.
      *
      * @param deviceId entity id of the device
-     * @param type entity type of the device; decides how the command is written, {@code Robot} has its own way
+     * @param type entity type of the device; determines how the command is written, {@code Robot} has its own format
      * @param command name of the command
-     * @param value what the command needs, empty for nothing
-     * @throws IOException when the context broker is away or refuses the command; the message is a sentence that says which
-     * @throws InterruptedException when the thread is interrupted while it waits for the context broker
+     * @param value argument of the command, empty for none
+     * @throws IOException if the context broker is unavailable or rejects the command; the message is a sentence that
+     * says which
+     * @throws InterruptedException if the thread is interrupted while it waits for the context broker
      */
     void send(String deviceId, String type, String command, String value) throws IOException, InterruptedException;
 }

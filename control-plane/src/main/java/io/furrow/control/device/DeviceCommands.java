@@ -21,17 +21,17 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Sends commands as updates of the command's attribute at the context broker, which hands them to the IoT Agent. A robot that
- * FIROS speaks for has one attribute for all, {@code cmd}, whose value is the command; one that has none yet is given it, where an
- * update would be refused.
+ * Sends commands as updates of the command's attribute at the context broker, which forwards them to the IoT Agent. A
+ * robot connected by FIROS has a single attribute {@code cmd} for all commands, whose value is the command. The
+ * attribute is appended if missing, because an update would be rejected.
  */
 public final class DeviceCommands implements CommandSender {
     private static final Duration TIMEOUT = Duration.ofSeconds(5);
-    /** Commands that may wait for the context broker at a time. */
+    /** Maximum number of asynchronous commands in flight. */
     private static final int MAX_PENDING = 64;
 
     private static final String ROBOT = "Robot";
-    private static final int LONGEST_QUOTE = 200;
+    private static final int MAX_QUOTE_LENGTH = 200;
     private static final int NOT_FOUND = 404;
 
     private final Semaphore pending = new Semaphore(MAX_PENDING);
@@ -50,9 +50,9 @@ public final class DeviceCommands implements CommandSender {
     }
 
     /**
-     * A command to a device, as {@link CommandSender#send} has it.
+     * A command to a device, with the arguments of {@link CommandSender#send}.
      *
-     * @param value empty for nothing
+     * @param value empty for none
      */
     public record Order(String deviceId, String type, String command, String value) {}
 
@@ -70,15 +70,16 @@ public final class DeviceCommands implements CommandSender {
     }
 
     /**
-     * The same without waiting for it.
+     * Sends a command asynchronously.
      *
-     * @return completes once the context broker has taken the command, exceptionally with the {@link IOException} of {@link
-     *     CommandSender#send}, or at once with {@link RejectedExecutionException} where too many commands wait for it
+     * @return completes once the context broker has accepted the command, exceptionally with the {@link IOException} of
+     * {@link CommandSender#send}, or at once with {@link RejectedExecutionException} if too many commands are in flight
      */
     public CompletableFuture<Void> send(Order order) {
         if (!pending.tryAcquire()) {
             return CompletableFuture.failedFuture(new RejectedExecutionException(
-                    "%d commands wait for the context broker at %s".formatted(MAX_PENDING, contextBroker)));
+                    "%d commands wait for the context broker at %s already; try again later"
+                            .formatted(MAX_PENDING, contextBroker)));
         }
         return client.sendAsync(request(order), HttpResponse.BodyHandlers.ofByteArray())
                 .whenComplete((answer, failure) -> pending.release())
@@ -97,7 +98,7 @@ public final class DeviceCommands implements CommandSender {
 
     private IOException away(Throwable failure) {
         return new IOException(
-                "The context broker at %s does not answer (%s). Check that it runs, and whether the device obeyed."
+                "The context broker at %s does not respond (%s). Check that it runs, and whether the device obeyed."
                         .formatted(contextBroker, failure),
                 failure);
     }
@@ -105,11 +106,11 @@ public final class DeviceCommands implements CommandSender {
     private void check(Order order, HttpResponse<byte[]> answer) throws IOException {
         if (answer.statusCode() == NOT_FOUND) {
             throw new IOException(
-                    "The context broker at %s knows no entity %s of type %s, so '%s' cannot be sent; a device takes commands once it has reported. Check that it reports."
+                    "The context broker at %s has no entity %s of type %s, so '%s' cannot be sent; a device accepts commands once it has reported. Check that it reports."
                             .formatted(contextBroker, order.deviceId(), order.type(), order.command()));
         }
         if (answer.statusCode() / 100 != 2) {
-            throw new IOException("The context broker at %s refused '%s' for %s with %d: %s"
+            throw new IOException("The context broker at %s rejected '%s' for %s with %d: %s"
                     .formatted(
                             contextBroker,
                             order.command(),
@@ -119,7 +120,10 @@ public final class DeviceCommands implements CommandSender {
         }
     }
 
-    /** A robot is wanted as {@code Robot}, while its entity is of whatever type it reports, with FIROS {@code ROBOT}. */
+    /**
+     * The desired type of a robot is {@code Robot}, while its entity has the type that it reports, {@code ROBOT} with
+     * FIROS.
+     */
     private static boolean isRobot(String type) {
         return ROBOT.equalsIgnoreCase(type);
     }
@@ -151,15 +155,15 @@ public final class DeviceCommands implements CommandSender {
         return request.build();
     }
 
-    /** What NGSI errors have as {@code description}. */
+    /** Returns the {@code description} of an NGSI error, or else the start of the body. */
     private static String said(byte[] body) {
         String text;
         try {
             text = NgsiJson.read(body).path("description").asText("");
-        } catch (UnreadableException e) { // then it is quoted as it is
+        } catch (UnreadableException e) { // the body is quoted verbatim then
             text = new String(body, StandardCharsets.UTF_8);
         }
-        return text.substring(0, Math.min(text.length(), LONGEST_QUOTE));
+        return text.substring(0, Math.min(text.length(), MAX_QUOTE_LENGTH));
     }
 
     private static String encoded(String part) {

@@ -1,2 +1,2 @@
-/** Commands to devices, through the context broker. */
+/** Sends commands to devices through the context broker. */
 package io.furrow.control.device;

@@ -8,15 +8,15 @@ import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.DomainDetails;
 
 /**
- * A domain as it is remembered, and a record of {@code service.domains} under its name. What is not said is null.
+ * A domain as stored, and a record of {@code service.domains} keyed by its name. Members without a value are null.
  *
  * @param domain its name in topics
- * @param name for people
+ * @param display name
  * @param area GeoJSON; owned by the domain
  * @param fields ids of fields
- * @param created when, epoch ms
- * @param changed when last, epoch ms
- * @param sequence grows with every change of anything that is wanted
+ * @param created when it was created, epoch ms
+ * @param changed when it last changed, epoch ms
+ * @param sequence increases with every change of the desired state
  */
 public record Domain(
         String domain,
@@ -38,7 +38,7 @@ public record Domain(
         return new Domain(domain, all.name(), all.description(), all.area(), all.fields(), created, now, newSequence);
     }
 
-    /** The same for readers who need no area, which is most of what a domain takes. */
+    /** Returns the domain without its area, its largest member. */
     public Domain withoutArea() {
         return new Domain(domain, name, description, null, fields, created, changed, sequence);
     }

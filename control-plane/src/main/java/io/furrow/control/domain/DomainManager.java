@@ -9,23 +9,23 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 
-import io.furrow.control.manager.AnswerRequests;
-import io.furrow.control.manager.AnsweredRequests;
-import io.furrow.control.manager.Desk;
-import io.furrow.control.manager.Inlet;
+import io.furrow.control.manager.CommandHandler;
+import io.furrow.control.manager.CommandProcessor;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
-import io.furrow.control.manager.Outbox;
-import io.furrow.control.manager.Outgoing;
+import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
-import io.furrow.control.manager.Sequence;
-import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.manager.RequestLog;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.Sequence;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.Limits;
 
 /**
- * Answers {@code service.domainmanager} and keeps {@code service.domains}. It shares its stores with the manager of missions, in one
- * task: so no mission begins in a domain while that is deleted.
+ * Processes requests on {@code service.domainmanager} and maintains {@code service.domains}. It shares its stores with
+ * the mission manager, in one task, so that no mission starts in a domain while the domain is deleted.
  */
 public final class DomainManager {
     private static final String DOMAINS = "domains";
@@ -34,52 +34,54 @@ public final class DomainManager {
 
     private DomainManager() {}
 
-    /** Domains as they are in the stores of a processor. */
-    public static DomainDesk desk(ProcessorContext<?, ?> context, DomainMissions missions, Outbox outbox) {
-        return new DomainDesk(
-                domains(context), missions, new DomainDesk.Means(sequence(context), quota(context)), outbox);
+    /** Creates a handler on the stores of a processor. */
+    public static DomainCommandHandler handler(
+            ProcessorContext<?, ?> context, DomainMissions missions, EventPublisher outbox) {
+        return new DomainCommandHandler(
+                domains(context), missions, new DomainCommandHandler.Means(sequence(context), quota(context)), outbox);
     }
 
-    /** Stores that others may use. */
+    /** Names of the stores that other processors may use. */
     public static List<String> stores() {
         return List.of(DOMAINS, SEQUENCE);
     }
 
-    /** What there is of domains, for a processor that has {@link #stores()}. */
+    /** Returns the stored domains, for a processor connected to {@link #stores()}. */
     public static Records<Domain> domains(ProcessorContext<?, ?> context) {
-        return StoreRecords.of(context, DOMAINS, Domain.class);
+        return StoredRecords.of(context, DOMAINS, Domain.class);
     }
 
-    /** The one sequence of what is wanted of domains, missions and devices. */
+    /** Returns the shared sequence of the desired state of domains, missions and devices. */
     public static Sequence sequence(ProcessorContext<?, ?> context) {
-        return new Sequence(StoreRecords.of(context, SEQUENCE, Long.class));
+        return new Sequence(StoredRecords.of(context, SEQUENCE, Long.class));
     }
 
-    /** Room for all definitions of domains, missions and templates together. */
+    /** Returns the quota shared by all definitions of domains, missions and templates. */
     public static Quota quota(ProcessorContext<?, ?> context) {
-        return new Quota(StoreRecords.of(context, SEQUENCE, Long.class), Limits.DEFINITIONS_BYTES);
+        return new Quota(StoredRecords.of(context, SEQUENCE, Long.class), Limits.DEFINITIONS_BYTES);
     }
 
     /**
-     * @param remembered how long ids of requests are
-     * @param missions makes what stops missions, which needs further stores; these and {@link #stores()} are there already
+     * @param remembered how long ids of requests are remembered
+     * @param missions creates the access to missions, which needs further stores; these and {@link #stores()} must
+     * exist already
      */
     public static void add(
             StreamsBuilder builder,
             Duration remembered,
-            BiFunction<ProcessorContext<?, ?>, Outbox, DomainMissions> missions,
+            BiFunction<ProcessorContext<?, ?>, EventPublisher, DomainMissions> missions,
             List<String> storesOfMissions) {
-        builder.addStateStore(AnsweredRequests.builder(TOPIC.answers(), remembered));
-        BiFunction<ProcessorContext<?, ?>, Outbox, Desk<DomainCommand>> opening =
-                (context, outbox) -> desk(context, missions.apply(context, outbox), outbox)::answer;
+        builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<DomainCommand>> opening =
+                (context, outbox) -> handler(context, missions.apply(context, outbox), outbox)::answer;
         String[] stores = Stream.of(stores(), storesOfMissions, List.of(TOPIC.answers()))
                 .flatMap(List::stream)
                 .toArray(String[]::new);
 
-        Outgoing.send(
-                Inlet.requests(builder, TOPIC)
+        OutputRecord.send(
+                ManagerInput.requests(builder, TOPIC)
                         .process(
-                                () -> new AnswerRequests<>(TOPIC, remembered, opening),
+                                () -> new CommandProcessor<>(TOPIC, remembered, opening),
                                 Named.as("answer-domain-requests"),
                                 stores),
                 "domains-out");

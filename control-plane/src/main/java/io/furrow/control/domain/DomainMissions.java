@@ -2,11 +2,11 @@ package io.furrow.control.domain;
 
 import java.util.List;
 
-/** The missions of a domain, as far as domains care for them. */
+/** Gives the domain manager access to the missions of a domain. */
 public interface DomainMissions {
-    /** Names of those that start, run or stop. */
+    /** Names of the missions that are starting, running or stopping. */
     List<String> activeIn(String domain);
 
-    /** Stops one that starts or runs; one that stops already is left alone. */
+    /** Stops a mission that is starting or running; has no effect on one that is stopping already. */
     void stop(String mission, long now);
 }

@@ -1,2 +1,2 @@
-/** Domains: made, changed, deleted when nothing runs in them. */
+/** Manages domains: creation, change, and deletion when no mission runs in them. */
 package io.furrow.control.domain;

@@ -6,8 +6,8 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * How full the battery of a device is, 0 to 1: the attribute {@code battery}, a number (above 1 it is percent), or as FIROS
- * writes it a sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1.
+ * Reads the battery charge of a device, 0 to 1, from the attribute {@code battery}: a number (percent if above 1), or
+ * with FIROS a sensor_msgs/BatteryState, whose {@code percentage} is 0 to 1.
  */
 final class Battery {
     static final String ATTRIBUTE = "battery";
@@ -18,7 +18,7 @@ final class Battery {
 
     private Battery() {}
 
-    /** Null where the entity does not say, or says what is no charge. */
+    /** Returns null if the entity has no valid charge. */
     static Double chargeOf(Entity entity) {
         Double said = entity.number(ATTRIBUTE).orElse(null);
         if (said == null) {
@@ -36,7 +36,7 @@ final class Battery {
             JsonNode charge = state == null ? null : state.path(PERCENTAGE);
             return charge == null || !charge.isNumber() ? null : Double.valueOf(charge.doubleValue());
         } catch (com.fasterxml.jackson.core.JsonProcessingException e) {
-            return null; // a text that is no message of ROS tells nothing of a battery
+            return null; // a text that is not a ROS message contains no charge
         }
     }
 }

@@ -6,19 +6,19 @@ import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * How it is with a device that is wanted: remembered, and a record of {@code service.devices.health} under the key of {@code
- * service.devices}.
+ * The health of a desired device: stored, and a record of {@code service.devices.health} with the key of
+ * {@code service.devices}.
  *
  * @param id of the entity
  * @param service tenant, empty for the default one
  * @param servicePath {@code /} for the root
- * @param type of the entity; null where it is not known
- * @param silent whether it was not heard of for longer than it may be
- * @param since when it became silent or was heard of again, epoch ms
- * @param lastSeen event time of its newest report, epoch ms; null where there was none
- * @param heard when that came in, epoch ms, some 30 s behind at most; null where nothing did
- * @param battery 0 to 1; null where it never said
- * @param off whether it said that it is switched off: then it may be silent
+ * @param type type of the entity; null if unknown
+ * @param silent whether it has not reported for longer than its time limit
+ * @param since when it became silent or reported again, epoch ms
+ * @param lastSeen event time of its newest report, epoch ms; null if none
+ * @param heard when that report arrived, epoch ms, at most about 30 s behind; null if none
+ * @param battery 0 to 1; null if never reported
+ * @param off whether it reported that it is switched off; it is never silent then
  */
 public record DeviceHealth(
         String id,
@@ -34,7 +34,7 @@ public record DeviceHealth(
         Double battery,
         boolean off) {
 
-    /** Nothing was heard of it yet. */
+    /** Creates the health of a device that has not reported yet. */
     static DeviceHealth unheard(WantedDevice device, long now) {
         DeviceVersion version = device.version();
         return new DeviceHealth(
@@ -52,7 +52,7 @@ public record DeviceHealth(
                 false);
     }
 
-    DeviceHealth heard(Sign sign, long now) {
+    DeviceHealth heard(Heartbeat sign, long now) {
         return new DeviceHealth(
                 id,
                 service,
@@ -73,7 +73,7 @@ public record DeviceHealth(
                 id, service, servicePath, type, domain, mission, true, now, lastSeen, heard, battery, off);
     }
 
-    /** The same on the mission that it is on now. */
+    /** Returns the health with the device's current domain and mission. */
     DeviceHealth of(WantedDevice device) {
         DeviceVersion version = device.version();
         return new DeviceHealth(

@@ -17,36 +17,39 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.state.KeyValueStore;
 
 import io.furrow.control.alarm.AlarmManager;
-import io.furrow.control.manager.Inlet;
-import io.furrow.control.manager.ObserveRecords;
-import io.furrow.control.manager.ObserveRecords.Observer;
-import io.furrow.control.manager.Outbox;
-import io.furrow.control.manager.Outgoing;
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.ManagerInput;
+import io.furrow.control.manager.ObserverProcessor;
+import io.furrow.control.manager.ObserverProcessor.Observer;
+import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StoreRecords;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.topic.Topics;
 
-/** Reads {@code data.raw} and {@code service.devices} and keeps {@code service.devices.health} and the alarms of silent devices. */
+/**
+ * Reads {@code data.raw} and {@code service.devices} and maintains {@code service.devices.health} and the alarms of
+ * silent devices.
+ */
 public final class HealthWatch {
     private static final String WANTED = "wanted-devices";
     private static final String HEALTH = "device-health";
 
     private HealthWatch() {}
 
-    /** The devices that shall run; every instance has all of them, for any processor. */
+    /** Returns the desired devices from a global store, which every instance and any processor can read. */
     public static WantedDevices wanted(ProcessorContext<?, ?> context) {
-        return new WantedDevices(StoreRecords.of(context, WANTED, Function.identity(), Function.identity()));
+        return new WantedDevices(StoredRecords.of(context, WANTED, Function.identity(), Function.identity()));
     }
 
-    /** Stores of its own that whoever uses {@link #typeOf} needs. */
+    /** Names of the stores that users of {@link #typeOf} need. */
     public static List<String> stores() {
         return List.of(HEALTH);
     }
 
-    /** The type of the entity of a device: as it reports, else as it is wanted, else null. */
+    /** Returns a lookup of a device's entity type: the reported type, else the desired type, else null. */
     public static Function<String, String> typeOf(ProcessorContext<?, ?> context) {
-        Records<DeviceHealth> health = StoreRecords.of(context, HEALTH, DeviceHealth.class);
+        Records<DeviceHealth> health = StoredRecords.of(context, HEALTH, DeviceHealth.class);
         WantedDevices wanted = wanted(context);
         return identity -> {
             DeviceHealth known = health.get(identity);
@@ -56,20 +59,20 @@ public final class HealthWatch {
         };
     }
 
-    /** The stores of alarms are there already. */
+    /** Adds the processors. The stores of alarms must exist already. */
     public static void add(StreamsBuilder builder, HealthOptions options) {
         builder.addGlobalStore(
-                StoreRecords.builder(WANTED).withLoggingDisabled(),
+                StoredRecords.builder(WANTED).withLoggingDisabled(),
                 Topics.DEVICES,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("wanted-devices-in"),
                 KeepWanted::new);
-        builder.addStateStore(StoreRecords.builder(HEALTH));
-        BiFunction<ProcessorContext<String, Outgoing>, Outbox, Observer> opening =
-                (context, outbox) -> observer(new HealthDesk(
-                        StoreRecords.of(context, HEALTH, DeviceHealth.class),
+        builder.addStateStore(StoredRecords.builder(HEALTH));
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening =
+                (context, outbox) -> observer(new DeviceHealthTracker(
+                        StoredRecords.of(context, HEALTH, DeviceHealth.class),
                         wanted(context),
                         options,
-                        AlarmManager.desk(context, outbox),
+                        AlarmManager.handler(context, outbox),
                         outbox));
 
         KStream<String, byte[]> signs = builder.stream(
@@ -77,27 +80,27 @@ public final class HealthWatch {
                         Consumed.with(Serdes.String(), Serdes.ByteArray())
                                 .withName("reports-in")
                                 .withOffsetResetPolicy(AutoOffsetReset.latest()))
-                .process(() -> new HearDevices(options), Named.as("hear-devices"));
-        Outgoing.send(
-                Inlet.inLine(signs, "device-signs")
+                .process(() -> new HeartbeatProcessor(options), Named.as("hear-devices"));
+        OutputRecord.send(
+                ManagerInput.toSinglePartition(signs, "device-signs")
                         .process(
-                                () -> new ObserveRecords(opening),
+                                () -> new ObserverProcessor(opening),
                                 Named.as("keep-device-health"),
                                 Stream.concat(stores().stream(), AlarmManager.stores().stream())
                                         .toArray(String[]::new)),
                 "device-health-out");
     }
 
-    private static Observer observer(HealthDesk desk) {
+    private static Observer observer(DeviceHealthTracker tracker) {
         return new Observer() {
             @Override
             public void take(Record<String, byte[]> sign, long now) {
-                desk.take(sign.key(), StateJson.read(sign.value(), Sign.class), now);
+                tracker.take(sign.key(), StateJson.read(sign.value(), Heartbeat.class), now);
             }
 
             @Override
             public void passTime(long now) {
-                desk.passTime(now);
+                tracker.passTime(now);
             }
         };
     }

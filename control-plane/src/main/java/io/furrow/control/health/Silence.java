@@ -11,23 +11,26 @@ import java.util.Set;
 import java.util.TreeMap;
 import java.util.stream.Collectors;
 
-import io.furrow.control.alarm.AlarmDesk;
+import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.topic.Topics;
 
 /**
- * Reconciles the alarms of silence with the devices that are silent: one alarm per mission; where much of a mission is silent, one
- * that says so and inhibits the former; where nothing arrives from any device, one for the farm that inhibits all others. Devices
- * that are muted do not count as silent, those that are off not at all.
+ * Reconciles the alarms of silence with the silent devices: one alarm per mission; if a large share of a mission is
+ * silent, a mission alarm that inhibits the former; if no device reports at all, a farm alarm that inhibits all others.
+ * Muted devices do not count as silent; devices that are off do not count at all.
  *
- * <p>What is known of devices is held in memory and put anew at the start.
+ * <p>The state of devices is held in memory and rebuilt at the start.
  */
 final class Silence {
-    /** The least time without any report after which nothing is taken to arrive. */
+    /** Minimum time without any report before the farm counts as silent. */
     static final Duration FARM_QUIET = Duration.ofSeconds(30);
-    /** How long the farm's alarm inhibits the others after reports arrive again, so that devices can report first. */
+    /**
+     * How long the farm's alarm inhibits the others after reports arrive again, so that the devices have time to
+     * report.
+     */
     static final Duration RECOVERY = Duration.ofMinutes(1);
 
     private static final int NAMED = 3;
@@ -37,16 +40,16 @@ final class Silence {
             Comparator.comparingLong(Device::since).thenComparing(Device::id);
 
     private final HealthOptions options;
-    private final AlarmDesk alarms;
+    private final AlarmCommandHandler alarms;
     private final Map<String, Device> devices = new HashMap<>();
     private long lastReport;
     private Long resumed;
 
     /**
-     * What counts of a device.
+     * The relevant state of a device.
      *
      * @param group its mission's entity
-     * @param silentAfter how long it may say nothing, ms
+     * @param silentAfter after how long without a report it is silent, ms
      */
     record Device(String id, String type, String group, boolean silent, boolean off, long since, long silentAfter) {
         static Device of(DeviceHealth health, long silentAfter) {
@@ -88,14 +91,14 @@ final class Silence {
                     .toList();
         }
 
-        /** For people: some by their ids, the rest by number. */
+        /** Human-readable list: some by their ids, the rest by number. */
         String named() {
             String ids = some().stream().limit(NAMED).map(Cause.Device::id).collect(Collectors.joining(", "));
             return silent.size() <= NAMED ? ids : ids + " and " + (silent.size() - NAMED) + " more";
         }
     }
 
-    Silence(HealthOptions options, AlarmDesk alarms) {
+    Silence(HealthOptions options, AlarmCommandHandler alarms) {
         this.options = options;
         this.alarms = alarms;
     }
@@ -108,15 +111,19 @@ final class Silence {
         devices.remove(key);
     }
 
-    /** Some device reported. @param time epoch ms, by the clock of the control plane */
+    /**
+     * Records that a device reported.
+     *
+     * @param time epoch ms, by the clock of the control plane
+     */
     void reported(long time) {
         lastReport = Math.max(lastReport, time);
     }
 
     /**
-     * Brings the alarms up to date.
+     * Updates the alarms.
      *
-     * @param began since when devices are listened to, epoch ms
+     * @param began since when reports of devices are read, epoch ms
      */
     void reconcile(long began, long now) {
         Map<String, Members> groups = new TreeMap<>();
@@ -135,7 +142,7 @@ final class Silence {
             causes.add(farm);
         }
         groups.forEach((group, members) -> report(group, members, farm, now, causes));
-        alarms.endOthers(KINDS, causes, "its devices report again, or are not to run any more", now);
+        alarms.endOthers(KINDS, causes, "its devices report again or were stopped", now);
     }
 
     private void report(String group, Members members, Cause farm, long now, List<Cause> causes) {
@@ -146,7 +153,7 @@ final class Silence {
                 .formatted(members.silent.size(), members.total, AlarmGroup.label(group));
         Cause inhibitor = farm;
         if (isMost(members, alarms.isRaised(AlarmKind.SILENT_MISSION, group))) {
-            String away = text + ": rather the site or its connection than the devices";
+            String away = text + ": probably the site or its connection rather than the devices";
             inhibitor = Cause.ofMany(AlarmKind.SILENT_MISSION, group, away, members.some(), members.extent());
             alarms.report(inhibitor, farm, now);
             causes.add(inhibitor);
@@ -157,17 +164,21 @@ final class Silence {
         causes.add(some);
     }
 
-    /** Whether so many are silent; half of the share is enough where that was said already, so that it is not said in turns. */
+    /**
+     * Whether the share of silent devices is reached. Half of the share suffices if the alarm is raised already, so
+     * that it does not flap.
+     */
     private boolean isMost(Members members, boolean wasMost) {
         double share = (double) members.silent.size() / Math.max(1, members.total);
         return wasMost
                 ? share >= options.missionShare() / 2
-                : share >= options.missionShare() && members.silent.size() >= HealthOptions.LEAST_OF_MISSION;
+                : share >= options.missionShare() && members.silent.size() >= HealthOptions.MIN_OF_MISSION;
     }
 
     /**
-     * Null where the farm is not silent. It is when most devices are silent and nothing has arrived for three of the periods that the
-     * devices that are not silent have together; then for a while after reports arrive again, until no device is silent.
+     * Returns null if the farm is not silent. It is silent if most devices are silent and no report has arrived for
+     * longer than the other devices together may take, at least {@link #FARM_QUIET}. After reports arrive again it
+     * recovers for as long, at least {@link #RECOVERY}, or until no device is silent.
      */
     private Cause farm(Members all, long began, long now) {
         boolean was = alarms.isRaised(AlarmKind.SILENT_FARM, Topics.RAW);

@@ -6,11 +6,11 @@ import java.util.function.Consumer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.control.manager.Records;
+import io.furrow.control.manager.record.Records;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** The devices that shall run now, as {@code service.devices} has them; what cannot be read there is none. */
+/** The devices of {@code service.devices} that are desired to run now. Unreadable records are skipped. */
 public final class WantedDevices {
     private static final Logger LOG = LoggerFactory.getLogger(WantedDevices.class);
 
@@ -21,7 +21,7 @@ public final class WantedDevices {
         this.records = records;
     }
 
-    /** Empty where none is wanted under the key, or only was. */
+    /** Returns the device of a key; empty if none is desired or no longer. */
     public Optional<WantedDevice> of(String key) {
         byte[] value = records.get(key);
         return value == null ? Optional.empty() : running(value);
@@ -36,7 +36,7 @@ public final class WantedDevices {
             WantedDevice device = WantedDevice.read(value);
             return device.running() && device.version().until() == null ? Optional.of(device) : Optional.empty();
         } catch (UnreadableException e) {
-            LOG.debug("a record of service.devices is passed over", e);
+            LOG.debug("an unreadable record of service.devices is skipped", e);
             return Optional.empty();
         }
     }

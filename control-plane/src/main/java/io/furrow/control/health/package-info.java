@@ -1,2 +1,2 @@
-/** When devices were last heard of, how full their batteries are, and which of them are silent. */
+/** Tracks the last report, the battery charge and the silence of devices. */
 package io.furrow.control.health;

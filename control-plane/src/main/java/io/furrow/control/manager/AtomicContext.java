@@ -21,15 +21,18 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.apache.kafka.streams.processor.api.RecordMetadata;
 import org.apache.kafka.streams.state.KeyValueStore;
 
+import io.furrow.control.manager.record.OversizedRecordException;
+import io.furrow.control.manager.record.StagedStore;
+
 /**
  * The context of a processor whose writes, to its stores and to the next processors, take effect together or not at all: within
  * {@link #call} they are staged, and applied when that returns. What throws has changed nothing, and no record larger than
  * {@code Limits.RECORD_BYTES} is written, so that neither can end the thread. Its stores are key-value stores of texts and bytes.
  */
-public final class AtomicContext implements ProcessorContext<String, Outgoing> {
-    private final ProcessorContext<String, Outgoing> context;
+public final class AtomicContext implements ProcessorContext<String, OutputRecord> {
+    private final ProcessorContext<String, OutputRecord> context;
     private final Map<String, StagedStore> stores = new LinkedHashMap<>();
-    private final List<Record<String, Outgoing>> staged = new ArrayList<>();
+    private final List<Record<String, OutputRecord>> staged = new ArrayList<>();
 
     /**
      * Work that reads and writes.
@@ -42,7 +45,7 @@ public final class AtomicContext implements ProcessorContext<String, Outgoing> {
         T run() throws E;
     }
 
-    public AtomicContext(ProcessorContext<String, Outgoing> context) {
+    public AtomicContext(ProcessorContext<String, OutputRecord> context) {
         this.context = context;
     }
 
@@ -71,18 +74,18 @@ public final class AtomicContext implements ProcessorContext<String, Outgoing> {
 
     private void apply() {
         stores.values().forEach(StagedStore::apply);
-        List<Record<String, Outgoing>> records = List.copyOf(staged);
+        List<Record<String, OutputRecord>> records = List.copyOf(staged);
         staged.clear();
         records.forEach(context::forward);
     }
 
     @Override
-    public <K extends String, V extends Outgoing> void forward(Record<K, V> record) {
+    public <K extends String, V extends OutputRecord> void forward(Record<K, V> record) {
         staged.add(new Record<>(record.key(), record.value(), record.timestamp(), record.headers()));
     }
 
     @Override
-    public <K extends String, V extends Outgoing> void forward(Record<K, V> record, String childName) {
+    public <K extends String, V extends OutputRecord> void forward(Record<K, V> record, String childName) {
         throw new UnsupportedOperationException("records go to all next processors; name no child");
     }
 

@@ -20,6 +20,8 @@ import org.apache.kafka.streams.errors.ProductionExceptionHandler;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.control.manager.record.DeadLetters;
+import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RequestExcerpt;
 import io.furrow.model.event.DeadLetter;
@@ -28,7 +30,7 @@ import io.furrow.model.topic.Topics;
 
 /**
  * What Kafka Streams does where a record makes it fail, in all applications of the control plane: the record becomes a dead letter and
- * the rest goes on. Processors handle their failures themselves, whole and with an answer, see {@link AnswerRequests} and {@link
+ * the rest continues. Processors handle their failures themselves, whole and with an answer, see {@link CommandProcessor} and {@link
  * GuardedWork}; this is for what escapes them. Where Kafka itself failed the thread is replaced instead, and the record read again.
  */
 public final class FailureHandler
@@ -117,7 +119,7 @@ public final class FailureHandler
 
     private static ProducerRecord<byte[], byte[]> answer(String topic, ErrorHandlerContext context) {
         RequestExcerpt excerpt = RequestExcerpt.of(context.sourceRawValue());
-        io.furrow.model.control.Response refusal = excerpt.refusal(
+        io.furrow.model.control.CommandResult refusal = excerpt.refusal(
                 ErrorCode.INTERNAL_ERROR,
                 "the manager failed at it; its log says why, and the request is a dead letter");
         byte[] key = excerpt.requestId() == null ? null : excerpt.requestId().getBytes(StandardCharsets.UTF_8);
@@ -125,7 +127,7 @@ public final class FailureHandler
         return new ProducerRecord<>(topic, null, context.timestamp(), key, value);
     }
 
-    /** Where the record stood that failed; null where it stood on no topic of ours. */
+    /** Where the record stood that failed; null if it stood on no topic of ours. */
     private static RecordOrigin origin(ErrorHandlerContext context) {
         boolean internal = context.topic() == null || context.topic().endsWith("-repartition");
         return RecordOrigin.of(context.headers())

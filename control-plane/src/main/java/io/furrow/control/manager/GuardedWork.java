@@ -5,6 +5,9 @@ import org.apache.kafka.streams.processor.api.Record;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.control.manager.record.DeadLetters;
+import io.furrow.control.manager.record.OversizedRecordException;
+import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -16,7 +19,7 @@ final class GuardedWork {
     private static final Logger LOG = LoggerFactory.getLogger(GuardedWork.class);
 
     private final boolean lettersForUnreadable;
-    private final ProcessorContext<String, Outgoing> direct;
+    private final ProcessorContext<String, OutputRecord> direct;
     private final AtomicContext atomic;
 
     /** What is done with a record. */
@@ -24,8 +27,8 @@ final class GuardedWork {
         void handle() throws UnreadableException;
     }
 
-    /** @param lettersForUnreadable whether what cannot be read becomes a dead letter here; false where somebody else sees to that */
-    GuardedWork(boolean lettersForUnreadable, ProcessorContext<String, Outgoing> context) {
+    /** @param lettersForUnreadable whether what cannot be read becomes a dead letter here; false if somebody else sees to that */
+    GuardedWork(boolean lettersForUnreadable, ProcessorContext<String, OutputRecord> context) {
         this.lettersForUnreadable = lettersForUnreadable;
         this.direct = context;
         this.atomic = new AtomicContext(context);

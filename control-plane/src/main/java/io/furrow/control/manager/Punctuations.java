@@ -8,7 +8,7 @@ import org.slf4j.LoggerFactory;
 
 /**
  * Runs what is due from time to time, each step as a whole or not at all: a step that fails is logged, once a minute at most, and
- * tried again with the next punctuation, while the others go on.
+ * tried again with the next punctuation, while the others continue.
  */
 final class Punctuations {
     private static final Logger LOG = LoggerFactory.getLogger(Punctuations.class);

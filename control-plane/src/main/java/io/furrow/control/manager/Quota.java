@@ -1,5 +1,6 @@
 package io.furrow.control.manager;
 
+import io.furrow.control.manager.record.Records;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 
@@ -34,7 +35,7 @@ public final class Quota {
     /**
      * Puts one value in the place of another; either may be null.
      *
-     * @throws RefusedException where there is no room for it
+     * @throws RefusedException if there is no room for it
      */
     public void replace(byte[] before, byte[] after) throws RefusedException {
         long further = (after == null ? 0 : after.length) - (before == null ? 0 : before.length);

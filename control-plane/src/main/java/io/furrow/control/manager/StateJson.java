@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.ObjectMapper;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Records of plain members as JSON; members that a later version has are passed over, so that one can go back. */
+/** Records of plain members as JSON; members that a later version has are skipped, so that one can go back. */
 public final class StateJson {
     private static final ObjectMapper MAPPER = NgsiJson.mapper()
             .copy()

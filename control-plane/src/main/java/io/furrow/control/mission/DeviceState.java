@@ -11,7 +11,7 @@ import io.furrow.model.ngsi.UnreadableException;
  *
  * @param wanted the record of {@code service.devices}
  * @param confirmed whether its host says that it is so
- * @param reason why it is not, as its host says; null where it said nothing
+ * @param reason why it is not, as its host says; null if it said nothing
  * @param forgotten whether only its generation is remembered, because its mission was deleted
  */
 record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean forgotten) {
@@ -27,7 +27,7 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean fo
         try {
             return WantedDevice.read(NgsiJson.write(wanted));
         } catch (UnreadableException e) {
-            throw new IllegalStateException("the remembered device is none", e);
+            throw new IllegalStateException("a stored device cannot be read", e);
         }
     }
 

@@ -3,13 +3,13 @@ package io.furrow.control.mission;
 import java.util.function.Predicate;
 
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Sequence;
+import io.furrow.control.manager.record.Sequence;
 
 /**
  * What missions share with domains.
  *
  * @param isDomain whether there is a domain of a name
- * @param sequence of all that is wanted
+ * @param sequence of all that is requested
  * @param quota room for all definitions
  */
 record FarmContext(Predicate<String> isDomain, Sequence sequence, Quota quota) {}

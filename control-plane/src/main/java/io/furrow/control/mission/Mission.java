@@ -3,21 +3,21 @@ package io.furrow.control.mission;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 
 import io.furrow.control.manager.StateJson;
-import io.furrow.model.control.MissionDevices;
+import io.furrow.model.control.mission.MissionDevices;
 
 /**
- * What is wanted of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
+ * What is requested of a mission: remembered, and a record of {@code service.missions} under its name. Its devices are listed on {@code
  * service.missions.devices}, see {@link MissionLists}.
  *
  * @param domain that it belongs to for good
- * @param template {@code <name>@<version>} that its devices were taken from; null where they were listed
+ * @param template {@code <name>@<version>} that its devices were taken from; null if they were listed
  * @param parts how many parts its device list has
  * @param deviceCount how many devices the list has
  * @param running whether it shall run, now or from {@code start} on
- * @param start when it was or is to be started, epoch ms; null where it never was
+ * @param start when it was or is to be started, epoch ms; null if it never was
  * @param duration after which it is stopped, ms; null for never
  * @param created when, epoch ms
- * @param sequence grows with every change of anything that is wanted
+ * @param sequence grows with every change of anything that is requested
  * @param devices the device list of a mission that was written before lists had parts; else null
  */
 public record Mission(

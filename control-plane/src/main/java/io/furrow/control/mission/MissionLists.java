@@ -6,15 +6,15 @@ import java.util.List;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
-import io.furrow.control.manager.Outbox;
+import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
-import io.furrow.control.manager.Records;
-import io.furrow.control.manager.Sequence;
-import io.furrow.model.control.DeviceGroup;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.Sequence;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.MissionDevices;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionDevices;
 import io.furrow.model.device.GroupRef;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
@@ -24,10 +24,10 @@ final class MissionLists {
     private final Records<byte[]> parts;
     private final Sequence sequence;
     private final Quota quota;
-    private final Outbox outbox;
+    private final EventPublisher outbox;
 
     /** @param parts records of the topic by their keys */
-    MissionLists(Records<byte[]> parts, Sequence sequence, Quota quota, Outbox outbox) {
+    MissionLists(Records<byte[]> parts, Sequence sequence, Quota quota, EventPublisher outbox) {
         this.parts = parts;
         this.sequence = sequence;
         this.quota = quota;
@@ -154,7 +154,7 @@ final class MissionLists {
         try {
             return MissionDeviceList.read(value);
         } catch (io.furrow.model.ngsi.UnreadableException e) {
-            throw new IllegalStateException("the remembered device list is none", e);
+            throw new IllegalStateException("a stored device list cannot be read", e);
         }
     }
 }

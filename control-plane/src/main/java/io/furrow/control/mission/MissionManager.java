@@ -14,20 +14,20 @@ import org.apache.kafka.streams.processor.api.ProcessorContext;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainManager;
-import io.furrow.control.manager.AnswerRequests;
-import io.furrow.control.manager.AnsweredRequests;
-import io.furrow.control.manager.Desk;
-import io.furrow.control.manager.Inlet;
+import io.furrow.control.manager.CommandHandler;
+import io.furrow.control.manager.CommandProcessor;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
-import io.furrow.control.manager.Outbox;
-import io.furrow.control.manager.Outgoing;
-import io.furrow.control.manager.Records;
-import io.furrow.control.manager.StoreRecords;
-import io.furrow.control.manager.TakeStatus;
+import io.furrow.control.manager.OutputRecord;
+import io.furrow.control.manager.RequestLog;
+import io.furrow.control.manager.StatusProcessor;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.Response;
+import io.furrow.model.control.mission.MissionTemplate;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
 
@@ -47,48 +47,49 @@ public final class MissionManager {
 
     private MissionManager() {}
 
-    /** Stores of its own; whoever uses {@link #desk} needs them, and those of {@link DomainManager}. */
+    /** Stores of its own; whoever uses {@link #handler} needs them, and those of {@link DomainManager}. */
     public static List<String> stores() {
         return List.of(MISSIONS, STATUSES, LISTS, ROLLOUTS, DEVICES, TEMPLATES, VERSIONS);
     }
 
     /** Missions as they are in the stores of a processor. */
-    public static MissionDesk desk(ProcessorContext<?, ?> context, Outbox outbox, MissionOptions options) {
+    public static MissionCommandHandler handler(
+            ProcessorContext<?, ?> context, EventPublisher outbox, MissionOptions options) {
         Records<Domain> domains = DomainManager.domains(context);
         MissionRecords records = new MissionRecords(
-                StoreRecords.of(context, MISSIONS, Mission.class),
-                StoreRecords.of(context, STATUSES, MissionStatus.class),
-                StoreRecords.of(context, LISTS, Function.identity(), Function.identity()),
-                StoreRecords.of(context, ROLLOUTS, Rollout.class),
-                StoreRecords.of(context, DEVICES, DeviceState.class),
-                StoreRecords.of(context, TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
-                StoreRecords.of(context, VERSIONS, TemplateShelf.Versions.class));
+                StoredRecords.of(context, MISSIONS, Mission.class),
+                StoredRecords.of(context, STATUSES, MissionStatus.class),
+                StoredRecords.of(context, LISTS, Function.identity(), Function.identity()),
+                StoredRecords.of(context, ROLLOUTS, Rollout.class),
+                StoredRecords.of(context, DEVICES, DeviceState.class),
+                StoredRecords.of(context, TEMPLATES, MissionTemplate::toBytes, MissionManager::template),
+                StoredRecords.of(context, VERSIONS, TemplateStore.Versions.class));
         FarmContext farm =
                 new FarmContext(domains::contains, DomainManager.sequence(context), DomainManager.quota(context));
-        return new MissionDesk(records, farm, options, outbox);
+        return new MissionCommandHandler(records, farm, options, outbox);
     }
 
     /** Its stores and those of domains are there already. @param remembered how long ids of requests are */
     public static void add(StreamsBuilder builder, Duration remembered, MissionOptions options) {
-        builder.addStateStore(AnsweredRequests.builder(TOPIC.answers(), remembered));
-        BiFunction<ProcessorContext<?, ?>, Outbox, Desk<MissionCommand>> opening =
-                (context, outbox) -> new InTime(desk(context, outbox, options));
-        BiFunction<ProcessorContext<?, ?>, Outbox, TakeStatus.Reports> reports = (context, outbox) -> {
-            MissionDesk desk = desk(context, outbox, options);
-            return (key, value, now) -> desk.reported(key, DeviceStatus.read(value), now);
+        builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<MissionCommand>> opening =
+                (context, outbox) -> new InTime(handler(context, outbox, options));
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> reports = (context, outbox) -> {
+            MissionCommandHandler handler = handler(context, outbox, options);
+            return (key, value, now) -> handler.reported(key, DeviceStatus.read(value), now);
         };
 
-        Outgoing.send(
-                Inlet.requests(builder, TOPIC)
+        OutputRecord.send(
+                ManagerInput.requests(builder, TOPIC)
                         .process(
-                                () -> new AnswerRequests<>(TOPIC, remembered, opening),
+                                () -> new CommandProcessor<>(TOPIC, remembered, opening),
                                 Named.as("answer-mission-requests"),
                                 storesWith(TOPIC.answers())),
                 "missions-out");
 
-        Outgoing.send(
-                Inlet.statuses(builder, Topics.DEVICES_STATUS, "device-statuses")
-                        .process(() -> new TakeStatus(reports), Named.as("take-device-statuses"), storesWith()),
+        OutputRecord.send(
+                ManagerInput.statuses(builder, Topics.DEVICES_STATUS, "device-statuses")
+                        .process(() -> new StatusProcessor(reports), Named.as("take-device-statuses"), storesWith()),
                 "progress-out");
     }
 
@@ -103,14 +104,14 @@ public final class MissionManager {
             return MissionTemplate.read(value);
         } catch (RefusedException e) {
             throw new IllegalStateException(
-                    "the remembered template is none: " + new String(value, StandardCharsets.UTF_8), e);
+                    "a stored template cannot be read: " + new String(value, StandardCharsets.UTF_8), e);
         }
     }
 
     /** Missions as time passes; the packaged template is there from the start. */
-    private record InTime(MissionDesk missions) implements Desk<MissionCommand> {
+    private record InTime(MissionCommandHandler missions) implements CommandHandler<MissionCommand> {
         @Override
-        public Response answer(MissionCommand command, long now) throws RefusedException {
+        public CommandResult answer(MissionCommand command, long now) throws RefusedException {
             return missions.answer(command, now);
         }
 

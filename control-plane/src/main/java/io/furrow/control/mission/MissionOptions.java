@@ -7,14 +7,14 @@ import io.furrow.model.event.FiwareScope;
 /**
  * What missions are run by.
  *
- * @param patience how long devices may take to come up or to go, before the mission goes on without them
+ * @param timeout how long devices may take to come up or to go, before the mission continues without them
  * @param scope tenant and service path of the devices' entities
  * @param devicesPerStep how many devices are written in one transaction
  */
-public record MissionOptions(Duration patience, FiwareScope scope, int devicesPerStep) {
+public record MissionOptions(Duration timeout, FiwareScope scope, int devicesPerStep) {
     private static final int DEVICES_PER_STEP = 500;
 
-    public MissionOptions(Duration patience, FiwareScope scope) {
-        this(patience, scope, DEVICES_PER_STEP);
+    public MissionOptions(Duration timeout, FiwareScope scope) {
+        this(timeout, scope, DEVICES_PER_STEP);
     }
 }

@@ -6,21 +6,21 @@ import java.util.function.Predicate;
 import io.furrow.control.manager.Quota;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
-import io.furrow.model.control.MissionDevices;
-import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.MissionTemplate;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.mission.MissionTemplate;
 
-/** Makes of what is asked for a mission with its list of devices, or refuses it. */
+/** Plans a mission: resolves template and groups to a list of devices, or rejects the request. */
 final class MissionPlanner {
     private final Predicate<String> isDomain;
-    private final TemplateShelf templates;
+    private final TemplateStore templates;
     private final MissionLists lists;
-    private final DeviceDesk devices;
+    private final DeviceAssignments devices;
     private final Quota quota;
 
     /** @param farm what there is besides missions */
-    MissionPlanner(FarmContext farm, TemplateShelf templates, MissionLists lists, DeviceDesk devices) {
+    MissionPlanner(FarmContext farm, TemplateStore templates, MissionLists lists, DeviceAssignments devices) {
         this.isDomain = farm.isDomain();
         this.quota = farm.quota();
         this.templates = templates;

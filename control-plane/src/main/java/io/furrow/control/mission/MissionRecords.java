@@ -1,7 +1,7 @@
 package io.furrow.control.mission;
 
-import io.furrow.control.manager.Records;
-import io.furrow.model.control.MissionTemplate;
+import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.mission.MissionTemplate;
 
 /**
  * All that the manager of missions remembers.
@@ -21,4 +21,4 @@ record MissionRecords(
         Records<Rollout> rollouts,
         Records<DeviceState> devices,
         Records<MissionTemplate> templates,
-        Records<TemplateShelf.Versions> versions) {}
+        Records<TemplateStore.Versions> versions) {}

@@ -9,7 +9,7 @@ import com.fasterxml.jackson.annotation.JsonValue;
 public enum MissionState {
     /** There is nothing to do yet: it waits for its start date, or to be started. */
     CREATED,
-    /** Its devices are wanted and not all of them are up. */
+    /** Its devices are requested and not all of them are up. */
     STARTING,
     RUNNING,
     /** Its devices are no longer wanted and not all of them are gone. */

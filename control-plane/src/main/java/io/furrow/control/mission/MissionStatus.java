@@ -13,10 +13,10 @@ import io.furrow.control.manager.StateJson;
  * @param sequence of the mission that this is the status of
  * @param devices how many somebody is asked to run
  * @param confirmed how many of them are as wanted: up while it starts or runs, gone after that
- * @param missing at most {@value #MOST_NAMED} of those that are not, once the time for it has passed
- * @param reason why it failed; null where it did not
- * @param due when it goes on by itself, epoch ms; null where it waits for somebody else
- * @param ends when it is stopped by itself, epoch ms; null where it is not
+ * @param missing at most {@value #MAX_NAMED} of those that are not, once the time for it has passed
+ * @param reason why it failed; null if it did not
+ * @param due when it continues by itself, epoch ms; null if it waits for somebody else
+ * @param ends when it is stopped by itself, epoch ms; null if it is not
  */
 public record MissionStatus(
         String mission,
@@ -31,13 +31,13 @@ public record MissionStatus(
         Long due,
         Long ends) {
     /** More are counted, but not named. */
-    static final int MOST_NAMED = 100;
+    static final int MAX_NAMED = 100;
 
     /**
      * A device that is not as wanted.
      *
      * @param id of its entity
-     * @param reason as its host says; null where it said nothing
+     * @param reason as its host says; null if it said nothing
      */
     public record Missing(String id, String reason) {}
 
@@ -64,21 +64,21 @@ public record MissionStatus(
     }
 
     /** Its devices were asked for. Without devices it runs at once. */
-    MissionStatus started(Mission mission, int hosted, long patience, long now) {
+    MissionStatus started(Mission mission, int hosted, long timeout, long now) {
         Long end = mission.duration() == null ? null : Long.valueOf(now + mission.duration());
         MissionStatus starting = next(MissionState.STARTING, now, mission.sequence())
                 .progress(hosted, 0)
-                .until(earlier(now + patience, end), end);
+                .until(earlier(now + timeout, end), end);
         return starting.advanced(now);
     }
 
     /** Its devices are asked to go, so many of them hosted. Without devices it has stopped at once. */
-    MissionStatus stopped(Mission mission, int hosted, long patience, long now) {
+    MissionStatus stopped(Mission mission, int hosted, long timeout, long now) {
         MissionState next = state == MissionState.CREATED ? MissionState.STOPPED : MissionState.STOPPING;
         boolean stops = next == MissionState.STOPPING;
         return next(next, now, mission.sequence())
                 .progress(stops ? hosted : 0, 0)
-                .until(stops ? Long.valueOf(now + patience) : null, null)
+                .until(stops ? Long.valueOf(now + timeout) : null, null)
                 .advanced(now);
     }
 
@@ -93,13 +93,13 @@ public record MissionStatus(
     MissionStatus reported(Missing device, boolean asWanted, long now) {
         List<Missing> named = new ArrayList<>(missing);
         named.removeIf(known -> known.id().equals(device.id()));
-        if (!asWanted && state == MissionState.RUNNING && named.size() < MOST_NAMED) {
+        if (!asWanted && state == MissionState.RUNNING && named.size() < MAX_NAMED) {
             named.add(device);
         }
         return progress(devices, confirmed + (asWanted ? 1 : -1)).naming(named).advanced(now);
     }
 
-    /** The time for coming up or going has passed; it goes on without those that are named. */
+    /** The time for coming up or going has passed; it continues without those that are named. */
     MissionStatus without(List<Missing> late, long now) {
         boolean starts = state == MissionState.STARTING;
         MissionStatus next = next(starts ? MissionState.RUNNING : MissionState.STOPPED, now, sequence);
@@ -107,9 +107,9 @@ public record MissionStatus(
     }
 
     /** All of its devices were asked: from now on they have the time for coming up or going. */
-    MissionStatus written(long patience, long now) {
+    MissionStatus written(long timeout, long now) {
         boolean waits = state == MissionState.STARTING || state == MissionState.STOPPING;
-        return waits ? until(earlier(now + patience, ends), ends) : this;
+        return waits ? until(earlier(now + timeout, ends), ends) : this;
     }
 
     boolean isDue(long now) {

@@ -4,7 +4,7 @@ package io.furrow.control.mission;
  * That devices of a mission are still to be written: a mission of many is written in several transactions.
  *
  * @param next index in the roster of the device that is written next
- * @param time from or until which the devices are wanted, epoch ms
+ * @param time from or until which the devices are requested, epoch ms
  */
 record Rollout(String mission, Kind kind, int next, long time) {
     /** What is written. */

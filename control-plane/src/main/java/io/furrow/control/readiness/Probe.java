@@ -17,7 +17,12 @@ import java.util.concurrent.TimeoutException;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.DescribeClusterOptions;
 
-/** Asks something every two seconds whether it is there, on a thread of its own; it counts as away after six seconds without an answer. */
+import io.furrow.kafka.PartStatus;
+
+/**
+ * Probes a service every two seconds on a thread of its own; the service counts as unavailable after six seconds
+ * without an answer.
+ */
 public final class Probe implements AutoCloseable {
     private static final Duration INTERVAL = Duration.ofSeconds(2);
     private static final Duration TIMEOUT = Duration.ofSeconds(2);

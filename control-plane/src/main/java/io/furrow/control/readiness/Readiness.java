@@ -10,6 +10,8 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.kafka.PartStatus;
+
 /**
  * The parts of this control plane, and what they need. It is <b>alive</b> unless a part has ended that only a restart of the process
  * brings back; it is <b>ready</b> when all of its parts work. What it only speaks with, a context broker for instance, is shown, and
@@ -42,7 +44,7 @@ public final class Readiness {
         parts.add(new Part(() -> List.of(status.get()), false));
     }
 
-    /** Sentences about what needs somebody though all works; everybody may read them, so they tell nothing of the farm. */
+    /** Sentences about what needs somebody though all works; everybody may read them, so they contain nothing about the farm. */
     public void warn(Supplier<List<String>> sentences) {
         warnings.add(sentences);
     }

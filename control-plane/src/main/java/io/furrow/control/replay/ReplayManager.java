@@ -5,66 +5,110 @@ import java.util.UUID;
 import java.util.function.BiFunction;
 import java.util.function.Supplier;
 
+import org.apache.kafka.common.serialization.Serdes;
 import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.kstream.Consumed;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
-import io.furrow.control.manager.AnswerRequests;
-import io.furrow.control.manager.AnsweredRequests;
-import io.furrow.control.manager.Desk;
-import io.furrow.control.manager.Inlet;
+import io.furrow.control.manager.CommandHandler;
+import io.furrow.control.manager.CommandProcessor;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
-import io.furrow.control.manager.Outbox;
-import io.furrow.control.manager.Outgoing;
-import io.furrow.control.manager.StoreRecords;
-import io.furrow.control.manager.TakeStatus;
+import io.furrow.control.manager.OutputRecord;
+import io.furrow.control.manager.RequestLog;
+import io.furrow.control.manager.StatusProcessor;
+import io.furrow.control.manager.record.GlobalStoreProcessor;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** Answers {@code service.replaymanager}, keeps {@code service.replays}, and reads {@code service.replays.status}. */
+/** Answers {@code service.replaymanager}, keeps {@code service.replays}, reads {@code service.replays.status} and {@code service.recordings}. */
 public final class ReplayManager {
     private static final String REPLAYS = "replays";
     private static final String SEQUENCE = "replay-sequence";
+    private static final String RECORDINGS = "recordings";
     private static final ManagerTopic<ReplayCommand> TOPIC = ManagerTopic.REPLAY;
+
+    private static final Logger LOG = LoggerFactory.getLogger(ReplayManager.class);
 
     private ReplayManager() {}
 
     /**
      * @param remembered how long ids of requests are
      * @param ids of new replays
+     * @param knowsRecordings whether missions that {@code service.recordings} does not list are refused
      */
-    public static void add(StreamsBuilder builder, Duration remembered, Supplier<UUID> ids) {
-        builder.addStateStore(StoreRecords.builder(REPLAYS));
-        builder.addStateStore(StoreRecords.builder(SEQUENCE));
-        builder.addStateStore(AnsweredRequests.builder(TOPIC.answers(), remembered));
-        BiFunction<ProcessorContext<?, ?>, Outbox, Desk<ReplayCommand>> opening =
-                (context, outbox) -> desk(context, outbox, ids)::answer;
-        BiFunction<ProcessorContext<?, ?>, Outbox, TakeStatus.Reports> reports = (context, outbox) -> {
-            ReplayDesk desk = desk(context, outbox, ids);
-            return (key, value, now) -> desk.reported(key, ReplayStatus.read(value));
+    public static void add(StreamsBuilder builder, Duration remembered, Supplier<UUID> ids, boolean knowsRecordings) {
+        builder.addGlobalStore(
+                StoredRecords.builder(RECORDINGS).withLoggingDisabled(),
+                Topics.RECORDINGS,
+                Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("recordings-in"),
+                () -> new GlobalStoreProcessor(RECORDINGS));
+        builder.addStateStore(StoredRecords.builder(REPLAYS));
+        builder.addStateStore(StoredRecords.builder(SEQUENCE));
+        builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<ReplayCommand>> opening =
+                (context, outbox) -> handler(context, outbox, ids, knowsRecordings)::answer;
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> reports = (context, outbox) -> {
+            ReplayCommandHandler handler = handler(context, outbox, ids, knowsRecordings);
+            return (key, value, now) -> handler.reported(key, ReplayStatus.read(value));
         };
 
-        Outgoing.send(
-                Inlet.requests(builder, TOPIC)
+        OutputRecord.send(
+                ManagerInput.requests(builder, TOPIC)
                         .process(
-                                () -> new AnswerRequests<>(TOPIC, remembered, opening),
+                                () -> new CommandProcessor<>(TOPIC, remembered, opening),
                                 Named.as("answer-replay-requests"),
                                 REPLAYS,
                                 SEQUENCE,
                                 TOPIC.answers()),
                 "replays-out");
 
-        Outgoing.send(
-                Inlet.statuses(builder, Topics.REPLAYS_STATUS, "replay-statuses")
-                        .process(() -> new TakeStatus(reports), Named.as("take-replay-statuses"), REPLAYS, SEQUENCE),
+        OutputRecord.send(
+                ManagerInput.statuses(builder, Topics.REPLAYS_STATUS, "replay-statuses")
+                        .process(
+                                () -> new StatusProcessor(reports),
+                                Named.as("take-replay-statuses"),
+                                REPLAYS,
+                                SEQUENCE),
                 "ended-replays-out");
     }
 
-    private static ReplayDesk desk(ProcessorContext<?, ?> context, Outbox outbox, Supplier<UUID> ids) {
-        return new ReplayDesk(
-                StoreRecords.of(context, REPLAYS, Replay.class),
-                StoreRecords.of(context, SEQUENCE, Long.class),
+    /** Null of what is no record of a mission. */
+    private static RecordedMission listed(byte[] value) {
+        try {
+            return RecordedMission.read(value);
+        } catch (UnreadableException e) {
+            LOG.debug("a record of {} cannot be read", Topics.RECORDINGS, e);
+            return null;
+        }
+    }
+
+    private static WantedReplay kept(byte[] value) {
+        try {
+            return WantedReplay.read(value);
+        } catch (UnreadableException e) {
+            throw new IllegalStateException("the manager kept a replay that it cannot read", e);
+        }
+    }
+
+    private static ReplayCommandHandler handler(
+            ProcessorContext<?, ?> context, EventPublisher outbox, Supplier<UUID> ids, boolean knowsRecordings) {
+        Records<RecordedMission> recordings =
+                StoredRecords.of(context, RECORDINGS, RecordedMission::toBytes, ReplayManager::listed);
+        return new ReplayCommandHandler(
+                StoredRecords.of(context, REPLAYS, WantedReplay::toBytes, ReplayManager::kept),
+                new RecordedMissions(knowsRecordings, recordings::get),
+                StoredRecords.of(context, SEQUENCE, Long.class),
                 ids,
                 outbox);
     }

@@ -1,2 +1,2 @@
-/** Replays: asked for, answered, handed on to whoever plays them back. */
+/** Replays: asked for, answered, forwarded to whoever plays them back. */
 package io.furrow.control.replay;

@@ -24,6 +24,9 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.alarm.Severity;
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -39,9 +42,9 @@ public final class AlarmsResource {
             .thenComparing(alarm -> alarm.path("raised").asLong(), Comparator.reverseOrder());
 
     private final ServiceView view;
-    private final Managers managers;
+    private final CommandClient managers;
 
-    AlarmsResource(ServiceView view, Managers managers) {
+    AlarmsResource(ServiceView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -55,7 +58,7 @@ public final class AlarmsResource {
     @GET
     public Response list(@QueryParam("state") List<String> states, @QueryParam("limit") List<String> limits) {
         AlarmState state = state(states);
-        return Replies.ok(view.all(Topics.ALARMS)
+        return JsonResponses.ok(view.all(Topics.ALARMS)
                 .filter(alarm ->
                         state == null || state.word().equals(alarm.path("state").textValue()))
                 .sorted(MOST_SEVERE_FIRST)
@@ -120,7 +123,8 @@ public final class AlarmsResource {
     }
 
     private CompletionStage<Response> ask(String command, ObjectNode members, ContainerRequestContext request) {
-        Managers.Question question = new Managers.Question(Topics.ALARM_MANAGER, command, members);
-        return managers.ask(question, Caller.of(request)).thenApply(answer -> Replies.of(answer, 200));
+        CommandClient.CommandRequest question =
+                new CommandClient.CommandRequest(Topics.ALARM_MANAGER, command, members);
+        return managers.ask(question, Caller.of(request)).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 }

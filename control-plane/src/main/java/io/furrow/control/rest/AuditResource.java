@@ -1,32 +1,101 @@
 package io.furrow.control.rest;
 
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.function.Predicate;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import jakarta.ws.rs.DefaultValue;
 import jakarta.ws.rs.GET;
 import jakarta.ws.rs.Path;
 import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.QueryParam;
+import jakarta.ws.rs.core.Context;
+import jakarta.ws.rs.core.Link;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
+import jakarta.ws.rs.core.UriInfo;
 
+import io.furrow.control.rest.view.AuditHistory;
+import io.furrow.control.rest.view.AuditedEntry;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 
-/** {@code /api/audit}. */
+/** {@code /api/audit}: the newest out of memory, older ones out of Kafka. */
 @Path("/api/audit")
 @Produces(MediaType.APPLICATION_JSON)
 public final class AuditResource {
     private final ServiceView view;
+    private final AuditHistory history;
 
-    AuditResource(ServiceView view) {
+    /** @param client settings of a Kafka client */
+    AuditResource(ServiceView view, Properties client) {
         this.view = view;
+        this.history = new AuditHistory(client);
     }
 
-    /** The newest first. @param limit 1 to {@value ServiceView#AUDITED} */
+    /**
+     * The newest first. Where there may be older ones, {@code Link} with {@code rel="next"} leads to them.
+     *
+     * @param limit 1 to {@value ServiceView#AUDITED}
+     * @param before only what has a lower position; null for the newest
+     * @param device only commands about it; null for all
+     * @param mission only commands about it; null for all
+     */
     @GET
-    public Response newest(@QueryParam("limit") @DefaultValue("100") String limit) {
+    public Response newest(
+            @Context UriInfo uri,
+            @QueryParam("limit") @DefaultValue("100") String limit,
+            @QueryParam("before") String before,
+            @QueryParam("device") String device,
+            @QueryParam("mission") String mission) {
         if (!limit.matches("[1-9][0-9]{0,3}") || Integer.parseInt(limit) > ServiceView.AUDITED) {
             throw new ProblemException(
                     ErrorCode.WRONG_MEMBER, "'limit' must be a whole number from 1 to " + ServiceView.AUDITED);
         }
-        return Replies.ok(view.newestAudited(Integer.parseInt(limit)));
+        if (before != null && !before.matches("[0-9]{1,18}")) {
+            throw new ProblemException(
+                    ErrorCode.WRONG_MEMBER, "'before' must be the position of an entry, a whole number from 0");
+        }
+        Predicate<AuditedEntry> wanted = entry -> entry.isAbout("device", device) && entry.isAbout("mission", mission);
+        AuditHistory.Page page =
+                page(before == null ? Long.MAX_VALUE : Long.parseLong(before), Integer.parseInt(limit), wanted);
+        ArrayNode entries = JsonNodeFactory.instance.arrayNode();
+        page.entries().forEach(each -> entries.add(each.json()));
+        Response.ResponseBuilder answer = JsonResponses.json(200, entries);
+        if (page.next() >= 0) {
+            answer.header("Link", next(uri, page.next()));
+        }
+        return answer.build();
+    }
+
+    private AuditHistory.Page page(long before, int limit, Predicate<AuditedEntry> wanted) {
+        ServiceView.AuditPage held = view.audited(before);
+        if (held.entries().isEmpty() && !held.isWhole()) {
+            return history.read(before, limit, wanted);
+        }
+        List<AuditedEntry> found = new ArrayList<>();
+        long next = -1;
+        for (AuditedEntry entry : held.entries()) {
+            if (found.size() == limit) {
+                return new AuditHistory.Page(found, next);
+            }
+            next = entry.position();
+            if (wanted.test(entry)) {
+                found.add(entry);
+            }
+        }
+        return new AuditHistory.Page(found, held.isWhole() ? -1 : next);
+    }
+
+    /** Without a host: a proxy may stand in front. */
+    private static Link next(UriInfo uri, long before) {
+        String query = uri.getRequestUriBuilder()
+                .replaceQueryParam("before", before)
+                .build()
+                .getRawQuery();
+        return Link.fromUri("/api/audit?" + query).rel("next").build();
     }
 }

@@ -24,7 +24,7 @@ final class Body {
 
     /** An empty body is an empty object. @throws ProblemException where it is no object, or too large */
     static ObjectNode read(InputStream body) throws IOException {
-        byte[] bytes = readAll(body);
+        byte[] bytes = bytes(body, Limits.REQUEST_BYTES);
         if (bytes.length == 0) {
             return JsonNodeFactory.instance.objectNode();
         }
@@ -39,15 +39,17 @@ final class Body {
         throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is no JSON object");
     }
 
-    /** In time, because whoever sends slowly occupies a thread. What is too large is read, or many a client would see no answer. */
-    private static byte[] readAll(InputStream body) throws IOException {
+    /** At most so many. In time, because whoever sends slowly occupies a thread. What is too large is read, or many a client would see no answer. */
+    static byte[] bytes(InputStream body, long most) throws IOException {
         long end = System.nanoTime() + TIMEOUT.toNanos();
         ByteArrayOutputStream kept = new ByteArrayOutputStream();
         byte[] buffer = new byte[BUFFER_BYTES];
         long total = 0;
-        for (int count = body.read(buffer); count >= 0 && total <= MAX_SKIPPED; count = body.read(buffer)) {
+        for (int count = body.read(buffer);
+                count >= 0 && total <= Math.max(most, MAX_SKIPPED);
+                count = body.read(buffer)) {
             total += count;
-            if (total <= Limits.REQUEST_BYTES) {
+            if (total <= most) {
                 kept.write(buffer, 0, count);
             }
             if (System.nanoTime() - end > 0) {
@@ -55,7 +57,7 @@ final class Body {
                         408, "request-timeout", "the body did not come within %d s".formatted(TIMEOUT.toSeconds()));
             }
         }
-        if (total > Limits.REQUEST_BYTES) {
+        if (total > most) {
             throw ProblemException.tooLarge(-1);
         }
         return kept.toByteArray();

@@ -26,36 +26,40 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.DeviceCommands;
-import io.furrow.model.control.DeviceGroup;
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.Role;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/devices}: what is wanted of them, what they are, how they are, and commands to them. */
+/** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
 @Path("/api/devices")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class DevicesResource {
     private static final String DEVICE = "device";
     private static final String GENERATION = "generation";
-    private static final int LONGEST_AUDITED = 200;
+    private static final int MAX_AUDITED_LENGTH = 200;
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
 
     private final ServiceView view;
-    private final Managers managers;
+    private final CommandClient managers;
     private final Means means;
 
     /**
      * What devices are reached by.
      *
-     * @param commands null where none go to devices
-     * @param secret null where no credentials are given out
+     * @param commands null if none go to devices
+     * @param secret null if no credentials are given out
      */
     record Means(FiwareScope scope, DeviceCommands commands, Supplier<FarmSecret> secret) {}
 
-    DevicesResource(ServiceView view, Managers managers, Means means) {
+    DevicesResource(ServiceView view, CommandClient managers, Means means) {
         this.view = view;
         this.managers = managers;
         this.means = means;
@@ -64,7 +68,7 @@ public final class DevicesResource {
     /** @param mission null for all @param domain null for all */
     @GET
     public Response list(@QueryParam("mission") String mission, @QueryParam("domain") String domain) {
-        return Replies.ok(view.entries(Topics.DEVICES)
+        return JsonResponses.ok(view.entries(Topics.DEVICES)
                 .filter(each -> is(each.value(), "mission", mission) && is(each.value(), "domain", domain))
                 .map(each -> described(each.key(), each.value())));
     }
@@ -77,7 +81,7 @@ public final class DevicesResource {
     @GET
     @Path("{device}")
     public Response get(@PathParam(DEVICE) String id) {
-        return Replies.ok(withSettings(described(means.scope().identity(id), find(id))));
+        return JsonResponses.ok(withSettings(described(means.scope().identity(id), find(id))));
     }
 
     @GET
@@ -101,10 +105,10 @@ public final class DevicesResource {
         ObjectNode device = provisioned(id);
         ObjectNode members = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
         return managers.ask(
-                        new Managers.Question(Topics.MISSION_MANAGER, "rotate-credentials", members),
+                        new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", members),
                         Caller.of(request))
                 .thenApply(answer -> answer.error().isPresent()
-                        ? Replies.of(answer, 0)
+                        ? JsonResponses.of(answer, 0)
                         : credentials(device, answer.json().path(GENERATION).asInt()));
     }
 
@@ -112,7 +116,7 @@ public final class DevicesResource {
         String mission = device.path("mission").asText();
         FarmSecret secret = means.secret().get();
         FarmSecret.Login login = secret.device(mission, device.path(DEVICE).textValue(), generation);
-        return Replies.json(
+        return JsonResponses.json(
                         200,
                         JsonNodeFactory.instance
                                 .objectNode()
@@ -125,7 +129,7 @@ public final class DevicesResource {
                 .build();
     }
 
-    /** A device that has credentials, which can be told here. */
+    /** A device that has credentials, which can be shown here. */
     private ObjectNode provisioned(String id) {
         ObjectNode device = find(id);
         if (device.path(DEVICE).textValue() == null) {
@@ -154,7 +158,7 @@ public final class DevicesResource {
         check(members, command, type);
         ObjectNode about = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
         if (!value.isEmpty()) {
-            about.put("value", value.substring(0, Math.min(value.length(), LONGEST_AUDITED)));
+            about.put("value", value.substring(0, Math.min(value.length(), MAX_AUDITED_LENGTH)));
         }
         if (means.commands() == null) {
             throw new ProblemException(
@@ -171,8 +175,9 @@ public final class DevicesResource {
     private Response answer(Throwable failure, Commanded commanded) {
         if (failure == null) {
             audit(commanded.user(), commanded.command(), commanded.about(), null);
-            ObjectNode answer = io.furrow.model.control.Response.of("sent").json();
-            return Replies.json(202, answer.put(DEVICE, commanded.device()).put("command", commanded.command()))
+            ObjectNode answer = io.furrow.model.control.CommandResult.of("sent").json();
+            return JsonResponses.json(
+                            202, answer.put(DEVICE, commanded.device()).put("command", commanded.command()))
                     .build();
         }
         Throwable cause = failure instanceof CompletionException ? failure.getCause() : failure;

@@ -21,6 +21,10 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.Role;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -32,29 +36,29 @@ public final class DomainsResource {
     private static final String DOMAIN = "domain";
 
     private final ServiceView view;
-    private final Managers managers;
+    private final CommandClient managers;
 
-    DomainsResource(ServiceView view, Managers managers) {
+    DomainsResource(ServiceView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
 
     @GET
     public Response list() {
-        return Replies.ok(view.all(Topics.DOMAINS));
+        return JsonResponses.ok(view.all(Topics.DOMAINS));
     }
 
     @POST
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return ask("create", Body.read(body), request)
-                .thenApply(answer -> Replies.created(answer, "/api/domains", DOMAIN));
+                .thenApply(answer -> JsonResponses.created(answer, "/api/domains", DOMAIN));
     }
 
     @GET
     @Path("{domain}")
     public Response get(@PathParam(DOMAIN) String domain) {
-        return Replies.ok(view.find(Topics.DOMAINS, domain)
+        return JsonResponses.ok(view.find(Topics.DOMAINS, domain)
                 .orElseThrow(() ->
                         new ProblemException(ErrorCode.UNKNOWN_DOMAIN, "there is no domain '%s'".formatted(domain))));
     }
@@ -64,7 +68,8 @@ public final class DomainsResource {
     public CompletionStage<Response> change(
             @Context ContainerRequestContext request, @PathParam(DOMAIN) String domain, InputStream body)
             throws IOException {
-        return ask("change", Body.read(body).put(DOMAIN, domain), request).thenApply(answer -> Replies.of(answer, 200));
+        return ask("change", Body.read(body).put(DOMAIN, domain), request)
+                .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     /** @param force whether missions that run in it are stopped */
@@ -77,11 +82,12 @@ public final class DomainsResource {
             @QueryParam("force") boolean force) {
         ObjectNode members = JsonNodeFactory.instance.objectNode();
         return ask("delete", members.put(DOMAIN, domain).put("force", force), request)
-                .thenApply(answer -> Replies.of(answer, 200));
+                .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
-    private CompletionStage<io.furrow.model.control.Response> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> ask(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(new Managers.Question(Topics.DOMAIN_MANAGER, command, members), Caller.of(request));
+        return managers.ask(
+                new CommandClient.CommandRequest(Topics.DOMAIN_MANAGER, command, members), Caller.of(request));
     }
 }

@@ -21,6 +21,9 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.MissionDeviceList;
 import io.furrow.model.topic.Topics;
@@ -34,9 +37,9 @@ public final class MissionsResource {
     private static final String DEVICES = "devices";
 
     private final ServiceView view;
-    private final Managers managers;
+    private final CommandClient managers;
 
-    MissionsResource(ServiceView view, Managers managers) {
+    MissionsResource(ServiceView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -44,7 +47,7 @@ public final class MissionsResource {
     /** Without their devices. @param domain null for all */
     @GET
     public Response list(@QueryParam("domain") String domain) {
-        return Replies.ok(view.all(Topics.MISSIONS)
+        return JsonResponses.ok(view.all(Topics.MISSIONS)
                 .filter(mission ->
                         domain == null || domain.equals(mission.path("domain").textValue()))
                 .map(mission -> withStatus(mission).without(List.of(DEVICES, "parts"))));
@@ -54,13 +57,13 @@ public final class MissionsResource {
     public CompletionStage<Response> create(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return ask("create", Body.read(body), request)
-                .thenApply(answer -> Replies.created(answer, "/api/missions", MISSION));
+                .thenApply(answer -> JsonResponses.created(answer, "/api/missions", MISSION));
     }
 
     @GET
     @Path("{mission}")
     public Response get(@PathParam(MISSION) String mission) {
-        return Replies.ok(withDevices(withStatus(view.find(Topics.MISSIONS, mission)
+        return JsonResponses.ok(withDevices(withStatus(view.find(Topics.MISSIONS, mission)
                 .orElseThrow(() -> new ProblemException(
                         ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission))))));
     }
@@ -72,34 +75,34 @@ public final class MissionsResource {
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
         return ask("add-devices", Body.read(body).put(MISSION, mission), request)
-                .thenApply(answer -> Replies.of(answer, 200));
+                .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     @DELETE
     @Path("{mission}")
     public CompletionStage<Response> delete(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return ask("delete", named(mission), request).thenApply(answer -> Replies.of(answer, 200));
+        return ask("delete", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
-    /** Makes it where there is none. */
+    /** Makes it if there is none. */
     @POST
     @Path("{mission}/start")
     public CompletionStage<Response> start(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission, InputStream body)
             throws IOException {
         return ask("start", Body.read(body).put(MISSION, mission), request)
-                .thenApply(answer -> Replies.of(answer, 200));
+                .thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     @POST
     @Path("{mission}/stop")
     public CompletionStage<Response> stop(
             @Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
-        return ask("stop", named(mission), request).thenApply(answer -> Replies.of(answer, 200));
+        return ask("stop", named(mission), request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
-    /** The mission as it is wanted, and how far it is. */
+    /** The mission as it is requested, and how far it is. */
     private ObjectNode withStatus(ObjectNode wanted) {
         view.find(Topics.MISSIONS_STATUS, wanted.path(MISSION).asText())
                 .ifPresent(status -> wanted.set("status", status));
@@ -124,8 +127,9 @@ public final class MissionsResource {
         return JsonNodeFactory.instance.objectNode().put(MISSION, mission);
     }
 
-    private CompletionStage<io.furrow.model.control.Response> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> ask(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(new Managers.Question(Topics.MISSION_MANAGER, command, members), Caller.of(request));
+        return managers.ask(
+                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), Caller.of(request));
     }
 }

@@ -1,23 +1,24 @@
 package io.furrow.control.rest;
 
+import io.furrow.control.rest.access.Caller;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 
 /** A request that is answered with an error; the message is its {@code reason}. */
-final class ProblemException extends RuntimeException {
+public final class ProblemException extends RuntimeException {
     private static final long serialVersionUID = 1L;
 
     private final int status;
     private final String error;
 
     /** @param status of HTTP @param error the code in the answer */
-    ProblemException(int status, String error, String reason) {
+    public ProblemException(int status, String error, String reason) {
         super(reason);
         this.status = status;
         this.error = error;
     }
 
-    ProblemException(ErrorCode code, String reason) {
+    public ProblemException(ErrorCode code, String reason) {
         this(statusOf(code.code()), code.code(), reason);
     }
 
@@ -36,26 +37,26 @@ final class ProblemException extends RuntimeException {
         };
     }
 
-    static ProblemException overloaded() {
+    public static ProblemException overloaded() {
         return new ProblemException(
                 ErrorCode.OVERLOADED, "too many requests wait to be carried out; ask again in a moment");
     }
 
-    static ProblemException keyReused() {
+    public static ProblemException keyReused() {
         return new ProblemException(
                 ErrorCode.REQUEST_ID_REUSED,
                 "the header %s was given to another request, or by somebody else; give each request its own"
                         .formatted(Caller.KEY));
     }
 
-    static ProblemException tooLarge(long bytes) {
+    public static ProblemException tooLarge(long bytes) {
         return new ProblemException(
                 ErrorCode.TOO_LARGE,
                 "the request has %s bytes, and may have %d; send a long list of devices in several requests"
                         .formatted(bytes < 0 ? "more" : Long.toString(bytes), Limits.REQUEST_BYTES));
     }
 
-    static ProblemException notReady() {
+    public static ProblemException notReady() {
         return new ProblemException(
                 503, "not-ready", "the control plane has not read its topics yet; ask again in a moment");
     }

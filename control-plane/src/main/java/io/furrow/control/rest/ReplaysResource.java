@@ -18,75 +18,105 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
-import io.furrow.model.control.ErrorCode;
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.ReplayView;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/replays}. */
+/** {@code /api/replays}, and {@code /api/replays/groups} of those that follow one clock. */
 @Path("/api/replays")
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class ReplaysResource {
-    private static final String REPLAY = "replay";
+    private static final String REPLAY = ReplayView.REPLAY;
+    private static final String GROUP = ReplayView.GROUP;
+    private static final String COMMANDS = "/{command: pause|resume|seek|speed|step|loop}";
 
-    private final ServiceView view;
-    private final Managers managers;
+    private final ReplayView replays;
+    private final CommandClient managers;
 
-    ReplaysResource(ServiceView view, Managers managers) {
-        this.view = view;
+    ReplaysResource(ReplayView replays, CommandClient managers) {
+        this.replays = replays;
         this.managers = managers;
     }
 
     @GET
     public Response list() {
-        return Replies.ok(view.all(Topics.REPLAYS).map(this::withStatus));
+        return JsonResponses.ok(replays.all());
     }
 
     @POST
     public CompletionStage<Response> start(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return ask("start", Body.read(body), request)
-                .thenApply(answer -> Replies.created(answer, "/api/replays", REPLAY));
+                .thenApply(answer -> answer.json().has(GROUP)
+                        ? JsonResponses.created(answer, "/api/replays/groups", GROUP)
+                        : JsonResponses.created(answer, "/api/replays", REPLAY));
     }
 
     @GET
     @Path("{replay}")
     public Response get(@PathParam(REPLAY) String replay) {
-        return Replies.ok(withStatus(view.find(Topics.REPLAYS, replay)
-                .orElseThrow(() -> new ProblemException(
-                        ErrorCode.UNKNOWN_REPLAY, "there is no replay '%s', or it is over".formatted(replay)))));
+        return JsonResponses.ok(replays.get(replay));
     }
 
     @DELETE
     @Path("{replay}")
     public CompletionStage<Response> stop(@Context ContainerRequestContext request, @PathParam(REPLAY) String replay) {
-        return steer("stop", replay, JsonNodeFactory.instance.objectNode(), request);
+        return steer("stop", none().put(REPLAY, replay), request);
     }
 
-    /** @param command {@code to} belongs to {@code seek}, {@code speed} to {@code speed}, {@code count} to {@code step} */
+    /**
+     * @param command {@code to} belongs to {@code seek}, {@code speed} to {@code speed}, {@code count} to {@code step}, {@code from} and
+     *     {@code to} to {@code loop}
+     */
     @POST
-    @Path("{replay}/{command: pause|resume|seek|speed|step}")
+    @Path("{replay}" + COMMANDS)
     public CompletionStage<Response> steer(
             @Context ContainerRequestContext request,
             @PathParam(REPLAY) String replay,
             @PathParam("command") String command,
             InputStream body)
             throws IOException {
-        return steer(command, replay, Body.read(body), request);
+        return steer(command, Body.read(body).put(REPLAY, replay), request);
     }
 
-    private CompletionStage<Response> steer(
-            String command, String replay, ObjectNode members, ContainerRequestContext request) {
-        return ask(command, members.put(REPLAY, replay), request).thenApply(answer -> Replies.of(answer, 200));
+    @GET
+    @Path("groups/{group}")
+    public Response group(@PathParam(GROUP) String group) {
+        return JsonResponses.ok(replays.group(group).stream());
     }
 
-    private ObjectNode withStatus(ObjectNode wanted) {
-        view.find(Topics.REPLAYS_STATUS, wanted.path(REPLAY).asText())
-                .ifPresent(status -> wanted.set("status", status));
-        return wanted;
+    @DELETE
+    @Path("groups/{group}")
+    public CompletionStage<Response> stopGroup(
+            @Context ContainerRequestContext request, @PathParam(GROUP) String group) {
+        return steer("stop", none().put(GROUP, group), request);
     }
 
-    private CompletionStage<io.furrow.model.control.Response> ask(
+    /** @param command as of a single replay, but no {@code step} */
+    @POST
+    @Path("groups/{group}" + COMMANDS)
+    public CompletionStage<Response> steerGroup(
+            @Context ContainerRequestContext request,
+            @PathParam(GROUP) String group,
+            @PathParam("command") String command,
+            InputStream body)
+            throws IOException {
+        return steer(command, Body.read(body).put(GROUP, group), request);
+    }
+
+    private CompletionStage<Response> steer(String command, ObjectNode members, ContainerRequestContext request) {
+        return ask(command, members, request).thenApply(answer -> JsonResponses.of(answer, 200));
+    }
+
+    private static ObjectNode none() {
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private CompletionStage<io.furrow.model.control.CommandResult> ask(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(new Managers.Question(Topics.REPLAY_MANAGER, command, members), Caller.of(request));
+        return managers.ask(
+                new CommandClient.CommandRequest(Topics.REPLAY_MANAGER, command, members), Caller.of(request));
     }
 }

@@ -32,6 +32,19 @@ import io.furrow.control.ControlSettings;
 import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.access.ApiAccess;
+import io.furrow.control.rest.access.BearerTokens;
+import io.furrow.control.rest.access.RoleFilter;
+import io.furrow.control.rest.access.TlsListener;
+import io.furrow.control.rest.access.Warnings;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.EventTiles;
+import io.furrow.control.rest.view.MarkerStore;
+import io.furrow.control.rest.view.PendingReplies;
+import io.furrow.control.rest.view.ReplayFeeds;
+import io.furrow.control.rest.view.ReplayView;
+import io.furrow.control.rest.view.ServiceReader;
+import io.furrow.control.rest.view.ServiceView;
 
 /**
  * The REST API of the control plane. It shares nothing with the managers but their topics, so any number of instances, beside
@@ -44,17 +57,25 @@ public final class RestApi implements AutoCloseable {
 
     private final QueuedThreadPool threads = new QueuedThreadPool(THREADS);
     private final ServiceView view = new ServiceView();
-    private final Answers answers = new Answers();
+    private final PendingReplies answers = new PendingReplies();
     private final Server server = new Server(threads);
     private final RestMetrics metrics = new RestMetrics(view, answers);
     private final ServiceReader reader;
-    private final Managers managers;
+    private final CommandClient managers;
+    private final ReplayView replays = new ReplayView(view);
+    private final ReplayFeeds feeds = new ReplayFeeds(replays);
+    private final MarkerStore markers;
+    /** Null if there is no MongoDB. */
+    private final EventTiles events;
 
     private RestApi(ControlSettings control, RestSettings rest) {
         // A manager may remember an id by a twelfth longer than was asked for.
         reader = new ServiceReader(
                 control.client(), control.remembered().multipliedBy(13).dividedBy(12), view, answers);
-        managers = new Managers(control.client(), answers, view, rest.patience(), threads);
+        managers = new CommandClient(control.client(), answers, view, rest.timeout(), threads);
+        markers = new MarkerStore(control.replays(), threads);
+        events = EventTiles.of(control.replays());
+        view.listen(feeds);
     }
 
     /**
@@ -111,14 +132,19 @@ public final class RestApi implements AutoCloseable {
                 new MissionsResource(view, managers),
                 new TemplatesResource(view, managers),
                 new DevicesResource(view, managers, means),
-                new ReplaysResource(view, managers),
+                new ReplaysResource(replays, managers),
+                new ReplayFeedResource(feeds),
+                new RecordingsResource(view, events, threads),
+                new MarkersResource(markers, managers),
                 new AlarmsResource(view, managers),
-                new AuditResource(view),
-                new ServicePages(readiness, metrics));
+                new FieldsResource(control.client(), managers),
+                new AuditResource(view, control.client()),
+                new CallerResource(),
+                new HealthResource(readiness, metrics));
         resources.forEach(resource -> config.register(resource.getClass()));
         config.register(new Instances(resources));
         config.register(metrics);
-        config.register(new Failures());
+        config.register(new JsonExceptionMapper());
         if (tokens != null) {
             config.register(tokens);
             config.register(RoleFilter.class);
@@ -200,12 +226,17 @@ public final class RestApi implements AutoCloseable {
 
     @Override
     public void close() {
+        feeds.close();
         try {
             server.stop();
         } catch (Exception e) { // Jetty declares no narrower type
             LOG.warn("the REST API did not stop in order", e);
         }
         reader.close();
+        markers.close();
+        if (events != null) {
+            events.close();
+        }
         managers.close();
     }
 }

@@ -24,6 +24,8 @@ import jakarta.ws.rs.container.PreMatching;
 import org.glassfish.jersey.server.ExtendedUriInfo;
 import org.glassfish.jersey.uri.UriTemplate;
 
+import io.furrow.control.rest.view.PendingReplies;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.topic.Topics;
 
 /** Counts requests, and writes that and what the view holds in the text format of Prometheus. */
@@ -36,7 +38,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
     private static final String STATE = "state";
 
     private final ServiceView view;
-    private final Answers answers;
+    private final PendingReplies answers;
     private final Map<Route, Count> counts = new ConcurrentHashMap<>();
     private final PrometheusTextFormatWriter writer =
             PrometheusTextFormatWriter.builder().build();
@@ -45,7 +47,7 @@ final class RestMetrics implements ContainerRequestFilter, ContainerResponseFilt
 
     private record Count(LongAdder requests, LongAdder nanos) {}
 
-    RestMetrics(ServiceView view, Answers answers) {
+    RestMetrics(ServiceView view, PendingReplies answers) {
         this.view = view;
         this.answers = answers;
     }

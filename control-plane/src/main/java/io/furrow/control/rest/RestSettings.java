@@ -7,8 +7,9 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.Objects;
 
-import io.furrow.control.secret.SecretSource;
+import io.furrow.control.rest.access.CertificateFiles;
 import io.furrow.http.AllowedNames;
+import io.furrow.kafka.secret.SecretSource;
 
 /**
  * What the REST API is started with.
@@ -16,18 +17,18 @@ import io.furrow.http.AllowedNames;
  * @param host address to listen on; another than a loopback address needs {@code tokens}, and {@code certificate} or {@code
  *     insecure}
  * @param port 0 for a free one
- * @param patience how long a request to a manager waits for its answer before it is told to repeat
- * @param tokens file of lines {@code <name> <token> <role>}; null where no token is asked for
+ * @param timeout how long a request to a manager waits for its answer before the client is asked to repeat
+ * @param tokens file of lines {@code <name> <token> <role>}; null if no token is asked for
  * @param certificate of TLS; null for plain HTTP
  * @param insecure whether other addresses may be reached over plain HTTP, because a proxy in front ends TLS
- * @param contextBroker through which commands go to devices; null where none do
- * @param secret of which the devices' credentials are made; null where they are not given out
+ * @param contextBroker through which commands go to devices; null if none do
+ * @param secret of which the devices' credentials are made; null if they are not given out
  * @param allowed hosts and origins beside loopback and {@code host}, whether tokens are asked for or not
  */
 public record RestSettings(
         String host,
         int port,
-        Duration patience,
+        Duration timeout,
         Path tokens,
         CertificateFiles certificate,
         boolean insecure,
@@ -36,7 +37,7 @@ public record RestSettings(
         AllowedNames allowed) {
     public RestSettings {
         Objects.requireNonNull(host);
-        Objects.requireNonNull(patience);
+        Objects.requireNonNull(timeout);
         Objects.requireNonNull(allowed);
     }
 
@@ -47,36 +48,36 @@ public record RestSettings(
     }
 
     public RestSettings withHost(String newHost) {
-        return new RestSettings(newHost, port, patience, tokens, certificate, insecure, contextBroker, secret, allowed);
+        return new RestSettings(newHost, port, timeout, tokens, certificate, insecure, contextBroker, secret, allowed);
     }
 
-    public RestSettings withPatience(Duration newPatience) {
-        return new RestSettings(host, port, newPatience, tokens, certificate, insecure, contextBroker, secret, allowed);
+    public RestSettings withTimeout(Duration newTimeout) {
+        return new RestSettings(host, port, newTimeout, tokens, certificate, insecure, contextBroker, secret, allowed);
     }
 
     public RestSettings withTokens(Path file) {
-        return new RestSettings(host, port, patience, file, certificate, insecure, contextBroker, secret, allowed);
+        return new RestSettings(host, port, timeout, file, certificate, insecure, contextBroker, secret, allowed);
     }
 
     /** @param files null for plain HTTP */
     public RestSettings withCertificate(CertificateFiles files) {
-        return new RestSettings(host, port, patience, tokens, files, insecure, contextBroker, secret, allowed);
+        return new RestSettings(host, port, timeout, tokens, files, insecure, contextBroker, secret, allowed);
     }
 
     public RestSettings withInsecure(boolean proxied) {
-        return new RestSettings(host, port, patience, tokens, certificate, proxied, contextBroker, secret, allowed);
+        return new RestSettings(host, port, timeout, tokens, certificate, proxied, contextBroker, secret, allowed);
     }
 
     public RestSettings withContextBroker(URI uri) {
-        return new RestSettings(host, port, patience, tokens, certificate, insecure, uri, secret, allowed);
+        return new RestSettings(host, port, timeout, tokens, certificate, insecure, uri, secret, allowed);
     }
 
     public RestSettings withSecret(SecretSource newSecret) {
-        return new RestSettings(host, port, patience, tokens, certificate, insecure, contextBroker, newSecret, allowed);
+        return new RestSettings(host, port, timeout, tokens, certificate, insecure, contextBroker, newSecret, allowed);
     }
 
     public RestSettings withAllowed(AllowedNames names) {
-        return new RestSettings(host, port, patience, tokens, certificate, insecure, contextBroker, secret, names);
+        return new RestSettings(host, port, timeout, tokens, certificate, insecure, contextBroker, secret, names);
     }
 
     /** @throws IOException where it would listen with less than its address needs; the message says what to do */
@@ -86,7 +87,7 @@ public record RestSettings(
         }
         if (tokens == null) {
             throw new IOException(
-                    "The REST API listens on %s only with tokens: whoever reaches it commands the farm. Name a file of lines '<name> <token> <role>' (--api-tokens), or listen on 127.0.0.1."
+                    "The REST API listens on %s only with tokens: anyone who reaches it controls the farm. Name a file of lines '<name> <token> <role>' (--api-tokens), or listen on 127.0.0.1."
                             .formatted(host));
         }
         if (certificate == null && !insecure) {

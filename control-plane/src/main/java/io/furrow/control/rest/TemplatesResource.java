@@ -23,6 +23,10 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.Role;
+import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.topic.Topics;
 
@@ -36,9 +40,9 @@ public final class TemplatesResource {
     private static final Pattern NAME = Pattern.compile("([^@]+)(?:@([1-9][0-9]{0,8}))?");
 
     private final ServiceView view;
-    private final Managers managers;
+    private final CommandClient managers;
 
-    TemplatesResource(ServiceView view, Managers managers) {
+    TemplatesResource(ServiceView view, CommandClient managers) {
         this.view = view;
         this.managers = managers;
     }
@@ -46,7 +50,7 @@ public final class TemplatesResource {
     /** All versions. */
     @GET
     public Response list() {
-        return Replies.ok(view.all(Topics.TEMPLATES));
+        return JsonResponses.ok(view.all(Topics.TEMPLATES));
     }
 
     /** Keeps the next version. */
@@ -54,7 +58,7 @@ public final class TemplatesResource {
     public CompletionStage<Response> save(@Context ContainerRequestContext request, InputStream body)
             throws IOException {
         return ask("save-template", Body.read(body), request)
-                .thenApply(answer -> Replies.created(answer, "/api/templates", TEMPLATE));
+                .thenApply(answer -> JsonResponses.created(answer, "/api/templates", TEMPLATE));
     }
 
     /** @param name {@code <name>} for the newest, or {@code <name>@<version>} */
@@ -66,7 +70,7 @@ public final class TemplatesResource {
                 : view.all(Topics.TEMPLATES)
                         .filter(each -> name.equals(each.path(TEMPLATE).textValue()))
                         .max(Comparator.comparingInt(each -> each.path(VERSION).asInt()));
-        return Replies.ok(template.orElseThrow(() -> unknown(name)));
+        return JsonResponses.ok(template.orElseThrow(() -> unknown(name)));
     }
 
     /** @param name {@code <name>} for all versions, or {@code <name>@<version>} */
@@ -83,15 +87,16 @@ public final class TemplatesResource {
         if (parts.group(2) != null) {
             members.put(VERSION, Integer.parseInt(parts.group(2)));
         }
-        return ask("delete-template", members, request).thenApply(answer -> Replies.of(answer, 200));
+        return ask("delete-template", members, request).thenApply(answer -> JsonResponses.of(answer, 200));
     }
 
     private static ProblemException unknown(String name) {
         return new ProblemException(ErrorCode.UNKNOWN_TEMPLATE, "there is no template '%s'".formatted(name));
     }
 
-    private CompletionStage<io.furrow.model.control.Response> ask(
+    private CompletionStage<io.furrow.model.control.CommandResult> ask(
             String command, ObjectNode members, ContainerRequestContext request) {
-        return managers.ask(new Managers.Question(Topics.MISSION_MANAGER, command, members), Caller.of(request));
+        return managers.ask(
+                new CommandClient.CommandRequest(Topics.MISSION_MANAGER, command, members), Caller.of(request));
     }
 }

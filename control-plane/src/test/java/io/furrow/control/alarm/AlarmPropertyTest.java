@@ -14,8 +14,8 @@ import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
-import io.furrow.control.manager.Sequence;
 import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.record.Sequence;
 import io.furrow.model.control.AlarmCommand;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.control.RefusedException;
@@ -54,7 +54,7 @@ class AlarmPropertyTest {
         private final KeptOutbox outbox = new KeptOutbox();
         private final MapRecords<AlarmLimit.Group> groups = MapRecords.of(AlarmLimit.Group.class);
         private final MapRecords<AlarmLimit.Counted> counted = MapRecords.of(AlarmLimit.Counted.class);
-        private final AlarmDesk desk = new AlarmDesk(
+        private final AlarmCommandHandler handler = new AlarmCommandHandler(
                 new AlarmRecords(alarms, current, mutes, groups, counted),
                 new Sequence(MapRecords.of(Long.class)),
                 outbox);
@@ -83,7 +83,7 @@ class AlarmPropertyTest {
                 checkLimits();
             }
             now += Duration.ofDays(2).toMillis();
-            desk.passTime(now);
+            handler.passTime(now);
             assertThat(mutes.all()).as(said).isEmpty();
             assertThat(counted.all()).as(said).allMatch(each -> each.until() == null);
             assertThat(alarms.all()).as(said).allMatch(alarm -> alarm.changed() == now || alarm.until() == null);
@@ -97,11 +97,11 @@ class AlarmPropertyTest {
                     AlarmKind kind = kind();
                     String subject = subject();
                     lasting.remove(Cause.key(kind, subject));
-                    desk.end(kind, subject, "it is over", now);
+                    handler.end(kind, subject, "it is over", now);
                 }
                 case 3 -> {
                     now += random.nextInt(60_000);
-                    desk.passTime(now);
+                    handler.passTime(now);
                 }
                 default -> ask();
             }
@@ -111,7 +111,7 @@ class AlarmPropertyTest {
             for (int i = 0; i < number; i++) {
                 Cause cause = cause(kind);
                 lasting.put(cause.key(), cause.holds() == null ? Long.MAX_VALUE : cause.until(now));
-                desk.raise(cause, now);
+                handler.raise(cause, now);
             }
             crowded += counted.all().size();
         }
@@ -120,7 +120,7 @@ class AlarmPropertyTest {
             int written = outbox.all().size();
             String content = content();
             try {
-                desk.answer(command(), now);
+                handler.answer(command(), now);
             } catch (RefusedException e) {
                 refused++;
                 assertThat(content()).as(said).isEqualTo(content);

@@ -67,7 +67,7 @@ class DeviceCommandsTest {
         assertThatThrownBy(() -> commands().send("urn:x", "Thermometer", "blink", ""))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining(
-                        "refused 'blink' for urn:x with 422: do not exist: urn:x/Thermometer - [ blink ]");
+                        "rejected 'blink' for urn:x with 422: do not exist: urn:x/Thermometer - [ blink ]");
     }
 
     @Test
@@ -77,7 +77,7 @@ class DeviceCommandsTest {
 
         assertThatThrownBy(() -> commands().send("urn:x", "Thermometer", "on", ""))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("knows no entity urn:x of type Thermometer")
+                .hasMessageContaining("has no entity urn:x of type Thermometer")
                 .hasMessageContaining("once it has reported");
     }
 
@@ -88,7 +88,7 @@ class DeviceCommandsTest {
 
         assertThatThrownBy(() -> commands.send("urn:x", "Thermometer", "on", ""))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("does not answer");
+                .hasMessageContaining("does not respond");
     }
 
     private DeviceCommands commands() {

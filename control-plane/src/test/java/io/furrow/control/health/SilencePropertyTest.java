@@ -15,8 +15,8 @@ import org.junit.jupiter.api.TestInfo;
 import org.junit.jupiter.api.TestReporter;
 
 import io.furrow.control.alarm.Alarm;
-import io.furrow.control.alarm.AlarmDesk;
-import io.furrow.control.alarm.AlarmDesks;
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmHandlers;
 import io.furrow.control.alarm.AlarmState;
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
@@ -57,12 +57,12 @@ class SilencePropertyTest {
         private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
         private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
         private final KeptOutbox outbox = new KeptOutbox();
-        private final AlarmDesk alarms = AlarmDesks.writingTo(outbox);
+        private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
         private final Set<String> talking = new HashSet<>();
         private final Map<AlarmKind, Integer> raised = new TreeMap<>();
         private final Random random;
         private final String said;
-        private HealthDesk desk = desk();
+        private DeviceHealthTracker tracker = tracker();
         private long now = 1_700_000_000_000L;
         private int refused;
 
@@ -99,7 +99,7 @@ class SilencePropertyTest {
                         want(device, "m" + random.nextInt(3));
                     }
                 }
-                default -> desk = desk();
+                default -> tracker = tracker();
             }
         }
 
@@ -128,12 +128,13 @@ class SilencePropertyTest {
             for (int second = 0; second < 300; second += 5) {
                 now += 5000;
                 if (second % 10 == 0) {
-                    talking.forEach(key -> desk.take(key, new Sign(id(key), "T", false, now, now, null, false), now));
+                    talking.forEach(
+                            key -> tracker.take(key, new Heartbeat(id(key), "T", false, now, now, null, false), now));
                     if (!talking.isEmpty()) {
-                        desk.take(Sign.PULSE_KEY, Sign.pulse(now), now);
+                        tracker.take(Heartbeat.PULSE_KEY, Heartbeat.pulse(now), now);
                     }
                 }
-                desk.passTime(now);
+                tracker.passTime(now);
                 alarms.passTime(now);
             }
         }
@@ -186,8 +187,8 @@ class SilencePropertyTest {
                     .toList();
         }
 
-        private HealthDesk desk() {
-            return new HealthDesk(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
+        private DeviceHealthTracker tracker() {
+            return new DeviceHealthTracker(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
         }
 
         private static String key(int number) {

@@ -6,6 +6,9 @@ import java.util.List;
 import org.apache.kafka.streams.processor.api.Record;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.control.manager.record.OversizedRecordException;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.Limits;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -13,8 +16,8 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class AtomicContextTest {
     private final TestStores stores = new TestStores(List.of("one", "two"));
-    private final Records<String> one = StoreRecords.of(stores.context(), "one", String.class);
-    private final Records<String> two = StoreRecords.of(stores.context(), "two", String.class);
+    private final Records<String> one = StoredRecords.of(stores.context(), "one", String.class);
+    private final Records<String> two = StoredRecords.of(stores.context(), "two", String.class);
 
     @Test
     void appliesAllThatWorkWrote() {
@@ -95,6 +98,6 @@ class AtomicContextTest {
     }
 
     private void send(String topic, String key, int bytes) {
-        stores.context().forward(new Record<>(key, new Outgoing(topic, new byte[bytes]), 0));
+        stores.context().forward(new Record<>(key, new OutputRecord(topic, new byte[bytes]), 0));
     }
 }

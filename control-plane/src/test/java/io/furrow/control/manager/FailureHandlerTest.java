@@ -22,7 +22,8 @@ import org.apache.kafka.streams.test.TestRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.Response;
+import io.furrow.control.manager.record.SourcePositionProcessor;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.topic.Topics;
 
@@ -72,7 +73,7 @@ class FailureHandlerTest {
 
         assertThat(read(Topics.dead(Topics.MISSION_MANAGER))).hasSize(1);
         List<TestRecord<String, byte[]>> answers = read(Topics.MISSION_MANAGER);
-        Response answer = Response.read(answers.get(0).value());
+        CommandResult answer = CommandResult.read(answers.get(0).value());
         assertThat(answer.error()).contains("internal-error");
         assertThat(answer.requestId()).contains("r-1");
         assertThat(answer.json().path("mission").asText()).isEqualTo("m");
@@ -90,7 +91,7 @@ class FailureHandlerTest {
         StreamsBuilder builder = new StreamsBuilder();
         KStream<String, byte[]> stream = builder.stream(topic, Consumed.with(Serdes.String(), Serdes.ByteArray()));
         if (repartitions) {
-            stream = Inlet.inLine(stream.process(NoteOrigin::new), "in-line");
+            stream = ManagerInput.toSinglePartition(stream.process(SourcePositionProcessor::new), "in-line");
         }
         stream.process(Failing::new).to("out", Produced.with(Serdes.String(), Serdes.ByteArray()));
         Properties settings = new Properties();

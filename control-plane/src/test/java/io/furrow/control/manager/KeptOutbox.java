@@ -6,7 +6,7 @@ import java.util.Map;
 import java.util.TreeMap;
 
 /** What was written: all of it, and what compaction leaves of it. */
-public final class KeptOutbox implements Outbox {
+public final class KeptOutbox implements EventPublisher {
     private final List<Written> all = new ArrayList<>();
     private final Map<String, Map<String, byte[]>> compacted = new TreeMap<>();
 

@@ -9,24 +9,27 @@ import org.apache.kafka.streams.processor.api.MockProcessorContext;
 import org.apache.kafka.streams.state.KeyValueIterator;
 import org.apache.kafka.streams.state.KeyValueStore;
 
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.StoredRecords;
+
 /** The stores of a processor without Kafka, written as managers write them: as a whole or not at all. */
 public final class TestStores {
     private final Map<String, KeyValueStore<String, byte[]>> stores = new LinkedHashMap<>();
-    private final MockProcessorContext<String, Outgoing> context = new MockProcessorContext<>();
+    private final MockProcessorContext<String, OutputRecord> context = new MockProcessorContext<>();
     private final AtomicContext atomic = new AtomicContext(context);
     private final KeptOutbox outbox = new KeptOutbox();
 
     public TestStores(List<String> names) {
         for (String name : names) {
             KeyValueStore<String, byte[]> store =
-                    StoreRecords.builder(name).withLoggingDisabled().build();
+                    StoredRecords.builder(name).withLoggingDisabled().build();
             store.init(context.getStateStoreContext(), store);
             context.addStateStore(store);
             stores.put(name, store);
         }
     }
 
-    /** For desks. */
+    /** For handlers. */
     public AtomicContext context() {
         return atomic;
     }

@@ -8,23 +8,23 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 
 import io.furrow.control.domain.Domain;
-import io.furrow.control.domain.DomainDesk;
+import io.furrow.control.domain.DomainCommandHandler;
 import io.furrow.control.domain.DomainManager;
-import io.furrow.control.manager.AnswerRequests;
+import io.furrow.control.manager.CommandProcessor;
 import io.furrow.control.manager.KeptOutbox;
-import io.furrow.control.manager.Records;
 import io.furrow.control.manager.StateJson;
-import io.furrow.control.manager.StoreRecords;
 import io.furrow.control.manager.TestStores;
-import io.furrow.model.control.DeviceGroup;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionDevices;
-import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.RefusedException;
-import io.furrow.model.control.Response;
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.device.WantedDevice;
@@ -38,20 +38,20 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** Domains and missions with the stores of their managers, without Kafka. */
 final class Farm {
-    static final long PATIENCE = 60_000;
+    static final long TIMEOUT = 60_000;
 
     private final TestStores stores = new TestStores(Stream.of(DomainManager.stores(), MissionManager.stores())
             .flatMap(List::stream)
             .toList());
 
     final KeptOutbox outbox = stores.outbox();
-    final Records<Domain> domains = StoreRecords.of(stores.context(), "domains", Domain.class);
-    final Records<Mission> missions = StoreRecords.of(stores.context(), "missions", Mission.class);
-    final Records<MissionStatus> statuses = StoreRecords.of(stores.context(), "mission-statuses", MissionStatus.class);
-    final Records<DeviceState> devices = StoreRecords.of(stores.context(), "devices", DeviceState.class);
-    final Records<Rollout> rollouts = StoreRecords.of(stores.context(), "mission-rollouts", Rollout.class);
-    final MissionDesk missionDesk;
-    final DomainDesk domainDesk;
+    final Records<Domain> domains = StoredRecords.of(stores.context(), "domains", Domain.class);
+    final Records<Mission> missions = StoredRecords.of(stores.context(), "missions", Mission.class);
+    final Records<MissionStatus> statuses = StoredRecords.of(stores.context(), "mission-statuses", MissionStatus.class);
+    final Records<DeviceState> devices = StoredRecords.of(stores.context(), "devices", DeviceState.class);
+    final Records<Rollout> rollouts = StoredRecords.of(stores.context(), "mission-rollouts", Rollout.class);
+    final MissionCommandHandler missionHandler;
+    final DomainCommandHandler domainHandler;
     long now = 1_700_000_000_000L;
 
     Farm() {
@@ -60,18 +60,19 @@ final class Farm {
 
     Farm(int devicesPerStep) {
         MissionOptions options =
-                new MissionOptions(Duration.ofMillis(PATIENCE), new FiwareScope("farm", "/"), devicesPerStep);
-        missionDesk = MissionManager.desk(stores.context(), AnswerRequests.outbox(stores.context()), options);
-        domainDesk = DomainManager.desk(stores.context(), missionDesk, AnswerRequests.outbox(stores.context()));
-        run(missionDesk.templates()::stock);
+                new MissionOptions(Duration.ofMillis(TIMEOUT), new FiwareScope("farm", "/"), devicesPerStep);
+        missionHandler = MissionManager.handler(stores.context(), CommandProcessor.outbox(stores.context()), options);
+        domainHandler =
+                DomainManager.handler(stores.context(), missionHandler, CommandProcessor.outbox(stores.context()));
+        run(missionHandler.templates()::stock);
     }
 
-    Response ask(MissionCommand command) throws RefusedException {
-        return stores.call(now, () -> missionDesk.answer(command, now));
+    CommandResult ask(MissionCommand command) throws RefusedException {
+        return stores.call(now, () -> missionHandler.answer(command, now));
     }
 
-    Response ask(DomainCommand command) throws RefusedException {
-        return stores.call(now, () -> domainDesk.answer(command, now));
+    CommandResult ask(DomainCommand command) throws RefusedException {
+        return stores.call(now, () -> domainHandler.answer(command, now));
     }
 
     void run(Runnable work) {
@@ -89,7 +90,7 @@ final class Farm {
         ask(new DomainCommand.Create(name, DomainDetails.NONE));
     }
 
-    Response start(String mission, String domain, DeviceGroup... groups) throws RefusedException {
+    CommandResult start(String mission, String domain, DeviceGroup... groups) throws RefusedException {
         return ask(new MissionCommand.Start(mission, domain, devices(groups), null, null));
     }
 
@@ -119,10 +120,10 @@ final class Farm {
     void report(WantedDevice device, DeviceStatus.State state) {
         DeviceStatus status =
                 new DeviceStatus(device.version().sequence(), state, state == DeviceStatus.State.FAILED ? "why" : null);
-        run(() -> missionDesk.reported(device.version().key(), status, now));
+        run(() -> missionHandler.reported(device.version().key(), status, now));
     }
 
-    /** Whoever hosts devices does what is wanted. */
+    /** Whoever hosts devices does what is requested. */
     void hostAll() {
         for (DeviceState each : all(devices)) {
             WantedDevice device = each.device();
@@ -132,12 +133,12 @@ final class Farm {
 
     void pass(long millis) {
         now += millis;
-        missionDesk.due(now).forEach(this::run);
+        missionHandler.due(now).forEach(this::run);
     }
 
     /** Writes the next devices of what is not written wholly. Answers whether there was any. */
     boolean step() {
-        List<Runnable> pending = missionDesk.pending(now);
+        List<Runnable> pending = missionHandler.pending(now);
         pending.forEach(this::run);
         return !pending.isEmpty();
     }

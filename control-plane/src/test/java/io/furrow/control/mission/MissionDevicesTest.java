@@ -7,15 +7,15 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionDevices;
-import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.topic.Topics;
 
 import static com.fasterxml.jackson.databind.node.JsonNodeFactory.instance;
@@ -69,14 +69,14 @@ class MissionDevicesTest {
 
         assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(10);
         assertThat(many.status("m").devices()).isEqualTo(25);
-        many.pass(Farm.PATIENCE);
+        many.pass(Farm.TIMEOUT);
         assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
         many.step();
         assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(20);
         many.step();
         assertThat(many.outbox.compacted(Topics.DEVICES)).hasSize(25);
         assertThat(many.step()).isFalse();
-        many.pass(Farm.PATIENCE - 1);
+        many.pass(Farm.TIMEOUT - 1);
         assertThat(many.status("m").state()).isEqualTo(MissionState.STARTING);
         many.hostAll();
         assertThat(many.status("m").state()).isEqualTo(MissionState.RUNNING);
@@ -122,7 +122,7 @@ class MissionDevicesTest {
                 new MissionDevices(
                         List.of(new DeviceGroup(null, null, "Camera", 2, "robots", null, instance.objectNode())))));
         farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("robots", "Robot", 1)));
-        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("more", "Robot", DeviceGroup.MOST)));
+        farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("more", "Robot", DeviceGroup.MAX)));
         farm.refused(
                 ErrorCode.UNKNOWN_MISSION, () -> farm.ask(new MissionCommand.AddDevices("other", MissionDevices.NONE)));
 

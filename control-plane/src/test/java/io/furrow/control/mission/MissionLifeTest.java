@@ -6,12 +6,12 @@ import java.time.Instant;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionPlan;
-import io.furrow.model.control.MissionTemplate;
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.mission.MissionTemplate;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
@@ -80,7 +80,7 @@ class MissionLifeTest {
         farm.start("m", "north", Farm.group("Camera", 3));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-1"), State.RUNNING);
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(Farm.PATIENCE - 1);
+        farm.pass(Farm.TIMEOUT - 1);
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
         farm.pass(1);
 
@@ -101,7 +101,7 @@ class MissionLifeTest {
     void failsWithWhatTheHostSaysWhereNoDeviceComesUp() throws Exception {
         farm.start("m", "north", Farm.group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
-        farm.pass(Farm.PATIENCE);
+        farm.pass(Farm.TIMEOUT);
 
         assertThat(farm.status("m").reason())
                 .isEqualTo("none of 2 devices came up within 60 s; urn:ngsi-ld:Camera:m-2: why");
@@ -110,7 +110,7 @@ class MissionLifeTest {
     @Test
     void failsWithTheReasonWhereNoDeviceComesUp() throws Exception {
         farm.start("m", "north", Farm.group("Camera", 3));
-        farm.pass(Farm.PATIENCE);
+        farm.pass(Farm.TIMEOUT);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.FAILED);
         assertThat(farm.status("m").reason()).isEqualTo("none of 3 devices came up within 60 s");
@@ -127,7 +127,7 @@ class MissionLifeTest {
     void stopsWithoutDevicesThatDoNotGo() throws Exception {
         farm.start("m", "north", Farm.group("Camera", 1));
         farm.ask(new MissionCommand.Stop("m"));
-        farm.pass(Farm.PATIENCE);
+        farm.pass(Farm.TIMEOUT);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
         assertThat(farm.status("m").missing())
@@ -243,7 +243,7 @@ class MissionLifeTest {
 
     @Test
     void keepsVersionsOfTemplatesAndTheDevicesOfMissionsMadeFromThem() throws Exception {
-        MissionTemplate one = TemplateShelf.demo();
+        MissionTemplate one = TemplateStore.demo();
         assertThat(farm.ask(new MissionCommand.SaveTemplate(one))
                         .json()
                         .path("version")
@@ -260,7 +260,7 @@ class MissionLifeTest {
 
         farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0));
         farm.refused(ErrorCode.UNKNOWN_TEMPLATE, () -> farm.ask(new MissionCommand.DeleteTemplate("thesis-demo", 0)));
-        farm.run(farm.missionDesk.templates()::stock);
+        farm.run(farm.missionHandler.templates()::stock);
         assertThat(farm.outbox.compacted(Topics.TEMPLATES)).isEmpty();
         farm.ask(new MissionCommand.Start("m", null, new MissionPlan.Unsaid(), null, null));
         assertThat(farm.status("m").devices()).isEqualTo(5);

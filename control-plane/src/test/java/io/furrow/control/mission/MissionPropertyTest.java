@@ -12,13 +12,13 @@ import java.util.Set;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.manager.KeptOutbox;
-import io.furrow.model.control.DeviceGroup;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.DomainDetails;
 import io.furrow.model.control.MissionCommand;
-import io.furrow.model.control.MissionDevices;
-import io.furrow.model.control.MissionPlan;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
@@ -116,7 +116,7 @@ class MissionPropertyTest {
 
         private MissionPlan plan() {
             return switch (random.nextInt(4)) {
-                case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateShelf.DEMO, 0);
+                case 0 -> new MissionPlan.FromTemplate(random.nextInt(3) == 0 ? "nosuch" : TemplateStore.DEMO, 0);
                 case 1 -> new MissionPlan.Unsaid();
                 case 2 -> Farm.devices(Farm.group("Camera", 1 + random.nextInt(3)), DeviceGroup.entity("urn:robot"));
                 default -> Farm.devices(Farm.group("Thermometer", 1 + random.nextInt(4)));

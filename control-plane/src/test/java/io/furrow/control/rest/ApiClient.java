@@ -6,16 +6,21 @@ import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
+import java.nio.ByteBuffer;
 import java.nio.charset.StandardCharsets;
+import java.util.List;
 import java.util.Set;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionStage;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.Flow;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 
 /** Asks the API, and holds each answer against its description. */
-final class ApiClient {
+public final class ApiClient {
     /** What any client has asked for. */
     static final Set<String> ASKED = ConcurrentHashMap.newKeySet();
 
@@ -31,7 +36,7 @@ final class ApiClient {
         this.token = token;
     }
 
-    HttpResponse<byte[]> send(String method, String path, String body) throws Exception {
+    public HttpResponse<byte[]> send(String method, String path, String body) throws Exception {
         return send(method, path, body, true);
     }
 
@@ -59,14 +64,53 @@ final class ApiClient {
 
     private HttpResponse<byte[]> send(HttpRequest.Builder builder, boolean described) throws Exception {
         HttpRequest request = builder.build();
-        HttpResponse<byte[]> answer = http.send(request, HttpResponse.BodyHandlers.ofByteArray());
+        HttpResponse<byte[]> answer = http.send(
+                request,
+                head -> head.headers().firstValue("Content-Type").orElse("").startsWith("text/event-stream")
+                        ? new FirstBytes()
+                        : HttpResponse.BodySubscribers.ofByteArray());
         if (described) {
             ASKED.add(description.check(request.method(), request.uri().getPath(), answer.statusCode(), answer.body()));
         }
         return answer;
     }
 
-    JsonNode json(HttpResponse<byte[]> answer) throws Exception {
+    /** Of an answer without an end: what comes first. */
+    private static final class FirstBytes implements HttpResponse.BodySubscriber<byte[]> {
+        private final CompletableFuture<byte[]> body = new CompletableFuture<>();
+        private Flow.Subscription subscription;
+
+        @Override
+        public CompletionStage<byte[]> getBody() {
+            return body;
+        }
+
+        @Override
+        public void onSubscribe(Flow.Subscription given) {
+            subscription = given;
+            given.request(1);
+        }
+
+        @Override
+        public void onNext(List<ByteBuffer> buffers) {
+            byte[] bytes = new byte[buffers.get(0).remaining()];
+            buffers.get(0).get(bytes);
+            subscription.cancel();
+            body.complete(bytes);
+        }
+
+        @Override
+        public void onError(Throwable failure) {
+            body.completeExceptionally(failure);
+        }
+
+        @Override
+        public void onComplete() {
+            body.complete(new byte[0]);
+        }
+    }
+
+    public JsonNode json(HttpResponse<byte[]> answer) throws Exception {
         return NgsiJson.read(answer.body());
     }
 

@@ -17,7 +17,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The description of the API, and whether an answer is as it says: no member more, none less, each of its type. */
 final class OpenApiDocument {
-    private static final Set<String> METHODS = Set.of("get", "post", "patch", "put", "delete");
+    private static final Set<String> METHODS = Set.of("get", "post", "patch", "put", "delete", "head");
 
     private final ObjectNode json;
 

@@ -17,6 +17,9 @@ import org.glassfish.jersey.server.model.Resource;
 import org.glassfish.jersey.server.model.ResourceMethod;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.control.rest.access.Role;
+import io.furrow.control.rest.access.RoleFilter;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class OpenApiTest {
@@ -50,7 +53,7 @@ class OpenApiTest {
                 .hasSameSizeAs(OpenApiDocument.read().operations());
     }
 
-    /** What tells nothing of the farm has no role. */
+    /** What reports nothing of the farm has no role. */
     @Test
     void describesTheRoleThatTheCodeAsksFor() throws Exception {
         Map<String, String> roles = new TreeMap<>();

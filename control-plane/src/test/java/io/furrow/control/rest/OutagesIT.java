@@ -33,7 +33,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** What else is asked of the API, and its probes, while something that it speaks with is away. */
+/** What else is asked of the API, and its probes, while something that it speaks with is unavailable. */
 class OutagesIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final int COMMANDS = 200;

@@ -53,7 +53,7 @@ class RefusedRequestsIT {
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.PATIENCE).until(other::isReady);
+            await().atMost(RunningApi.TIMEOUT).until(other::isReady);
             assertThat(there.error(there.send("POST", "/api/missions/b/stop", null, "Idempotency-Key", "key-2")))
                     .isEqualTo("422 request-id-reused");
         }

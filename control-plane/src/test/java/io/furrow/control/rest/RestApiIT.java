@@ -14,8 +14,8 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.control.readiness.PartStatus;
 import io.furrow.control.readiness.Readiness;
+import io.furrow.kafka.PartStatus;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -129,7 +129,7 @@ class RestApiIT {
         running.refused("GET", "/api/devices/nosuch", null, 404, "unknown-device");
         running.refused("POST", "/api/devices/nosuch/commands", "{\"command\":\"on\"}", 404, "unknown-device");
 
-        await().atMost(RunningApi.PATIENCE)
+        await().atMost(RunningApi.TIMEOUT)
                 .untilAsserted(() -> assertThat(running.get("/api/audit?limit=1000"))
                         .anyMatch(entry -> entry.path("command").asText().equals("Stop")
                                 && entry.at("/about/device").asText().equals("robot-1")
@@ -196,6 +196,64 @@ class RestApiIT {
     }
 
     @Test
+    void startsAndSteersReplaysOfOneMission() throws Exception {
+        HttpResponse<byte[]> made = client.send("POST", "/api/replays", """
+                {"mission": "ridging", "topic": "data.show.replay.0000cafe", "from": 0, "to": 9000, "range": {"from": 1000, "to": 2000},
+                 "maxGap": "PT5S", "stamps": "now", "startAt": 1700000000000, "analytics": ["presence"], "source": {"file": "a.jsonl"}}
+                """);
+        assertThat(made.statusCode()).as(new String(made.body())).isEqualTo(201);
+        String replay = "/api/replays/ridging.0000cafe";
+        assertThat(made.headers().firstValue("Location")).contains(running.api().uri() + replay);
+        assertThat(running.get(replay).at("/range/to").asLong()).isEqualTo(2000);
+        assertThat(running.get(replay).path("stamps").asText()).isEqualTo("now");
+        assertThat(running.get(replay).at("/source/file").asText()).isEqualTo("a.jsonl");
+
+        assertThat(client.send("POST", replay + "/loop", "{\"from\":3000,\"to\":4000}")
+                        .statusCode())
+                .isEqualTo(200);
+        assertThat(running.get(replay).at("/range/to").asLong()).isEqualTo(4000);
+        assertThat(client.send("POST", replay + "/loop", null).statusCode()).isEqualTo(200);
+        assertThat(running.get(replay).has("range")).isFalse();
+        running.refused(
+                "POST",
+                "/api/replays",
+                "{\"mission\":\"ridging\",\"topic\":\"data.show.replay.0000cafe\"}",
+                409,
+                "replay-exists");
+        assertThat(client.send("GET", replay + "/events", null).statusCode()).isEqualTo(200);
+        assertThat(client.send("GET", "/api/replays/events", null).statusCode()).isEqualTo(200);
+        running.refused("GET", "/api/replays/ridging.00000000/events", null, 404, "unknown-replay");
+        assertThat(running.get("/api/recordings")).isEmpty();
+    }
+
+    @Test
+    void hasNoMarkersWithoutMongoDb() throws Exception {
+        String markers = "/api/missions/weeding/markers";
+        running.refused("GET", markers, null, 501, "no-mongodb");
+        running.refused("POST", markers, "{\"time\":5,\"note\":\"n\"}", 501, "no-mongodb");
+        running.refused("DELETE", markers + "/m", null, 501, "no-mongodb");
+    }
+
+    @Test
+    void startsAndSteersReplaysOfSeveralMissionsByOneClock() throws Exception {
+        HttpResponse<byte[]> made = client.send(
+                "POST", "/api/replays", "{\"missions\":[\"sowing\",\"rolling\"],\"from\":1000,\"to\":900000}");
+        assertThat(made.statusCode()).as(new String(made.body())).isEqualTo(201);
+        String group = "/api/replays/groups/" + client.json(made).path("group").asText();
+        assertThat(made.headers().firstValue("Location")).contains(running.api().uri() + group);
+        assertThat(running.get(group).findValuesAsText("mission")).containsExactly("rolling", "sowing");
+
+        assertThat(client.send("POST", group + "/pause", null).statusCode()).isEqualTo(200);
+        assertThat(client.send("POST", group + "/seek", "{\"to\":5000}").statusCode())
+                .isEqualTo(200);
+        assertThat(running.get(group).get(0).at("/clock/shows").asLong()).isEqualTo(5000);
+        running.refused("POST", group + "/step", "{}", 409, "wrong-state");
+        running.refused("GET", "/api/replays/groups/0a1b2c3d", null, 404, "unknown-replay");
+        assertThat(client.send("DELETE", group, null).statusCode()).isEqualTo(200);
+        assertThat(running.get(group).findValuesAsText("wanted")).containsExactly("stopped", "stopped");
+    }
+
+    @Test
     void givesTheSameKeyOneEffectAndTheSameAnswer() throws Exception {
         String body = "{\"domain\":\"once\"}";
         HttpResponse<byte[]> first = client.send("POST", "/api/domains", body, "Idempotency-Key", "key-1");
@@ -206,7 +264,7 @@ class RestApiIT {
 
         try (RestApi other = RestApi.start(running.settings(), RestSettings.on(0), new Readiness(Clock.systemUTC()))) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.PATIENCE)
+            await().atMost(RunningApi.TIMEOUT)
                     .until(() -> there.send("GET", "/ready", null).statusCode() == 200);
             assertThat(there.send("POST", "/api/domains", body, "Idempotency-Key", "key-1")
                             .body())
@@ -244,9 +302,65 @@ class RestApiIT {
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 400, "wrong-member");
         assertThat(client.send("POST", "/api/missions/long/start", "{}").statusCode())
                 .isEqualTo(200);
-        await().atMost(RunningApi.PATIENCE)
+        await().atMost(RunningApi.TIMEOUT)
                 .until(() -> running.get("/api/devices?mission=long").size() == 10_000);
         running.refused("POST", "/api/missions/long/devices", "{\"devices\":[\"urn:more\"]}", 409, "mission-running");
+    }
+
+    @Test
+    void importsFieldsAndRefusesThoseThatAreNone() throws Exception {
+        String square = "[[[10,50],[10.001,50],[10.001,50.001],[10,50.001],[10,50]]]";
+        String file = """
+                {"type":"FeatureCollection","features":[
+                  {"type":"Feature","id":"a","geometry":{"type":"Polygon","coordinates":%s},"properties":{"name":"Home"}},
+                  {"type":"Feature","id":"b","geometry":{"type":"Point","coordinates":[10,50]},"properties":{}}]}
+                """.formatted(square);
+
+        JsonNode first = client.json(client.send("POST", "/api/fields?domain=north", file));
+        JsonNode again = client.json(client.send("POST", "/api/fields?domain=north", file));
+
+        assertThat(first.path("imported").asInt()).isEqualTo(1);
+        assertThat(first.at("/fields/0/change").asText()).isEqualTo("added");
+        assertThat(first.at("/refused/0/id").asText()).isEqualTo("b");
+        assertThat(first.at("/refused/0/reason").asText()).contains("Point");
+        assertThat(again.path("imported").asInt()).isZero();
+        assertThat(again.path("unchanged").asInt()).isEqualTo(1);
+        JsonNode fields = running.get("/api/fields");
+        assertThat(fields.path("type").asText()).isEqualTo("FeatureCollection");
+        assertThat(fields.path("features")).hasSize(1);
+        JsonNode home = fields.at("/features/0");
+        assertThat(home.path("id").asText()).isEqualTo("a");
+        assertThat(home.at("/properties/name").asText()).isEqualTo("Home");
+        assertThat(home.at("/geometry/coordinates/0/1/0").asDouble()).isEqualTo(10.001);
+        assertThat(running.get("/api/fields?domain=north").path("features")).hasSize(1);
+        assertThat(running.get("/api/fields?domain=south").path("features")).isEmpty();
+        client.send("POST", "/api/fields?domain=north", file.replace("Home", "Behind the barn"));
+        assertThat(running.get("/api/fields").path("features"))
+                .singleElement()
+                .satisfies(
+                        now -> assertThat(now.at("/properties/name").asText()).isEqualTo("Behind the barn"));
+
+        running.refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
+        running.refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
+        running.refused("POST", "/api/fields", " ".repeat(FieldsResource.LARGEST + 1), 413, "too-large");
+        await().atMost(RunningApi.TIMEOUT)
+                .untilAsserted(
+                        () -> assertThat(running.get("/api/audit?limit=1000").findValuesAsText("command"))
+                                .contains("import-fields"));
+    }
+
+    @Test
+    void tellsWhatWasCommandedToAMission() throws Exception {
+        client.send("POST", "/api/domains", "{\"domain\":\"audited\"}");
+        for (String mission : new String[] {"one", "two"}) {
+            client.send("POST", "/api/missions", """
+                    {"mission":"%s","domain":"audited","devices":["urn:%s"]}""".formatted(mission, mission));
+        }
+        await().atMost(RunningApi.TIMEOUT)
+                .until(() -> running.get("/api/audit?mission=two").size() == 1);
+        assertThat(running.get("/api/audit?mission=two").at("/0/about/mission").asText())
+                .isEqualTo("two");
+        assertThat(running.get("/api/audit?device=urn:nobody")).isEmpty();
     }
 
     @Test
@@ -269,9 +383,9 @@ class RestApiIT {
         Readiness readiness = new Readiness(Clock.systemUTC());
         readiness.require(() -> new PartStatus("managers", PartStatus.State.DOWN, null, "REBALANCING"));
         try (RestApi other =
-                RestApi.start(running.settings(), RestSettings.on(0).withPatience(Duration.ofMillis(300)), readiness)) {
+                RestApi.start(running.settings(), RestSettings.on(0).withTimeout(Duration.ofMillis(300)), readiness)) {
             ApiClient there = new ApiClient(other.uri(), null);
-            await().atMost(RunningApi.PATIENCE).until(other::isReady);
+            await().atMost(RunningApi.TIMEOUT).until(other::isReady);
             assertThat(there.send("GET", "/health", null).statusCode()).isEqualTo(200);
             assertThat(there.send("GET", "/ready", null).statusCode()).isEqualTo(503);
             for (String path : new String[] {"/api/alarms/a-1/mute", "/api/alarms/mute"}) {

@@ -31,7 +31,7 @@ import static org.awaitility.Awaitility.await;
 
 /** The API while other parts come and go. */
 class RestApiPartsIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final String DOMAIN = "{\"domain\":\"north\"}";
 
     @TempDir
@@ -47,9 +47,9 @@ class RestApiPartsIT {
         port = FreePort.orFree(0);
         kafka = EmbeddedKafka.start(directory.resolve("kafka"), port);
         api = RestApi.start(
-                settings(), RestSettings.on(0).withPatience(Duration.ofSeconds(1)), new Readiness(Clock.systemUTC()));
+                settings(), RestSettings.on(0).withTimeout(Duration.ofSeconds(1)), new Readiness(Clock.systemUTC()));
         client = new ApiClient(api.uri(), null);
-        await().atMost(PATIENCE).until(api::isReady);
+        await().atMost(TIMEOUT).until(api::isReady);
     }
 
     @AfterEach
@@ -63,14 +63,14 @@ class RestApiPartsIT {
         assertThat(create("key-1").statusCode()).isEqualTo(503);
         assertThat(create("key-1").statusCode()).isEqualTo(503);
         try (ControlPlane plane = ControlPlane.start(settings())) {
-            await().atMost(PATIENCE).until(() -> create("key-1").statusCode() != 503);
+            await().atMost(TIMEOUT).until(() -> create("key-1").statusCode() != 503);
             assertThat(plane.state()).isNotEqualTo("ERROR");
             assertThat(create("key-1").statusCode()).isEqualTo(201);
 
             kafka.close();
             assertThat(create("key-2").statusCode()).isEqualTo(503);
             kafka = EmbeddedKafka.start(directory.resolve("kafka"), port);
-            await().atMost(PATIENCE).until(() -> create("key-2").statusCode() == 409);
+            await().atMost(TIMEOUT).until(() -> create("key-2").statusCode() == 409);
         }
         assertThat(client.json(client.send("GET", "/api/audit", null)))
                 .filteredOn(entry -> entry.path("requestId").asText().equals("key-1"))
@@ -82,9 +82,9 @@ class RestApiPartsIT {
         try (FarmWatch watch = FarmWatch.start(settings(), WatchOptions.DEFAULT);
                 KafkaProducer<String, byte[]> producer =
                         new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
-            await().atMost(PATIENCE).until(watch::isHealthy);
+            await().atMost(TIMEOUT).until(watch::isHealthy);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("started")));
-            await().atMost(PATIENCE)
+            await().atMost(TIMEOUT)
                     .until(() -> client.json(client.send("GET", "/api/alarms?state=open", null))
                                     .size()
                             == 1);
@@ -104,7 +104,7 @@ class RestApiPartsIT {
                     .as("while its cause lasts")
                     .isEqualTo(409);
             producer.send(new ProducerRecord<>(Topics.COLLISION, "r1-r2", collision("ended")));
-            await().atMost(PATIENCE)
+            await().atMost(TIMEOUT)
                     .until(() -> client.json(client.send("GET", "/api/alarms?state=closed&limit=1", null))
                                     .size()
                             == 1);
@@ -119,10 +119,10 @@ class RestApiPartsIT {
         }
     }
 
-    /** Asked until there is an answer: the patience is a second. */
+    /** Asked until there is an answer: the timeout is a second. */
     private int answered(String path, String body) throws Exception {
         String key = java.util.UUID.randomUUID().toString();
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .until(() -> client.send("POST", path, body == null ? "" : body, "Idempotency-Key", key)
                                 .statusCode()
                         != 503);

@@ -32,6 +32,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.access.CertificateFiles;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.SelfSignedCertificate;
 import io.furrow.model.ngsi.NgsiJson;
@@ -110,7 +111,7 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.certificate(), certificate, StandardCopyOption.REPLACE_EXISTING);
-        await().atMost(RunningApi.PATIENCE)
+        await().atMost(RunningApi.TIMEOUT)
                 .untilAsserted(() -> assertThat(NgsiJson.read(health(first).body())
                                 .path("warnings")
                                 .path(0)
@@ -119,7 +120,7 @@ class RestApiTlsIT {
         assertThat(subject()).isEqualTo("CN=first");
 
         Files.copy(second.key(), key, StandardCopyOption.REPLACE_EXISTING);
-        await().atMost(RunningApi.PATIENCE)
+        await().atMost(RunningApi.TIMEOUT)
                 .untilAsserted(() -> assertThat(subject()).isEqualTo("CN=second"));
         assertThat(NgsiJson.read(health(second).body()).path("warnings")).isEmpty();
     }

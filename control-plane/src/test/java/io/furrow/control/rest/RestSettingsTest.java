@@ -8,6 +8,7 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.access.CertificateFiles;
 
 import static org.assertj.core.api.Assertions.assertThatCode;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;

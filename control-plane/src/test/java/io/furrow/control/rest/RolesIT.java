@@ -1,5 +1,7 @@
 package io.furrow.control.rest;
 
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -21,7 +23,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.control.readiness.Readiness;
-import io.furrow.control.secret.SecretSource;
+import io.furrow.control.rest.access.Role;
+import io.furrow.kafka.secret.SecretSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -42,18 +45,19 @@ class RolesIT {
                 vera  token-of-a-viewer-1
                 olga  token-of-an-operator  operator
                 anna  token-of-an-admin-1   admin
+                proxy token-that-speaks-1   operator  for-users
                 """);
         api = RestApi.start(
                 running.settings(),
                 RestSettings.on(0)
                         .withTokens(tokens)
                         .withSecret(SecretSource.of(RunningApi.SECRET))
-                        .withPatience(Duration.ofSeconds(1)),
+                        .withTimeout(Duration.ofSeconds(1)),
                 new Readiness(Clock.systemUTC()));
         callers.put(Role.VIEWER, new ApiClient(api.uri(), "token-of-a-viewer-1"));
         callers.put(Role.OPERATOR, new ApiClient(api.uri(), "token-of-an-operator"));
         callers.put(Role.ADMIN, new ApiClient(api.uri(), "token-of-an-admin-1"));
-        await().atMost(RunningApi.PATIENCE).until(api::isReady);
+        await().atMost(RunningApi.TIMEOUT).until(api::isReady);
     }
 
     @AfterAll
@@ -75,6 +79,7 @@ class RolesIT {
                     document.json().path("paths").path(path).path(method.toLowerCase(java.util.Locale.ROOT));
             if (operation.has("x-role")) {
                 String named = path.replace("replays/{replay}/{command}", "replays/nosuch.0a1b2c3d/pause")
+                        .replace("groups/{group}/{command}", "groups/0a1b2c3d/pause")
                         .replace("{command}", "mute")
                         .replaceAll("\\{[a-z]+}", "nosuch");
                 operations.add(new Operation(
@@ -132,19 +137,44 @@ class RolesIT {
     }
 
     @Test
+    void believesUsersOnlyOfATokenThatSpeaksForThem() throws Exception {
+        assertThat(me("token-that-speaks-1", "vera", "viewer")).contains("200", "\"vera\"", "\"viewer\"");
+        assertThat(me("token-that-speaks-1", "anna", "admin")).contains("200", "\"anna\"", "\"operator\"");
+        assertThat(me("token-of-an-admin-1", "vera", "viewer")).contains("403", "not-for-users", "'anna'");
+        assertThat(me("token-of-a-viewer-1", "anna", "admin")).contains("403", "not-for-users");
+        assertThat(me("token-that-speaks-1", "", "admin")).contains("400", "wrong-header");
+        assertThat(me("token-that-speaks-1", "an na", "admin")).contains("400", "wrong-header");
+        assertThat(me("token-that-speaks-1", "anna", "root")).contains("400", "wrong-header");
+        ApiClient itself = new ApiClient(api.uri(), "token-that-speaks-1");
+        assertThat(itself.error(itself.send("GET", "/api/me", null, false))).isEqualTo("400 wrong-header");
+    }
+
+    private String me(String token, String user, String role) throws Exception {
+        HttpResponse<String> answer = HttpClient.newHttpClient()
+                .send(
+                        HttpRequest.newBuilder(api.uri().resolve("/api/me"))
+                                .header("Authorization", "Bearer " + token)
+                                .header("Furrow-User", user)
+                                .header("Furrow-Role", role)
+                                .build(),
+                        HttpResponse.BodyHandlers.ofString());
+        return answer.statusCode() + answer.body();
+    }
+
+    @Test
     void takesNewTokensUpAndKeepsTheOldOnesWhereTheFileIsBad() throws Exception {
         ApiClient late = new ApiClient(api.uri(), "token-of-a-late-one");
         String before = Files.readString(tokens);
         assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(401);
         try {
             Files.writeString(tokens, before + "lea token-of-a-late-one viewer\n");
-            await().atMost(RunningApi.PATIENCE)
+            await().atMost(RunningApi.TIMEOUT)
                     .until(() -> late.send("GET", "/api/domains", null).statusCode() == 200);
             assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
                     .isEmpty();
 
             Files.writeString(tokens, "lea short viewer\n");
-            await().atMost(RunningApi.PATIENCE)
+            await().atMost(RunningApi.TIMEOUT)
                     .until(() -> late.json(late.send("GET", "/health", null))
                             .path("warnings")
                             .path(0)
@@ -153,7 +183,7 @@ class RolesIT {
             assertThat(late.send("GET", "/api/domains", null).statusCode()).isEqualTo(200);
 
             Files.writeString(tokens, before);
-            await().atMost(RunningApi.PATIENCE)
+            await().atMost(RunningApi.TIMEOUT)
                     .until(() -> late.send("GET", "/api/domains", null).statusCode() == 401);
             assertThat(late.json(late.send("GET", "/health", null)).path("warnings"))
                     .isEmpty();

@@ -11,16 +11,16 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.readiness.Readiness;
-import io.furrow.control.secret.SecretSource;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.secret.SecretSource;
 import io.furrow.model.device.FarmSecret;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** The API with managers, and a context broker for commands. */
-final class RunningApi implements AutoCloseable {
-    static final Duration PATIENCE = Duration.ofSeconds(60);
+public final class RunningApi implements AutoCloseable {
+    static final Duration TIMEOUT = Duration.ofSeconds(60);
     static final FarmSecret SECRET = new FarmSecret("a secret of sixteen bytes or more".getBytes());
 
     private final Path directory;
@@ -30,26 +30,26 @@ final class RunningApi implements AutoCloseable {
     private final RestApi api;
     private final ApiClient client;
 
-    RunningApi(Path directory) throws Exception {
+    public RunningApi(Path directory) throws Exception {
         this.directory = directory;
         kafka = EmbeddedKafka.start(directory.resolve("kafka"));
         plane = ControlPlane.start(settings());
         RestSettings rest = RestSettings.on(0)
                 .withSecret(SecretSource.of(SECRET))
                 .withContextBroker(broker.uri())
-                .withPatience(Duration.ofSeconds(30));
+                .withTimeout(Duration.ofSeconds(30));
         Readiness readiness = new Readiness(Clock.systemUTC());
         readiness.require(plane::status);
         api = RestApi.start(settings(), rest, readiness);
         client = new ApiClient(api.uri(), null);
-        await().atMost(PATIENCE).until(() -> client.send("GET", "/ready", null).statusCode() == 200);
+        await().atMost(TIMEOUT).until(() -> client.send("GET", "/ready", null).statusCode() == 200);
     }
 
-    RestApi api() {
+    public RestApi api() {
         return api;
     }
 
-    ApiClient client() {
+    public ApiClient client() {
         return client;
     }
 
@@ -58,19 +58,19 @@ final class RunningApi implements AutoCloseable {
     }
 
     /** What is there. */
-    JsonNode get(String path) throws Exception {
+    public JsonNode get(String path) throws Exception {
         HttpResponse<byte[]> answer = client.send("GET", path, null);
         assertThat(answer.statusCode()).as(path).isEqualTo(200);
         return client.json(answer);
     }
 
     /** Asks for what is refused; where nothing is known of the path, that is no described answer. */
-    void refused(String method, String path, String body, int status, String error) throws Exception {
+    public void refused(String method, String path, String body, int status, String error) throws Exception {
         boolean described = !error.equals("not-found");
         assertThat(client.error(client.send(method, path, body, described))).isEqualTo(status + " " + error);
     }
 
-    ControlSettings settings() {
+    public ControlSettings settings() {
         Properties settings = new Properties();
         settings.setProperty("bootstrap.servers", kafka.bootstrapServers());
         settings.setProperty("state.dir", directory.resolve("state").toString());

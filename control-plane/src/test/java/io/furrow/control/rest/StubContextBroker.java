@@ -11,7 +11,7 @@ import java.util.concurrent.Executors;
 import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
 
-/** Takes or refuses updates, and tells of the last. */
+/** Takes or refuses updates, and reports the last. */
 final class StubContextBroker implements AutoCloseable {
     private final HttpServer server = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
     private volatile String last = "";

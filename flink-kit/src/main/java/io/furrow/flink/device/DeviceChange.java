@@ -9,6 +9,6 @@ import io.furrow.model.device.DeviceVersion;
  * @param partition of the record
  * @param offset of the record; larger for what was written later in its partition
  * @param time record timestamp, epoch ms
- * @param version null where the device was deleted
+ * @param version null if the device was deleted
  */
 public record DeviceChange(String key, int partition, long offset, long time, DeviceVersion version) {}

@@ -3,11 +3,11 @@ package io.furrow.flink.device;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaEnds;
-import io.furrow.flink.KafkaTopicAtStart;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.KafkaConnectors;
+import io.furrow.flink.kafka.KafkaTopicSnapshot;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 
 /**
  * How a job learns of the devices.
@@ -15,13 +15,13 @@ import io.furrow.flink.TopicRecord;
  * @param records of {@code service.devices}, from its beginning and all that come
  * @param atStart those that are known before the first event
  */
-public record DeviceInput(DataStream<TopicRecord> records, TopicAtStart atStart) {
+public record DeviceInput(DataStream<TopicRecord> records, TopicSnapshot atStart) {
     /** The devices of a topic, which need not be there. */
     public static DeviceInput of(StreamExecutionEnvironment env, JobOptions job, String topic) {
         DataStream<TopicRecord> records = env.fromSource(
-                        KafkaEnds.wholeTopic(job, topic), KafkaEnds.noHindrance(), "Read devices")
+                        KafkaConnectors.wholeTopic(job, topic), KafkaConnectors.alwaysIdle(), "Read devices")
                 .uid("read-devices")
                 .setParallelism(1);
-        return new DeviceInput(records, new KafkaTopicAtStart(job, topic));
+        return new DeviceInput(records, new KafkaTopicSnapshot(job, topic));
     }
 }

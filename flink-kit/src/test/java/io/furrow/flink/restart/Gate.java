@@ -39,7 +39,7 @@ final class Gate {
         next = index + 1;
     }
 
-    /** Whether the record before that one has been handed on. */
+    /** Whether the record before that one has been forwarded. */
     synchronized boolean isAt(int until) {
         return next >= until && held != null;
     }

@@ -6,8 +6,8 @@ import java.util.Set;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.record.TopicRecord;
 
 /** A job over a random input, for {@link Restarts}. */
 public interface JobCase {

@@ -39,9 +39,9 @@ import org.awaitility.Awaitility;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.flink.JobEnvironment;
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.record.TopicRecord;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -106,7 +106,7 @@ public final class Restarts {
     }
 
     /**
-     * Goes on from the savepoints of releases, each taken in the middle of this case, whose input must therefore never change:
+     * Continues from the savepoints of releases, each taken in the middle of this case, whose input must therefore never change:
      * with what was written until then, all is as in an undisturbed run.
      *
      * @param name folder of the job in {@value #STORED}, which has one folder per release; {@code -Dfurrow.savepoints.release=R}

@@ -8,13 +8,13 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 /**
  * What the values of an attribute are like.
  *
- * @param type as reported last, for instance {@code Float}; empty where none was
- * @param unit metadata {@code unitCode} or {@code unit} as reported last; empty where none was
+ * @param type as reported last, for instance {@code Float}; empty if none was
+ * @param unit metadata {@code unitCode} or {@code unit} as reported last; empty if none was
  * @param kind {@code number}, {@code text}, {@code boolean}, {@code image}, {@code structure} or {@code mixed}
  * @param values how many, without nulls
  * @param numbers how many of them are numbers
- * @param min of the numbers; positive infinity where there is none
- * @param max of the numbers; negative infinity where there is none
+ * @param min of the numbers; positive infinity if there is none
+ * @param max of the numbers; negative infinity if there is none
  * @param first event time of the first value, epoch ms
  * @param last event time of the last value, epoch ms
  */
@@ -32,7 +32,7 @@ public record AttributeProfile(
 
     private static final String MIXED = "mixed";
 
-    /** One value; empty where it is null. */
+    /** One value; empty if it is null. */
     static Optional<AttributeProfile> of(JsonNode attribute, long time) {
         JsonNode value = attribute.path("value");
         if (value.isMissingNode() || value.isNull()) {

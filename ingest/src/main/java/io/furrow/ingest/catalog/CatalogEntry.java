@@ -20,15 +20,15 @@ import io.furrow.model.ngsi.UnreadableException;
  * add up, in any order to the same.
  *
  * @param service tenant; empty for the default one
- * @param domain empty where there is none
- * @param mission empty where there is none
+ * @param domain empty if there is none
+ * @param mission empty if there is none
  * @param entities that have been seen and not deleted
  * @param events changes that were reported
  * @param bytes of these events, images not counted that were moved to files
  * @param images that were moved to files
  * @param first event time of the first event, epoch ms
  * @param last event time of the last event, epoch ms
- * @param attributes by name, at most {@value #MOST_ATTRIBUTES}
+ * @param attributes by name, at most {@value #MAX_ATTRIBUTES}
  */
 public record CatalogEntry(
         String service,
@@ -44,7 +44,7 @@ public record CatalogEntry(
         long last,
         Map<String, AttributeProfile> attributes) {
     /** A device that makes up names would otherwise fill the memory. */
-    static final int MOST_ATTRIBUTES = 1000;
+    static final int MAX_ATTRIBUTES = 1000;
 
     private static final double MILLIS_PER_SECOND = 1000;
 
@@ -59,7 +59,7 @@ public record CatalogEntry(
             if (profile.isEmpty() || Entity.BUILT_INS.contains(attribute.getKey())) {
                 continue;
             }
-            if (attributes.size() < MOST_ATTRIBUTES) {
+            if (attributes.size() < MAX_ATTRIBUTES) {
                 attributes.put(attribute.getKey(), profile.get());
             }
             if (profile.get().kind().equals(AttributeProfile.IMAGE)) {
@@ -123,7 +123,7 @@ public record CatalogEntry(
     CatalogEntry plus(CatalogEntry other) {
         Map<String, AttributeProfile> all = new HashMap<>(attributes);
         other.attributes.forEach((name, profile) -> {
-            if (all.containsKey(name) || all.size() < MOST_ATTRIBUTES) {
+            if (all.containsKey(name) || all.size() < MAX_ATTRIBUTES) {
                 all.merge(name, profile, AttributeProfile::plus);
             }
         });

@@ -5,10 +5,10 @@ import java.time.Duration;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.KeyedStream;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 
-/** The branch of ingest that keeps the catalogue. */
+/** The branch of ingest that keeps the catalog. */
 public final class CatalogStage {
     private CatalogStage() {}
 
@@ -25,6 +25,6 @@ public final class CatalogStage {
                 .keyBy(CatalogEntry::key)
                 .process(new MergeCatalog(interval, retention))
                 .uid("merge-catalog")
-                .name("Merge the catalogue");
+                .name("Merge the catalog");
     }
 }

@@ -12,13 +12,13 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.EndOfEventTime;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.EndOfEventTime;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 /**
- * Adds the entities of a mission and type up to an entry of the catalogue.
+ * Adds the entities of a mission and type up to an entry of the catalog.
  *
  * <p>State: the entry, whether it is to be written, when its last entity was deleted and when it goes, per tenant, domain,
  * mission and type. Cleared: all of it when no event has come for the retention. Late: no difference; a deletion that comes

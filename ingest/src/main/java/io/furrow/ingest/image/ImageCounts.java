@@ -5,8 +5,8 @@ import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.metrics.ThreadSafeSimpleCounter;
 
-import io.furrow.flink.DeadCounters;
-import io.furrow.flink.PerMission;
+import io.furrow.flink.job.PerMission;
+import io.furrow.flink.record.DeadCounters;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**

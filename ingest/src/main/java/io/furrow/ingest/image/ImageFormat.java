@@ -7,10 +7,10 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The formats that are stored, told by what the bytes are, never by what a sender says of them. Checked are the structure
- * and that the end is there; the pixels are not decoded.
+ * The formats that are stored, detected by the bytes, never by what a sender declares. Checked are the structure and
+ * that the end is there; the pixels are not decoded.
  */
-enum ImageFormat {
+public enum ImageFormat {
     /** Chunks from {@code IHDR} to {@code IEND}, each with a right checksum (ISO/IEC 15948). */
     PNG("image/png", "png") {
         @Override
@@ -32,7 +32,7 @@ enum ImageFormat {
             }
         }
 
-        /** Passes one chunk and tells its type. */
+        /** Passes one chunk and returns its type. */
         private int chunk(ByteBuffer image) throws UnreadableException {
             if (image.remaining() < PNG_CHUNK_FRAME) {
                 throw broken(this, "is cut off");
@@ -136,7 +136,7 @@ enum ImageFormat {
 
     abstract void check(ByteBuffer image) throws UnreadableException;
 
-    String contentType() {
+    public String contentType() {
         return contentType;
     }
 

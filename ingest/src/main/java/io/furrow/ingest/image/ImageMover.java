@@ -10,8 +10,10 @@ import java.util.Map;
 import com.fasterxml.jackson.databind.node.NullNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.ingest.image.store.ImageStore;
+import io.furrow.ingest.image.store.StoredImage;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -23,7 +25,7 @@ import io.furrow.model.topic.Topics;
  * Stores the images of one event and makes the event that travels on. Instead of an image it carries {@code {url, sha256,
  * bytes, contentType}}; instead of a broken one null, and a header {@value #BROKEN} with the reason.
  */
-final class ImageMover {
+public final class ImageMover {
     /** Header of an event that lost an image: the reason code. */
     static final String BROKEN = "image-broken";
     /** Header {@code ce_type} of the manifest. */
@@ -42,7 +44,7 @@ final class ImageMover {
         this.quotedNames = ImageSpan.quoted(settings.attributes());
     }
 
-    /** False where a short look says that the event holds no image. */
+    /** False if a short look says that the event holds no image. */
     boolean concerns(TopicRecord record) {
         return record.value() != null && ImageSpan.possible(record.value(), quotedNames);
     }
@@ -52,7 +54,7 @@ final class ImageMover {
      *
      * @throws IOException if the store does not take an image; the same call may be made again
      */
-    Moved move(ReportedEvent event) throws IOException {
+    public Moved move(ReportedEvent event) throws IOException {
         Moved moved = moved(event);
         return settings.storing() == Storing.BY_OTHERS ? Moved.unannounced(moved.record()) : moved;
     }

@@ -13,14 +13,14 @@ import io.furrow.model.event.FiwareScope;
  * time in UTC. Entities of a tenant or service path that is not the default are below {@code ~tenant-<tenant>/} and {@code
  * ~path-<service path>/}, so that one id in two of them is two folders. A part of {@code A-Z a-z 0-9 . _ -} that begins with no dot stands as it is; every other byte of its UTF-8 form
  * becomes {@code ~HH}, because HDFS takes no colon and a leading dot hides a file. An absent domain or mission is {@code
- * ~none}; a part that would be longer than {@value #LONGEST} signs is {@code ~h} and its SHA-256. No two parts share a name.
+ * ~none}; a part that would be longer than {@value #MAX_LENGTH} signs is {@code ~h} and its SHA-256. No two parts share a name.
  *
  * @param folder {@code <domain>/<mission>/<entity id>}, below those of the scope
  * @param file without the extension
  */
-record ImageName(String folder, String file) {
+public record ImageName(String folder, String file) {
     /** A file name holds at most 255 bytes: the part, the time, a hash and the mark of a file under way must fit in. */
-    private static final int LONGEST = 120;
+    private static final int MAX_LENGTH = 120;
 
     private static final DateTimeFormatter TIME =
             DateTimeFormatter.ofPattern("uuuuMMddHHmmssSSS", Locale.ROOT).withZone(ZoneOffset.UTC);
@@ -30,7 +30,7 @@ record ImageName(String folder, String file) {
 
     private static final String SERVICE_PATH = "~path-";
 
-    static ImageName of(FiwareScope scope, String domain, String mission, String entityId, long eventTime) {
+    public static ImageName of(FiwareScope scope, String domain, String mission, String entityId, long eventTime) {
         String entity = part(entityId);
         return new ImageName(
                 folder(scope) + part(domain) + "/" + part(mission) + "/" + entity,
@@ -44,17 +44,17 @@ record ImageName(String folder, String file) {
     }
 
     /** Whether a folder is that of a tenant or service path, with the folders of domains in it. */
-    static boolean isScope(String folder) {
+    public static boolean isScope(String folder) {
         return folder.startsWith(TENANT) || folder.startsWith(SERVICE_PATH);
     }
 
     /** {@code <folder>/<file>.<extension>}. */
-    String path(ImageFormat format) {
+    public String path(ImageFormat format) {
         return folder + "/" + file + "." + format.extension();
     }
 
     /** The name of an image whose first name is taken by another one: the same entity, the same millisecond. */
-    String path(ImageFormat format, String sha256) {
+    public String path(ImageFormat format, String sha256) {
         return folder + "/" + file + "-" + sha256 + "." + format.extension();
     }
 
@@ -63,7 +63,7 @@ record ImageName(String folder, String file) {
         return TIME.parse(digits, Instant::from);
     }
 
-    static String part(String name) {
+    public static String part(String name) {
         if (name.isEmpty()) {
             return "~none";
         }
@@ -73,6 +73,6 @@ record ImageName(String folder, String file) {
             boolean plain = alphanumeric || b == '_' || b == '-' || b == '.' && safe.length() > 0;
             safe.append(plain ? String.valueOf((char) b) : String.format("~%02X", b));
         }
-        return safe.length() <= LONGEST ? safe.toString() : "~h" + Sha256.hex(name.getBytes(StandardCharsets.UTF_8));
+        return safe.length() <= MAX_LENGTH ? safe.toString() : "~h" + Sha256.hex(name.getBytes(StandardCharsets.UTF_8));
     }
 }

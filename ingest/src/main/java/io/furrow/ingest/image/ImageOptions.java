@@ -59,12 +59,12 @@ public final class ImageOptions {
     private long maxInFlight;
 
     @Option(
-            names = "--image-patience",
+            names = "--image-retry-timeout",
             paramLabel = "DURATION",
             defaultValue = "1min",
             description = "How long a store that does not take an image is tried again before the job fails and is "
                     + "restarted. Default: ${DEFAULT-VALUE}.")
-    private Duration patience;
+    private Duration timeout;
 
     /** Whether images are written to files. */
     public boolean areMoved() {
@@ -72,7 +72,7 @@ public final class ImageOptions {
     }
 
     /**
-     * Empty where images stay in the events.
+     * Empty if images stay in the events.
      *
      * @throws ParameterException naming the option that is wrong and the remedy
      */
@@ -85,7 +85,7 @@ public final class ImageOptions {
         check(maxInFlight >= 1, "--image-in-flight " + maxInFlight + " lets nothing pass; name at least 1");
         check(attributes.stream().noneMatch(String::isBlank), "--image-attribute has an empty name; leave it out");
         return Optional.of(new ImageSettings(
-                folder(root), new LinkedHashSet<>(attributes), maxBytes, threads, maxInFlight, patience, storing));
+                folder(root), new LinkedHashSet<>(attributes), maxBytes, threads, maxInFlight, timeout, storing));
     }
 
     /** An absolute URI without a slash at its end; a plain path is one of this machine. */

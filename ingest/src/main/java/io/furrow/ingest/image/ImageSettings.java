@@ -12,14 +12,14 @@ import java.util.Set;
  * @param maxBytes of one image
  * @param threads that read and write images, per subtask
  * @param maxInFlightBytes of events that wait for an image to be written, per subtask
- * @param patience how long a store that does not take an image is asked again before the job fails
+ * @param timeout how long a store that does not take an image is asked again before the job fails
  */
-record ImageSettings(
+public record ImageSettings(
         String root,
         Set<String> attributes,
         int maxBytes,
         int threads,
         long maxInFlightBytes,
-        Duration patience,
+        Duration timeout,
         Storing storing)
         implements Serializable {}

@@ -116,7 +116,7 @@ record ImageSpan(String attribute, int from, int to, boolean escaped) {
     }
 
     private boolean holdsImage(byte[] entity) throws UnreadableException {
-        byte[] start = to - from > LONGEST_ADDRESS ? Arrays.copyOfRange(entity, from + 1, from + 20) : text(entity);
+        byte[] start = to - from > MAX_ADDRESS_LENGTH ? Arrays.copyOfRange(entity, from + 1, from + 20) : text(entity);
         String text = new String(start, StandardCharsets.UTF_8);
         return !text.isBlank() && !text.matches("(?s)[A-Za-z][A-Za-z0-9+.-]*:/.*");
     }
@@ -135,5 +135,5 @@ record ImageSpan(String attribute, int from, int to, boolean escaped) {
     }
 
     /** Blank or not, a longer text is an image or a broken one. */
-    private static final int LONGEST_ADDRESS = 4096;
+    private static final int MAX_ADDRESS_LENGTH = 4096;
 }

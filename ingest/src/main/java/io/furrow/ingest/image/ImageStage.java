@@ -12,12 +12,13 @@ import org.apache.flink.streaming.api.operators.StreamOperator;
 import org.apache.flink.streaming.api.operators.StreamOperatorParameters;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.ingest.image.store.ImageStore;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**
- * The stage of a job that moves images: events go on in the order of their entity, each once. Broken images are on {@link
+ * The stage of a job that moves images: events are emitted in the order of their entity, each once. Broken images are on {@link
  * DeadLetters#TAG}. Without {@code --images} all events pass as they are, so that the job keeps its shape.
  */
 public final class ImageStage {
@@ -36,7 +37,7 @@ public final class ImageStage {
         return events.transform("move-images", events.getType(), operator(settings.orElse(null), events.getType()));
     }
 
-    /** @param settings null where images stay in the events */
+    /** @param settings null if images stay in the events */
     static OneInputStreamOperatorFactory<ReportedEvent, ReportedEvent> operator(
             ImageSettings settings, TypeInformation<ReportedEvent> type) {
         return new Factory(settings, type);

@@ -29,7 +29,9 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.runtime.watermarkstatus.WatermarkStatus;
 import org.apache.flink.util.function.ThrowingRunnable;
 
-import io.furrow.flink.DeadLetters;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.ingest.image.store.ImageStore;
+import io.furrow.ingest.image.store.StoreRetries;
 import io.furrow.ingest.route.ReportedEvent;
 
 /**
@@ -45,7 +47,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     private static final String STATE = "in-flight";
     /** What an event takes beside its value, roughly. */
     private static final int OVERHEAD_BYTES = 512;
-    /** So much longer than its patience a store may leave an attempt without an answer; then the job fails. */
+    /** So much longer than its timeout a store may leave an attempt without an answer; then the job fails. */
     private static final Duration HANGING = Duration.ofMinutes(1);
 
     private final ImageSettings settings;
@@ -60,7 +62,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
     private transient Deque<Waiting> inOrder;
     private transient long bytes;
 
-    /** @param settings null where images stay in the events */
+    /** @param settings null if images stay in the events */
     MoveImages(
             StreamOperatorParameters<ReportedEvent> parameters,
             ImageSettings settings,
@@ -126,7 +128,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         }
     }
 
-    /** Hands the first event of an entity to a thread; one that needs none goes on by the next mail. */
+    /** Hands the first event of an entity to a thread; one that needs none is emitted by the next mail. */
     private void begin(Waiting waiting) {
         ReportedEvent event = waiting.event();
         if (!isConcerned(event)) {
@@ -134,10 +136,10 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
             return;
         }
         long deadline = getProcessingTimeService().getCurrentProcessingTime()
-                + settings.patience().plus(HANGING).toMillis();
+                + settings.timeout().plus(HANGING).toMillis();
         waiting.until(getProcessingTimeService()
                 .registerTimer(deadline, time -> fail(event, new IOException("the store does not answer"))));
-        StoreAttempts attempts = new StoreAttempts(mover, settings.patience(), counts::retried);
+        StoreRetries attempts = new StoreRetries(mover, settings.timeout(), counts::retried);
         threads.execute(() -> {
             try {
                 Moved moved = attempts.move(event);
@@ -231,7 +233,7 @@ final class MoveImages extends AbstractStreamOperator<ReportedEvent>
         }
     }
 
-    /** At the end of the input: what waits must go on before the task may finish. */
+    /** At the end of the input: what waits must be emitted before the task may finish. */
     @Override
     public void finish() throws Exception {
         while (!byEntity.isEmpty()) {

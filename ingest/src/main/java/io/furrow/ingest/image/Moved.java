@@ -2,7 +2,7 @@ package io.furrow.ingest.image;
 
 import java.util.List;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.Reason;
 
 /**
@@ -11,10 +11,11 @@ import io.furrow.model.ngsi.Reason;
  * @param record the event with references instead; without images the record itself
  * @param manifest a record on {@code data.images} for each image stored
  * @param deadLetters at most one, the event as it was, where one of its images is broken
- * @param broken the reason of the dead letter; null where there is none
+ * @param broken the reason of the dead letter; null if there is none
  * @param bytes of the images stored
  */
-record Moved(TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, Reason broken, long bytes) {
+public record Moved(
+        TopicRecord record, List<TopicRecord> manifest, List<TopicRecord> deadLetters, Reason broken, long bytes) {
     /** The record and nothing beside it. */
     static Moved unannounced(TopicRecord record) {
         return new Moved(record, List.of(), List.of(), null, 0);

@@ -21,9 +21,12 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
-import io.furrow.flink.FileSystemOptions;
+import io.furrow.flink.job.FileSystemOptions;
+import io.furrow.ingest.image.store.ImageFiles;
 
-/** Deletes images whose event time, as their file's name tells it, is older than allowed; leaves every other file alone. */
+/**
+ * Deletes images whose event time, by the name of their file, is older than allowed; leaves every other file alone.
+ */
 @Command(
         name = "purge",
         abbreviateSynopsis = true,

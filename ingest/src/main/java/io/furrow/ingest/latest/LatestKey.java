@@ -3,7 +3,7 @@ package io.furrow.ingest.latest;
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;

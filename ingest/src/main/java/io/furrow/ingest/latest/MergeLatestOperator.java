@@ -19,8 +19,8 @@ import org.apache.flink.streaming.api.operators.KeyedProcessOperator;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -37,13 +37,13 @@ public final class MergeLatestOperator extends KeyedProcessOperator<String, Repo
 
     private final MergeLatest merge;
     private final LatestKey key;
-    private final TopicAtStart latest;
+    private final TopicSnapshot latest;
     private final Duration maxAhead;
     private transient ListState<Boolean> mark;
     private transient boolean wasRead;
 
     /** @param maxAhead how far records may be ahead of the clock and be believed */
-    public MergeLatestOperator(MergeLatest merge, LatestKey key, TopicAtStart latest, Duration maxAhead) {
+    public MergeLatestOperator(MergeLatest merge, LatestKey key, TopicSnapshot latest, Duration maxAhead) {
         super(merge);
         this.merge = merge;
         this.key = key;

@@ -26,13 +26,13 @@ import org.bson.RawBsonDocument;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.mission.DocumentForm;
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
+import io.furrow.mission.mongo.EventDocumentCodec;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
 
 /**
  * Sends documents in unordered bulks of upserts by {@code _id}: sent again they change nothing. What the server refuses is
- * found and given back, the rest is written; while the server is away the rest is tried again. What it does not take for a
+ * found and given back, the rest is written; while the server is unavailable the rest is tried again. What it does not take for a
  * reason that is not known to be the document's is tried again for long, before it counts as refused.
  */
 final class BulkSender {
@@ -52,7 +52,7 @@ final class BulkSender {
 
     private final Set<Integer> doubted = new HashSet<>();
 
-    /** @param retried is told how many documents are sent once more */
+    /** @param retried is called with how many documents are sent once more */
     BulkSender(MissionCollections collections, MongoAccess.Waits waits, LongConsumer retried) {
         this.collections = collections;
         this.waits = waits;
@@ -65,7 +65,7 @@ final class BulkSender {
     /**
      * Returns when the server has every document that it takes.
      *
-     * @throws IOException if it was away too long, or takes nothing under these settings
+     * @throws IOException if it was unavailable too long, or takes nothing under these settings
      */
     List<Refusal> send(List<MissionDocument> documents) throws IOException, InterruptedException {
         Map<String, List<MissionDocument>> byCollection = new LinkedHashMap<>();
@@ -89,7 +89,7 @@ final class BulkSender {
             learned.addAll(doubt.givenUp());
         } else if (documents > 1 && !learned.containsAll(doubt.givenUp())) {
             throw new IOException(
-                    "MongoDB took none of %d documents of %s for %d s, codes %s. Look into its log; see --mongo-refusal-patience."
+                    "MongoDB took none of %d documents of %s for %d s, codes %s. Look into its log; see --mongo-refusal-timeout."
                             .formatted(
                                     documents,
                                     String.join(", ", sentTo),
@@ -100,7 +100,7 @@ final class BulkSender {
 
     private void send(String collection, List<MissionDocument> documents, Doubt doubt, List<Refusal> refused)
             throws IOException, InterruptedException {
-        Patience left = new Patience(waits.away());
+        RetryTimer left = new RetryTimer(waits.away());
         List<MissionDocument> open = documents;
         int breaks = 0;
         while (!open.isEmpty()) {
@@ -133,7 +133,7 @@ final class BulkSender {
         }
     }
 
-    private static void pause(boolean isAway, Patience left, Exception why) throws IOException, InterruptedException {
+    private static void pause(boolean isAway, RetryTimer left, Exception why) throws IOException, InterruptedException {
         if (isAway) {
             left.pauseAfter(why);
         } else {
@@ -188,7 +188,7 @@ final class BulkSender {
      * What an answer leaves.
      *
      * @param open worth another attempt
-     * @param isAway whether some of it is so because the server is away
+     * @param isAway whether some of it is so because the server is unavailable
      */
     private record Answer(List<MissionDocument> open, boolean isAway) {}
 
@@ -248,7 +248,7 @@ final class BulkSender {
         List<WriteModel<RawBsonDocument>> upserts = new ArrayList<>(documents.size());
         for (MissionDocument document : documents) {
             upserts.add(new ReplaceOneModel<>(
-                    Filters.eq(DocumentForm.ID, document.id()), new RawBsonDocument(document.bson()), UPSERT));
+                    Filters.eq(EventDocumentCodec.ID, document.id()), new RawBsonDocument(document.bson()), UPSERT));
         }
         return upserts;
     }

@@ -6,18 +6,21 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.DeadCounters;
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
-import io.furrow.mission.DocumentForm;
-import io.furrow.mission.MissionCollections;
+import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.StoredEvent;
+import io.furrow.mission.mongo.EventDocumentCodec;
+import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Makes the document of each event that belongs to a mission; emits dead letters for what no document can hold. */
+/**
+ * Composes the document of each event that belongs to a mission; emits dead letters for events that no document can
+ * hold.
+ */
 public final class ComposeDocuments extends ProcessFunction<MissionEvent, MissionDocument> {
     private static final long serialVersionUID = 1L;
     /** In dead letters. */
@@ -53,11 +56,11 @@ public final class ComposeDocuments extends ProcessFunction<MissionEvent, Missio
             throw new UnreadableException(Reason.NOT_AN_EVENT, "the record has no event id");
         }
         Entity entity = record.value() == null ? null : Entity.parse(record.value());
-        byte[] bson = DocumentForm.write(new StoredEvent(
+        byte[] bson = EventDocumentCodec.write(new StoredEvent(
                 id,
                 record.timestamp(),
                 entity == null ? key(record) : entity.id(),
-                DocumentForm.kept(record.headers()),
+                EventDocumentCodec.kept(record.headers()),
                 entity == null ? null : entity.json()));
         return new MissionDocument(MissionCollections.nameOf(event.mission()), id, bson, event);
     }

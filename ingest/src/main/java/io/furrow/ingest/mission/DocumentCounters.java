@@ -3,8 +3,8 @@ package io.furrow.ingest.mission;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.MetricGroup;
 
-import io.furrow.flink.DeadCounters;
-import io.furrow.flink.PerMission;
+import io.furrow.flink.job.PerMission;
+import io.furrow.flink.record.DeadCounters;
 import io.furrow.model.ngsi.Reason;
 
 /**

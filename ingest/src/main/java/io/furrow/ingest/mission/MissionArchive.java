@@ -14,9 +14,9 @@ import java.util.List;
 
 import org.apache.flink.core.fs.Path;
 
-import io.furrow.mission.ArchiveLine;
 import io.furrow.mission.EventOrder;
 import io.furrow.mission.StoredEvent;
+import io.furrow.mission.file.ArchiveLine;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
@@ -143,7 +143,7 @@ public final class MissionArchive {
             this.archived = archived;
         }
 
-        /** Goes on to the next that is new; false if there is none on this day. */
+        /** Continues to the next that is new; false if there is none on this day. */
         boolean skipKnown() {
             while (stored.event != null && day(stored.event).equals(day)) {
                 while (archived.event != null && EventOrder.COMPARATOR.compare(archived.event, stored.event) < 0) {

@@ -5,6 +5,6 @@ package io.furrow.ingest.mission;
  *
  * @param id its {@code _id}, the event id
  * @param bson all of it, {@code _id} included
- * @param event what it was made of, for the dead letter if the server refuses it; null where it came from an archive
+ * @param event what it was made of, for the dead letter if the server refuses it; null if it came from an archive
  */
 public record MissionDocument(String collection, String id, byte[] bson, MissionEvent event) {}

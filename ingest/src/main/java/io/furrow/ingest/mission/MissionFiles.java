@@ -64,7 +64,7 @@ public final class MissionFiles {
                 .toList();
     }
 
-    /** What a folder holds, by name; nothing where there is no such folder. */
+    /** What a folder holds, by name; nothing if there is no such folder. */
     static Stream<Path> list(Path folder) throws IOException {
         FileSystem files = folder.getFileSystem();
         FileStatus[] found = files.exists(folder) ? files.listStatus(folder) : null;

@@ -12,14 +12,14 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 import picocli.CommandLine.TypeConversionException;
 
-import io.furrow.flink.DurationConverter;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.flink.job.DurationConverter;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 
 /** The options of the branch that keeps missions in MongoDB. */
 public final class MissionOptions {
     /** What an index of MongoDB takes. */
-    private static final long LONGEST_SECONDS = Integer.MAX_VALUE;
+    private static final long MAX_SECONDS = Integer.MAX_VALUE;
 
     @Spec(Spec.Target.MIXEE)
     private CommandSpec spec;
@@ -33,22 +33,22 @@ public final class MissionOptions {
     private String mongo;
 
     @Option(
-            names = "--mongo-patience",
+            names = "--mongo-retry-timeout",
             paramLabel = "DURATION",
             defaultValue = "60s",
             description = "How long documents are tried again while MongoDB is away, before the job is restarted. "
                     + "Default: ${DEFAULT-VALUE}.")
-    private Duration patience;
+    private Duration timeout;
 
     @Option(
-            names = "--mongo-refusal-patience",
+            names = "--mongo-refusal-timeout",
             paramLabel = "DURATION",
             defaultValue = "5min",
             description =
                     "How long a document is tried again that MongoDB does not take for a reason that may or may not pass,"
                             + " before it becomes a dead letter. Shorter than Flink's timeout of checkpoints, 10 min,"
                             + " which wait for it. Default: ${DEFAULT-VALUE}.")
-    private Duration refusalPatience;
+    private Duration refusalTimeout;
 
     @Option(
             names = "--mission-retention",
@@ -69,7 +69,7 @@ public final class MissionOptions {
             throw refused("--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
                     .formatted(e.getMessage()));
         }
-        return new MongoAccess(mongo, new MongoAccess.Waits(patience, refusalPatience));
+        return new MongoAccess(mongo, new MongoAccess.Waits(timeout, refusalTimeout));
     }
 
     Retention retention() {
@@ -90,7 +90,7 @@ public final class MissionOptions {
     private Duration duration(String text) {
         try {
             Duration kept = new DurationConverter().convert(text);
-            if (kept.toSeconds() >= 1 && kept.toSeconds() <= LONGEST_SECONDS) {
+            if (kept.toSeconds() >= 1 && kept.toSeconds() <= MAX_SECONDS) {
                 return kept;
             }
         } catch (TypeConversionException e) {

@@ -11,10 +11,10 @@ import org.apache.flink.api.connector.sink2.WriterInitContext;
 import org.apache.flink.metrics.Counter;
 import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
 
-import io.furrow.flink.TopicRecord;
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 
 /**
  * Documents to MongoDB: after any restart the same collections as without it, because a document's {@code _id} is its event's
@@ -57,7 +57,7 @@ public final class MissionSink implements Sink<MissionDocument> {
         MongoClient client = access.open();
         MissionCollections collections = new MissionCollections(client, retention, Clock.systemUTC());
         boolean purges = context.getTaskInfo().getIndexOfThisSubtask() == 0 && !retention.isForEver();
-        Purge purge = purges ? Purge.start(access, retention) : null;
+        ExpiredDocumentsPurger purge = purges ? ExpiredDocumentsPurger.start(access, retention) : null;
         AutoCloseable connection = () -> {
             if (purge != null) {
                 purge.close();

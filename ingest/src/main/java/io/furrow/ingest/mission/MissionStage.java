@@ -4,8 +4,8 @@ import org.apache.flink.api.connector.sink2.Sink;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
 
 /** The branch of {@code ingest} that keeps missions in MongoDB. */
 public final class MissionStage {

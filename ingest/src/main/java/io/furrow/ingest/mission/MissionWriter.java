@@ -15,8 +15,8 @@ import java.util.concurrent.Future;
 import org.apache.flink.api.connector.sink2.SinkWriter;
 import org.apache.flink.metrics.groups.SinkWriterMetricGroup;
 
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -26,8 +26,8 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 @SuppressWarnings("try") // close() may be interrupted, as a sink writer's may
 final class MissionWriter implements SinkWriter<MissionDocument> {
-    private static final int MOST_DOCUMENTS = 1_000;
-    private static final int MOST_BYTES = 8 * 1024 * 1024;
+    private static final int MAX_DOCUMENTS = 1_000;
+    private static final int MAX_BYTES = 8 * 1024 * 1024;
 
     private final BulkSender sender;
     private final SinkWriter<TopicRecord> deadLetters;
@@ -58,7 +58,7 @@ final class MissionWriter implements SinkWriter<MissionDocument> {
     public void write(MissionDocument document, Context context) throws IOException, InterruptedException {
         gathered.add(document);
         gatheredBytes += document.bson().length;
-        if (gathered.size() >= MOST_DOCUMENTS || gatheredBytes >= MOST_BYTES) {
+        if (gathered.size() >= MAX_DOCUMENTS || gatheredBytes >= MAX_BYTES) {
             sendGathered();
         }
     }

@@ -21,21 +21,18 @@ import com.mongodb.client.MongoClient;
 import com.mongodb.client.MongoCollection;
 import com.mongodb.client.MongoCursor;
 import com.mongodb.client.model.Sorts;
-import org.bson.BsonDocument;
-import org.bson.BsonValue;
 import org.bson.RawBsonDocument;
 
-import io.furrow.mission.ArchiveLine;
-import io.furrow.mission.DocumentForm;
 import io.furrow.mission.EventOrder;
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
 import io.furrow.mission.StoredEvent;
+import io.furrow.mission.file.ArchiveLine;
+import io.furrow.mission.mongo.EventDocumentCodec;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.model.topic.TopicName;
 
-/** The missions that are kept in MongoDB: told, written as lines, and read from lines. */
+/** The missions that are stored in MongoDB: listed, exported as lines, and imported from lines. */
 public final class StoredMissions implements AutoCloseable {
     private static final int BATCH = 1_000;
     private static final int TELL_EVERY = 10_000;
@@ -60,13 +57,13 @@ public final class StoredMissions implements AutoCloseable {
     /**
      * What is kept of a mission.
      *
-     * @param mission its name; as its collection has it where only a hash of it is there and no event tells it
+     * @param mission its name; as its collection has it where only a hash of it is there and no event names it
      * @param collection as MongoDB has it
-     * @param bytes of the documents, without indexes; −1 where the server does not tell
+     * @param bytes of the documents, without indexes; −1 if the server does not report it
      * @param first event time of the oldest event
      * @param last event time of the newest event
      * @param indexes by name
-     * @param retention how long the server itself keeps documents; null for ever, or as long as the job that purges says
+     * @param retention how long the server itself keeps documents; null forever, or as long as the job that purges says
      */
     public record Summary(
             String mission,
@@ -83,14 +80,18 @@ public final class StoredMissions implements AutoCloseable {
         List<Summary> all = new ArrayList<>();
         for (String name : collections.names()) {
             MongoCollection<RawBsonDocument> collection = collections.get(name);
-            RawBsonDocument first =
-                    collection.find().sort(Sorts.ascending(DocumentForm.TIME)).first();
-            RawBsonDocument last =
-                    collection.find().sort(Sorts.descending(DocumentForm.TIME)).first();
+            RawBsonDocument first = collection
+                    .find()
+                    .sort(Sorts.ascending(EventDocumentCodec.TIME))
+                    .first();
+            RawBsonDocument last = collection
+                    .find()
+                    .sort(Sorts.descending(EventDocumentCodec.TIME))
+                    .first();
             if (first != null && last != null) {
                 Map<String, Optional<Duration>> indexes = collections.indexes(name);
                 all.add(new Summary(
-                        original(name, last),
+                        MissionCollections.missionOf(name, () -> last),
                         name,
                         collection.countDocuments(),
                         collections.bytes(name),
@@ -106,19 +107,6 @@ public final class StoredMissions implements AutoCloseable {
         return all;
     }
 
-    /** A hash is the name that an event of its mission bears, where it bears one. */
-    private static String original(String collection, RawBsonDocument event) {
-        String part = collection.substring(MissionCollections.PREFIX.length());
-        return TopicName.original(part).orElseGet(() -> {
-            BsonValue attribute = event.get("Mission");
-            BsonValue value = attribute instanceof BsonDocument own ? own.get("value") : null;
-            boolean isIt = value != null
-                    && value.isString()
-                    && MissionCollections.nameOf(value.asString().getValue()).equals(collection);
-            return isIt ? value.asString().getValue() : part;
-        });
-    }
-
     /** The collection of a mission by its name, or by what stands for it in topics and collections where there is that. */
     String collection(String mission) {
         List<String> candidates = MissionCollections.candidates(mission);
@@ -130,7 +118,8 @@ public final class StoredMissions implements AutoCloseable {
     }
 
     private static Instant time(RawBsonDocument document) {
-        return Instant.ofEpochMilli(document.getDateTime(DocumentForm.TIME).getValue());
+        return Instant.ofEpochMilli(
+                document.getDateTime(EventDocumentCodec.TIME).getValue());
     }
 
     /** Whether anything is kept of it. */
@@ -141,7 +130,7 @@ public final class StoredMissions implements AutoCloseable {
     /**
      * Writes all events of a mission as lines, in the order of their times; the same documents are always the same bytes.
      *
-     * @param told is told now and then how many it has been
+     * @param told is called now and then with the number so far
      * @return how many events
      */
     public long export(String mission, OutputStream out, LongConsumer told) throws IOException {
@@ -189,7 +178,7 @@ public final class StoredMissions implements AutoCloseable {
     private static MissionDocument document(String collection, String line, String where) throws IOException {
         try {
             StoredEvent event = ArchiveLine.read(line);
-            return new MissionDocument(collection, event.id(), DocumentForm.write(event), null);
+            return new MissionDocument(collection, event.id(), EventDocumentCodec.write(event), null);
         } catch (UnreadableException e) {
             throw new IOException(where + " is no event: " + e.getMessage(), e);
         }
@@ -209,7 +198,7 @@ public final class StoredMissions implements AutoCloseable {
         return new Events(collections
                 .get(collection(mission))
                 .find()
-                .sort(Sorts.ascending(DocumentForm.TIME))
+                .sort(Sorts.ascending(EventDocumentCodec.TIME))
                 .batchSize(BATCH)
                 .cursor());
     }
@@ -241,7 +230,7 @@ public final class StoredMissions implements AutoCloseable {
 
         private static StoredEvent read(RawBsonDocument document) {
             try {
-                return DocumentForm.read(document);
+                return EventDocumentCodec.read(document);
             } catch (UnreadableException e) {
                 throw new UncheckedIOException(
                         "The collection holds a document that ingest did not write",

@@ -14,15 +14,15 @@ import org.apache.flink.api.common.typeinfo.Types;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.device.DeviceBook;
 import io.furrow.flink.device.DeviceChange;
+import io.furrow.flink.device.DeviceLookup;
+import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.model.device.DeviceVersion;
 
 /**
- * Says of each event to which domain and mission it belongs: as its attributes say, else as {@code service.devices} said of
- * the entity at the event's time, else as configured. A deletion, which names nothing, goes where the entity's newest event
- * went.
+ * Assigns each event to a domain and a mission: as its attributes say, else as {@code service.devices} said of the
+ * entity at the event's time, else as configured. A deletion, which names nothing, goes where the entity's newest
+ * event went.
  *
  * <p>State: the newest route per entity; every device's versions, the same at each subtask. Cleared: the route by the
  * deletion, versions when they ended longer ago than they are kept. Late: an event is assigned as of its own time, and does
@@ -40,16 +40,16 @@ public final class AssignMission
      * What is configured.
      *
      * @param kept how long versions that ended are kept for events that come late
-     * @param defaultDomain empty where there is none, as {@code defaultMission}
+     * @param defaultDomain empty if there is none, as {@code defaultMission}
      */
     public record Rule(Duration kept, String defaultDomain, String defaultMission) implements Serializable {}
 
-    private final DeviceBook<DeviceHistory> devices;
+    private final DeviceLookup<DeviceHistory> devices;
     private final Rule rule;
     private transient ValueState<KnownRoute> route;
 
-    public AssignMission(TopicAtStart devicesAtStart, Rule rule) {
-        this.devices = new DeviceBook<>(devicesAtStart, rule.kept(), new DeviceHistory.Form());
+    public AssignMission(TopicSnapshot devicesAtStart, Rule rule) {
+        this.devices = new DeviceLookup<>(devicesAtStart, rule.kept(), new DeviceHistory.Form());
         this.rule = rule;
     }
 

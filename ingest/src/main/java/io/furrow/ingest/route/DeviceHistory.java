@@ -2,7 +2,7 @@ package io.furrow.ingest.route;
 
 import java.util.List;
 
-import io.furrow.flink.device.DeviceBook;
+import io.furrow.flink.device.DeviceLookup;
 import io.furrow.flink.device.DeviceVersions;
 import io.furrow.model.device.DeviceVersion;
 
@@ -13,7 +13,7 @@ import io.furrow.model.device.DeviceVersion;
  */
 public record DeviceHistory(List<DeviceVersion> versions) {
     /** To and from the state. */
-    static final class Form implements DeviceBook.Form<DeviceHistory> {
+    static final class Form implements DeviceLookup.StateCodec<DeviceHistory> {
         private static final long serialVersionUID = 1L;
 
         @Override

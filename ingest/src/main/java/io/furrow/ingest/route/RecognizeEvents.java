@@ -8,10 +8,10 @@ import org.apache.flink.api.common.functions.OpenContext;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.AheadLimit;
-import io.furrow.flink.DeadCounters;
-import io.furrow.flink.DeadLetters;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.DeadLetters;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.AheadLimit;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EventId;
 import io.furrow.model.event.FiwareScope;
@@ -74,7 +74,7 @@ public final class RecognizeEvents extends ProcessFunction<TopicRecord, Reported
                 known == null ? record.with(HeaderNames.CE_ID, id) : record);
     }
 
-    /** Null where there is none: an empty one would make all events of an entity repeats of the first. */
+    /** Null if there is none: an empty one would make all events of an entity repeats of the first. */
     private static String knownId(TopicRecord record) {
         String id = record.headers().get(HeaderNames.CE_ID);
         return id == null || id.isBlank() ? null : id;

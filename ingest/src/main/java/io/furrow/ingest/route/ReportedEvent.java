@@ -1,6 +1,6 @@
 package io.furrow.ingest.route;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 
 /**
  * An event as the stages of {@code ingest} see it: a change of an entity, or its deletion.
@@ -9,8 +9,8 @@ import io.furrow.flink.TopicRecord;
  * @param identity tenant, service path and entity id; the key of all state
  * @param entityId id of the entity
  * @param type type of the entity; empty for a deletion, which does not name it
- * @param domain empty where there is none
- * @param mission empty where there is none
+ * @param domain empty if there is none
+ * @param mission empty if there is none
  * @param record as it was read; null as its value for a deletion
  */
 public record ReportedEvent(

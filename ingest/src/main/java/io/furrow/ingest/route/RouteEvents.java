@@ -6,8 +6,8 @@ import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.streaming.api.functions.ProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.flink.PerMission;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.job.PerMission;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 
 /** Emits an event for its domain, and for its mission where it has one; measures what passes. */

@@ -22,8 +22,8 @@ final class RouteMeters {
         routed = group.counter("routed");
         late = group.counter("late");
         bytes = group.counter("bytes");
-        deviceToSource = group.histogram("lag.device-to-source", new DescriptiveStatisticsHistogram(WINDOW));
-        sourceToIngest = group.histogram("lag.source-to-ingest", new DescriptiveStatisticsHistogram(WINDOW));
+        deviceToSource = group.histogram("lagDeviceToSource", new DescriptiveStatisticsHistogram(WINDOW));
+        sourceToIngest = group.histogram("lagSourceToIngest", new DescriptiveStatisticsHistogram(WINDOW));
     }
 
     void count(ReportedEvent event, boolean isLate) {

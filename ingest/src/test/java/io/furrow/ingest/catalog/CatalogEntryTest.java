@@ -100,7 +100,7 @@ class CatalogEntryTest {
                     Reports.of("t1", "m", T, "{\"id\":\"t1\",\"type\":\"Thermometer\",\"a" + i + "\":{\"value\":1}}")));
         }
 
-        assertThat(entry.attributes()).hasSize(CatalogEntry.MOST_ATTRIBUTES).containsKey("Temperature");
+        assertThat(entry.attributes()).hasSize(CatalogEntry.MAX_ATTRIBUTES).containsKey("Temperature");
         assertThat(entry.events()).isEqualTo(1_201);
     }
 

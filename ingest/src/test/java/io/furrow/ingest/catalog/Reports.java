@@ -4,11 +4,11 @@ import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.Map;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
 
-/** Events for the catalogue's tests. */
+/** Events for the catalog's tests. */
 final class Reports {
     static final long TIME = 1_700_000_000_000L;
 

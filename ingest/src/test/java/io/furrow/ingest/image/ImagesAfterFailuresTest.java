@@ -25,7 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 
-import io.furrow.flink.JobCommandLine;
+import io.furrow.flink.job.JobCommandLine;
 import io.furrow.ingest.route.ReportedEvent;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -77,10 +77,10 @@ class ImagesAfterFailuresTest {
         return (int) ((time - Pictures.TIME) % 16);
     }
 
-    /** Each failure of the store fails the job: it has next to no patience. */
+    /** Each failure of the store fails the job: it has next to no timeout. */
     private List<ReportedEvent> run() throws Exception {
         Options options = new Options();
-        JobCommandLine.of(options).parseArgs("--images", GatedStore.uri(folder), "--image-patience", "1ms");
+        JobCommandLine.of(options).parseArgs("--images", GatedStore.uri(folder), "--image-retry-timeout", "1ms");
         Configuration settings = new Configuration();
         settings.set(CheckpointingOptions.CHECKPOINTING_INTERVAL, Duration.ofMillis(20));
         settings.set(RestartStrategyOptions.RESTART_STRATEGY, "fixed-delay");

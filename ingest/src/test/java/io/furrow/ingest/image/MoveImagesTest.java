@@ -2,7 +2,7 @@ package io.furrow.ingest.image;
 
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.DeadLetters;
+import io.furrow.flink.record.DeadLetters;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;

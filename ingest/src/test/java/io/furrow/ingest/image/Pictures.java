@@ -11,7 +11,7 @@ import java.util.Random;
 import javax.imageio.ImageIO;
 import javax.imageio.stream.MemoryCacheImageOutputStream;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -19,7 +19,7 @@ import io.furrow.model.ngsi.EntityBuilder;
 
 /** Images and the events of cameras for tests; the same seed, the same bytes. */
 public final class Pictures {
-    static final long TIME = 1_700_000_000_123L;
+    public static final long TIME = 1_700_000_000_123L;
 
     private Pictures() {}
 
@@ -46,7 +46,7 @@ public final class Pictures {
         return bytes.toByteArray();
     }
 
-    static String base64(byte[] bytes) {
+    public static String base64(byte[] bytes) {
         return Base64.getEncoder().encodeToString(bytes);
     }
 

@@ -8,10 +8,10 @@ import org.apache.flink.core.fs.Path;
 import org.apache.flink.core.fs.local.LocalFileSystem;
 
 /** The local file system, with a list of what is asked of it. */
-final class RecordingFiles extends LocalFileSystem {
+public final class RecordingFiles extends LocalFileSystem {
     private final List<String> calls;
 
-    RecordingFiles(List<String> calls) {
+    public RecordingFiles(List<String> calls) {
         this.calls = calls;
     }
 

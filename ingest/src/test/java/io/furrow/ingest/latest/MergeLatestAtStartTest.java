@@ -14,8 +14,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.EnumSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -35,7 +35,7 @@ class MergeLatestAtStartTest {
 
     private LatestKey key = LatestKey.ID;
 
-    private record OnTheTopic(ArrayList<TopicRecord> records) implements TopicAtStart {
+    private record OnTheTopic(ArrayList<TopicRecord> records) implements TopicSnapshot {
         @Override
         public List<TopicRecord> read() {
             return records;

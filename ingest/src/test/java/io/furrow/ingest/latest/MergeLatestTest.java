@@ -12,8 +12,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.ingest.route.ReportedEvent;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
@@ -179,7 +179,7 @@ class MergeLatestTest {
     private void create(LatestKey key, Duration deletionMemory) throws Exception {
         operator = new KeyedOneInputStreamOperatorTestHarness<>(
                 new MergeLatestOperator(
-                        new MergeLatest(deletionMemory, key), key, TopicAtStart.NONE, Duration.ofHours(1)),
+                        new MergeLatest(deletionMemory, key), key, TopicSnapshot.NONE, Duration.ofHours(1)),
                 ReportedEvent::identity,
                 Types.STRING);
     }

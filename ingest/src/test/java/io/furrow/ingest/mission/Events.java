@@ -4,7 +4,7 @@ import java.nio.charset.StandardCharsets;
 import java.util.HashMap;
 import java.util.Map;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
 
 /** Events as the branch to MongoDB gets them. */

@@ -10,9 +10,9 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.ParameterException;
 
-import io.furrow.flink.JobCommandLine;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -28,7 +28,7 @@ class MissionOptionsTest {
     void tryARefusalOfUnknownReasonForLong() {
         assertThat(parsed("--mongo", "mongodb://127.0.0.1").access().waits())
                 .isEqualTo(new MongoAccess.Waits(Duration.ofMinutes(1), Duration.ofMinutes(5)));
-        assertThat(parsed("--mongo", "mongodb://127.0.0.1", "--mongo-refusal-patience", "9min")
+        assertThat(parsed("--mongo", "mongodb://127.0.0.1", "--mongo-refusal-timeout", "9min")
                         .access()
                         .waits()
                         .unknown())

@@ -18,10 +18,10 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.embedded.EmbeddedMongo;
-import io.furrow.flink.TopicRecord;
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 import io.furrow.model.event.DeadLetter;
 
 import static org.assertj.core.api.Assertions.assertThat;

@@ -14,11 +14,13 @@ import com.mongodb.MongoException;
 import com.mongodb.client.MongoClient;
 import org.apache.flink.api.common.JobStatus;
 import org.apache.flink.api.common.eventtime.WatermarkStrategy;
-import org.apache.flink.api.connector.source.lib.NumberSequenceSource;
+import org.apache.flink.api.common.typeinfo.Types;
+import org.apache.flink.api.connector.source.util.ratelimit.RateLimiterStrategy;
 import org.apache.flink.configuration.CheckpointingOptions;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.configuration.PipelineOptions;
 import org.apache.flink.configuration.RestartStrategyOptions;
+import org.apache.flink.connector.datagen.source.DataGeneratorSource;
 import org.apache.flink.core.execution.JobClient;
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
@@ -30,9 +32,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -53,14 +55,17 @@ class MongoDiesIT {
     void leavesTheDocumentsOfARunWithoutTheFault() throws Exception {
         Map<String, TreeSet<String>> undisturbed;
         try (MongoProcess mongo = new MongoProcess(directory.resolve("a"))) {
-            job(mongo, Duration.ofMinutes(1)).getJobExecutionResult().get();
+            job(mongo, Duration.ofMinutes(1), 10 * EVENTS)
+                    .getJobExecutionResult()
+                    .get();
             undisturbed = documents(mongo);
         }
         assertThat(undisturbed.values().stream().mapToInt(TreeSet::size).sum()).isEqualTo(EVENTS);
 
         try (MongoProcess mongo = new MongoProcess(directory.resolve("b"))) {
-            // With little patience the job fails now and then and goes on from a checkpoint, too.
-            JobClient job = job(mongo, Duration.ofSeconds(1));
+            // With little timeout the job fails now and then and continues from a checkpoint, too.
+            // Its events come in slowly enough for three kills, however slow the machine is.
+            JobClient job = job(mongo, Duration.ofSeconds(1), EVENTS / 10);
             int kills = killUnderLoad(mongo, job);
             job.getJobExecutionResult().get();
 
@@ -76,7 +81,7 @@ class MongoDiesIT {
         int kills = 0;
         long before = 0;
         while (kills < 3) {
-            long wanted = before + 1_000 + random.nextInt(EVENTS / 6);
+            long wanted = before + 1 + random.nextInt((int) (EVENTS - before) / 4);
             Awaitility.await("seed " + seed).atMost(Duration.ofSeconds(60)).until(() -> count(mongo) >= wanted);
             assertThat(job.getJobStatus().get()).isNotEqualTo(JobStatus.FINISHED);
             before = count(mongo);
@@ -87,7 +92,8 @@ class MongoDiesIT {
         return kills;
     }
 
-    private static JobClient job(MongoProcess mongo, Duration patience) throws Exception {
+    @SuppressWarnings("unchecked") // Flink's factory of rate limiters returns a raw type
+    private static JobClient job(MongoProcess mongo, Duration timeout, int eventsPerSecond) throws Exception {
         Configuration settings = new Configuration();
         settings.set(CheckpointingOptions.CHECKPOINTING_INTERVAL, Duration.ofMillis(200));
         settings.set(RestartStrategyOptions.RESTART_STRATEGY, "fixed-delay");
@@ -98,8 +104,12 @@ class MongoDiesIT {
         StreamExecutionEnvironment env = StreamExecutionEnvironment.getExecutionEnvironment(settings);
         env.setParallelism(2);
         MongoAccess access =
-                new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(patience));
-        env.fromSource(new NumberSequenceSource(0, EVENTS - 1), WatermarkStrategy.noWatermarks(), "numbers")
+                new MongoAccess(mongo.uri() + "/?serverSelectionTimeoutMS=200", MongoAccess.Waits.of(timeout));
+        env.fromSource(
+                        new DataGeneratorSource<>(
+                                n -> n, EVENTS, RateLimiterStrategy.perSecond(eventsPerSecond), Types.LONG),
+                        WatermarkStrategy.noWatermarks(),
+                        "numbers")
                 .map(n -> Events.reading(MISSIONS.get((int) (n % MISSIONS.size())), n.intValue()))
                 .returns(MissionEvent.class)
                 .process(new ComposeDocuments())

@@ -14,9 +14,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.mission.MissionCollections;
-import io.furrow.mission.MongoAccess;
-import io.furrow.mission.Retention;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -117,7 +117,7 @@ class RefusalsTest {
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("took none of 10 documents of mission_m")
                 .hasMessageContaining("[777777]")
-                .hasMessageContaining("--mongo-refusal-patience");
+                .hasMessageContaining("--mongo-refusal-timeout");
     }
 
     @Test

@@ -15,9 +15,9 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
 import io.furrow.flink.device.DeviceChange;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
@@ -159,7 +159,7 @@ class AssignMissionTest {
     }
 
     /** Serializable in name only: the harness does not send it anywhere. */
-    private record OnTheTopic(List<TopicRecord> records) implements TopicAtStart {
+    private record OnTheTopic(List<TopicRecord> records) implements TopicSnapshot {
         @Override
         public List<TopicRecord> read() {
             return records;

@@ -43,7 +43,7 @@ final class JobLag {
 
     /**
      * Pending records by job, or by job and source where it has several ({@code ingest devices}); empty for one that has not
-     * told yet, or while Flink is too busy to tell.
+     * told yet, or while Flink is too busy to answer.
      */
     Map<String, OptionalLong> read() throws InterruptedException {
         Map<String, OptionalLong> lags = new TreeMap<>();

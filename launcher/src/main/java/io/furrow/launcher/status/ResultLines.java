@@ -6,6 +6,8 @@ import java.time.format.DateTimeFormatter;
 import java.util.Locale;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.result.CollisionResult;
+import io.furrow.model.result.FieldResult;
 
 /** Result entities as one line of text each. */
 final class ResultLines {
@@ -16,19 +18,19 @@ final class ResultLines {
 
     /** For instance {@code field-1   21.3 °C   4 devices, robust, suspect urn:…:4   12:00:10}. */
     static String average(Entity entity) {
-        String suspects = entity.value("suspects")
+        String suspects = entity.value(FieldResult.SUSPECTS)
                 .filter(list -> !list.isEmpty())
                 .map(list -> ", suspect " + list.get(0).asText() + (list.size() > 1 ? " …" : ""))
                 .orElse("");
         return String.format(
                 Locale.ROOT,
                 "%-12s %6.2f °C   %d devices, %s%s   window to %s",
-                entity.text("field").orElse("?"),
-                entity.number("averageTemperature").orElse(Double.NaN),
-                entity.number("devices").orElse(0.0).intValue(),
-                entity.text("quality").orElse("?"),
+                entity.text(FieldResult.FIELD).orElse("?"),
+                entity.number(FieldResult.AVERAGE_TEMPERATURE).orElse(Double.NaN),
+                entity.number(FieldResult.DEVICES).orElse(0.0).intValue(),
+                entity.text(FieldResult.QUALITY).orElse("?"),
                 suspects,
-                clock(entity, "windowEnd"));
+                clock(entity, FieldResult.WINDOW_END));
     }
 
     /** For instance {@code 12:00:10 started  4.1 m  urn:…:Robot:1 – urn:…:Robot:2}. */
@@ -36,11 +38,11 @@ final class ResultLines {
         return String.format(
                 Locale.ROOT,
                 "%s %-8s %5.2f m   %s – %s",
-                clock(entity, "time"),
-                entity.text("phase").orElse("?"),
-                entity.number("distance").orElse(Double.NaN),
-                entity.text("Device1_ID").orElse("?"),
-                entity.text("Device2_ID").orElse("?"));
+                clock(entity, CollisionResult.TIME),
+                entity.text(CollisionResult.PHASE).orElse("?"),
+                entity.number(CollisionResult.DISTANCE).orElse(Double.NaN),
+                entity.text(CollisionResult.FIRST.id()).orElse("?"),
+                entity.text(CollisionResult.SECOND.id()).orElse("?"));
     }
 
     private static String clock(Entity entity, String attribute) {

@@ -4,6 +4,7 @@ import java.io.PrintWriter;
 import java.net.URI;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
+import java.util.Collection;
 import java.util.Deque;
 import java.util.List;
 import java.util.Locale;
@@ -12,11 +13,14 @@ import java.util.OptionalLong;
 import java.util.Properties;
 import java.util.TreeMap;
 import java.util.concurrent.ExecutionException;
+import java.util.function.Supplier;
 import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.Admin;
 
 import io.furrow.model.ngsi.Entity;
+import io.furrow.model.result.CollisionResult;
+import io.furrow.model.result.FieldResult;
 
 /**
  * The live status: records per second and total of each topic, the newest average of each field, collisions as they happen,
@@ -26,25 +30,43 @@ public final class Status implements AutoCloseable {
     private static final int COLLISIONS_SHOWN = 6;
     private static final int SECONDS_BETWEEN_BLOCKS = 10;
 
+    /**
+     * What is shown.
+     *
+     * @param client of Kafka
+     * @param jobs ids by name
+     * @param notices a sentence for each thing that waits for somebody
+     */
+    public record Shown(
+            Admin admin,
+            Properties client,
+            URI flink,
+            Map<String, String> jobs,
+            Supplier<Collection<String>> notices) {}
+
     private final PrintWriter out;
     private final boolean inPlace;
     private final TopicTotals totals;
     private final Rates rates = new Rates();
     private final JobLag lag;
     private final Results results;
+    private final Supplier<Collection<String>> notices;
     private final Map<String, String> averages = new TreeMap<>();
     private final Deque<String> collisions = new ArrayDeque<>();
     private int drawn;
     private long ticks;
 
-    /** @param inPlace whether the output is a terminal that can be drawn over */
-    public Status(
-            PrintWriter out, boolean inPlace, Admin admin, Properties client, URI flink, Map<String, String> jobs) {
+    /**
+     * @param inPlace whether the output is a terminal that can be drawn over
+     * @param suite what is shown
+     */
+    public Status(PrintWriter out, boolean inPlace, Shown suite) {
         this.out = out;
         this.inPlace = inPlace;
-        this.totals = new TopicTotals(admin);
-        this.lag = new JobLag(flink, jobs);
-        this.results = new Results(client, this::tell);
+        this.totals = new TopicTotals(suite.admin());
+        this.lag = new JobLag(suite.flink(), suite.jobs());
+        this.results = new Results(suite.client(), this::tell);
+        this.notices = suite.notices();
     }
 
     public void start() {
@@ -71,11 +93,12 @@ public final class Status implements AutoCloseable {
     }
 
     private synchronized void tell(Entity entity) {
-        boolean average = entity.type().equals("Analytics:FieldTemperature");
+        boolean average = entity.type().equals(FieldResult.TEMPERATURE_TYPE);
         String line = average ? ResultLines.average(entity) : ResultLines.collision(entity);
         if (average) {
             averages.put(entity.id(), line);
-        } else if (!"ongoing".equals(entity.text("phase").orElse(""))) {
+        } else if (!CollisionResult.ONGOING.equals(
+                entity.text(CollisionResult.PHASE).orElse(""))) {
             collisions.addFirst(line);
             while (collisions.size() > COLLISIONS_SHOWN) {
                 collisions.removeLast();
@@ -100,6 +123,7 @@ public final class Status implements AutoCloseable {
                         .map(job -> job.getKey() + " "
                                 + (job.getValue().isPresent() ? job.getValue().getAsLong() + " records" : "…"))
                         .collect(Collectors.joining("   ")));
+        lines.addAll(notices.get());
         if (inPlace) {
             lines.add("");
             lines.add("averages");

@@ -11,7 +11,7 @@ import io.furrow.mission.Recording;
 import io.furrow.mission.Skipped;
 import io.furrow.mission.StoredEvent;
 
-/** Takes every event of a recording to a format, and counts. */
+/** Writes every event of a recording in a format, and counts. */
 final class ExportRun {
     private static final int PROGRESS_EVERY = 10_000;
 

@@ -6,7 +6,7 @@ import java.util.Optional;
  * What became of a recording.
  *
  * @param events that were written
- * @param leftOut records that hold no event, and events that the format cannot hold
+ * @param leftOut records that hold no event, and events and markers that the format cannot hold
  * @param example which record was left out first, and why
  */
 public record Exported(long events, long leftOut, Optional<String> example) {}

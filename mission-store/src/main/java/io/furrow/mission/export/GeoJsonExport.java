@@ -2,6 +2,7 @@ package io.furrow.mission.export;
 
 import java.io.IOException;
 import java.io.OutputStream;
+import java.time.Instant;
 import java.util.Map;
 import java.util.Optional;
 import java.util.TreeMap;
@@ -9,38 +10,57 @@ import java.util.function.LongConsumer;
 
 import com.fasterxml.jackson.core.JsonGenerator;
 
-import io.furrow.mission.Recording;
 import io.furrow.mission.StoredEvent;
+import io.furrow.mission.marker.Marker;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.Position;
-import io.furrow.model.ngsi.PositionReading;
+import io.furrow.model.position.Position;
+import io.furrow.model.position.PositionReading;
 
 /**
- * GeoJSON (RFC 7946), for maps: a feature for each entity that told a position, a LineString with {@code times} (ISO 8601, one per
- * position) of what moved, a Point with {@code first} and {@code last} of what stood still. Of positions that are told again in
- * one place the first and the last are written. Holds the tracks.
+ * GeoJSON (RFC 7946), for maps: a feature for each entity that reported a position, a LineString with {@code times} (ISO 8601, one per
+ * position) of what moved, a Point with {@code first} and {@code last} of what stood still. Of positions that are reported again in
+ * one place the first and the last are written. A marker is a feature without geometry, of {@code kind} {@code marker}. Holds the
+ * tracks.
  */
 public final class GeoJsonExport implements MissionExport {
     @Override
-    public Exported write(String mission, Recording recording, OutputStream out, LongConsumer progress)
-            throws IOException {
+    public Exported write(Source mission, OutputStream out, LongConsumer progress) throws IOException {
         TreeMap<String, Track> tracks = new TreeMap<>();
-        Exported read = new ExportRun(progress).over(recording, event -> add(event, tracks));
+        Exported read = new ExportRun(progress).over(mission.recording(), event -> add(event, tracks));
         try (JsonGenerator json = NgsiJson.mapper().getFactory().createGenerator(out)) {
             json.disable(JsonGenerator.Feature.AUTO_CLOSE_TARGET);
             json.writeStartObject();
             json.writeStringField("type", "FeatureCollection");
             json.writeArrayFieldStart("features");
             for (Map.Entry<String, Track> track : tracks.entrySet()) {
-                track.getValue().write(mission, json);
+                track.getValue().write(mission.name(), json);
+            }
+            for (Marker marker : mission.markers()) {
+                write(marker, json);
             }
             json.writeEndArray();
             json.writeEndObject();
         }
         return read;
+    }
+
+    private static void write(Marker marker, JsonGenerator json) throws IOException {
+        json.writeStartObject();
+        json.writeStringField("type", "Feature");
+        json.writeNullField("geometry");
+        json.writeObjectFieldStart("properties");
+        json.writeStringField("kind", "marker");
+        json.writeStringField("id", marker.id());
+        json.writeStringField("mission", marker.mission());
+        json.writeStringField("time", Instant.ofEpochMilli(marker.time()).toString());
+        json.writeStringField("note", marker.note());
+        json.writeStringField("author", marker.author());
+        json.writeStringField("created", Instant.ofEpochMilli(marker.created()).toString());
+        json.writeEndObject();
+        json.writeEndObject();
     }
 
     private static Optional<String> add(StoredEvent event, Map<String, Track> tracks) {

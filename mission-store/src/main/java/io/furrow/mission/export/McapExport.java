@@ -11,7 +11,6 @@ import java.util.function.LongConsumer;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.mission.Recording;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
@@ -19,23 +18,42 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * MCAP, for Foxglove and the like: a schema for each entity type, a channel {@code <type>/<entity id>} for each entity, a message
- * for each event with its time in nanoseconds and the entity as JSON; {@code {"id", "deleted": true}} for a deletion.
+ * for each event with its time in nanoseconds and the entity as JSON; {@code {"id", "deleted": true}} for a deletion. The markers of a
+ * mission that has some are messages of the channel {@code markers}.
  */
 public final class McapExport implements MissionExport {
-    private static final long NANOS = 1_000_000;
+    private static final String NO_TIME = "MCAP has no times before 1970 or after 2554";
+
+    static final long NANOS = 1_000_000;
     /** Nanoseconds are unsigned 64 bits: until 2554. */
-    private static final long LAST_MILLIS = Long.divideUnsigned(-1L, NANOS);
+    static final long LAST_MILLIS = Long.divideUnsigned(-1L, NANOS);
 
     @Override
-    public Exported write(String mission, Recording recording, OutputStream out, LongConsumer progress)
-            throws IOException {
-        Channels channels = new Channels(mission, new McapWriter(out, "furrow"));
-        Exported exported = new ExportRun(progress).over(recording, channels::write);
-        channels.file.finish();
-        return exported;
+    public Exported write(Source mission, OutputStream out, LongConsumer progress) throws IOException {
+        McapWriter file = new McapWriter(out, "furrow");
+        McapMarkers markers = new McapMarkers(mission, file);
+        Channels channels = new Channels(mission.name(), file);
+        Exported exported = new ExportRun(progress).over(mission.recording(), event -> {
+            markers.writeUntil(event.time());
+            return channels.write(event);
+        });
+        markers.writeUntil(LAST_MILLIS);
+        file.finish();
+        return markers.left() == 0
+                ? exported
+                : new Exported(
+                        exported.events(),
+                        exported.leftOut() + markers.left(),
+                        exported.example().or(() -> Optional.of("a marker: " + NO_TIME)));
     }
 
-    /** The channels and schemas of one file. */
+    static ObjectNode emptySchema(String title) {
+        ObjectNode schema = JsonNodeFactory.instance.objectNode();
+        schema.put("$schema", "https://json-schema.org/draft/2020-12/schema");
+        return schema.put("title", title).put("type", "object");
+    }
+
+    /** The channels and schemas of one file of entities. */
     private static final class Channels {
         private final String mission;
         private final McapWriter file;
@@ -52,7 +70,7 @@ public final class McapExport implements MissionExport {
 
         Optional<String> write(StoredEvent event) throws IOException {
             if (event.time() < 0 || event.time() > LAST_MILLIS) {
-                return Optional.of("MCAP has no times before 1970 or after 2554");
+                return Optional.of(NO_TIME);
             }
             FiwareScope scope = FiwareScope.of(
                     event.headers().get(HeaderNames.SERVICE), event.headers().get(HeaderNames.SERVICE_PATH));
@@ -64,7 +82,7 @@ public final class McapExport implements MissionExport {
             String key = type + "|" + identity;
             Integer channel = byEntity.get(key);
             if (channel == null) {
-                if (byEntity.size() == McapWriter.MOST_CHANNELS) {
+                if (file.channels() == McapWriter.MAX_CHANNELS) {
                     return Optional.of("MCAP has no more than 65,535 channels, and each entity takes one");
                 }
                 channel = channel(type, event.entityId(), scope);
@@ -100,9 +118,7 @@ public final class McapExport implements MissionExport {
 
         /** An entity in normalized form; which attributes there are it does not say. */
         private static ObjectNode schemaOf(String type) {
-            ObjectNode schema = JsonNodeFactory.instance.objectNode();
-            schema.put("$schema", "https://json-schema.org/draft/2020-12/schema");
-            schema.put("title", type).put("type", "object");
+            ObjectNode schema = emptySchema(type);
             ObjectNode properties = schema.putObject("properties");
             properties.putObject("id").put("type", "string");
             properties.putObject("type").put("type", "string");

@@ -11,7 +11,7 @@ import java.util.zip.CRC32;
  * by which a reader jumps to a time or a topic. Holds one chunk, and 100 bytes or so of each that was written.
  */
 final class McapWriter {
-    static final int MOST_CHANNELS = 65_535;
+    static final int MAX_CHANNELS = 65_535;
 
     private static final byte[] MAGIC = {(byte) 0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
     private static final int CHUNK_BYTES = 1024 * 1024;
@@ -57,7 +57,7 @@ final class McapWriter {
     private Extent chunkExtent = new Extent();
     private final SortedMap<Integer, McapBytes> chunkMessages = new TreeMap<>();
 
-    /** First and last log time, in nanoseconds; zero where there is none. */
+    /** First and last log time, in nanoseconds; zero if there is none. */
     private static final class Extent {
         private long first;
         private long last;
@@ -88,7 +88,7 @@ final class McapWriter {
         return schemaCount;
     }
 
-    /** The id of a new channel, of which there are at most {@value #MOST_CHANNELS}. */
+    /** The id of a new channel, of which there are at most {@value #MAX_CHANNELS}. */
     int channel(int schema, String topic, String encoding, SortedMap<String, String> metadata) {
         int id = messages.size() + 1;
         McapBytes content =
@@ -97,6 +97,10 @@ final class McapWriter {
         chunk.record(Opcode.CHANNEL, content);
         messages.put(id, 0L);
         return id;
+    }
+
+    int channels() {
+        return messages.size();
     }
 
     /** @param nanos log time and publish time since 1970, unsigned */

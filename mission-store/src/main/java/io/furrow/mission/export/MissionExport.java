@@ -2,17 +2,32 @@ package io.furrow.mission.export;
 
 import java.io.IOException;
 import java.io.OutputStream;
+import java.util.List;
 import java.util.function.LongConsumer;
 
 import io.furrow.mission.Recording;
+import io.furrow.mission.marker.Marker;
 
-/** Writes a recording in a format of other tools. The same events are always the same bytes. */
+/** Writes a mission in a format of other tools. The same events and markers are always the same bytes. */
 public interface MissionExport {
     /**
-     * Writes all of a recording; the stream stays open.
+     * A mission that is exported.
      *
-     * @param mission its name
+     * @param name for the export
+     * @param markers in the order of their times
+     */
+    record Source(String name, Recording recording, List<Marker> markers) {}
+
+    /**
+     * Writes all of a mission; the stream stays open.
+     *
      * @param progress takes the number of events so far now and then
      */
-    Exported write(String mission, Recording recording, OutputStream out, LongConsumer progress) throws IOException;
+    Exported write(Source mission, OutputStream out, LongConsumer progress) throws IOException;
+
+    /** Writes a mission that has no markers. */
+    default Exported write(String mission, Recording recording, OutputStream out, LongConsumer progress)
+            throws IOException {
+        return write(new Source(mission, recording, List.of()), out, progress);
+    }
 }

@@ -7,7 +7,7 @@ import java.util.Arrays;
 import com.fasterxml.jackson.core.JsonGenerator;
 
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
 
 /** The positions of one entity in the order of their times; 24 bytes each. */
 final class Track {

@@ -2,16 +2,24 @@ package io.furrow.mission.export;
 
 import java.io.ByteArrayOutputStream;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
 import java.util.Optional;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.mission.FileRecordings;
 import io.furrow.mission.Recording;
+import io.furrow.mission.file.FileRecordings;
+import io.furrow.mission.marker.Marker;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class GeoJsonExportTest {
+    @TempDir
+    Path folder;
+
     @Test
     void drawsATrackOfWhatMovedAndAPointForWhatStoodStill() throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
@@ -34,5 +42,23 @@ class GeoJsonExportTest {
                 "properties":{"id":"urn:ngsi-ld:Thermometer:1","type":"Thermometer","mission":"hoeing",\
                 "service":"farm","servicePath":"/","positions":2,"first":"2023-11-14T22:13:20Z",\
                 "last":"2023-11-14T22:13:24Z"}}]}""");
+    }
+
+    @Test
+    void writesMarkersAsFeaturesWithoutAPlace() throws Exception {
+        ByteArrayOutputStream out = new ByteArrayOutputStream();
+        Path events = folder.resolve("hoeing.ndjson");
+        Files.write(events, List.of());
+        Marker marker = new Marker("a", "hoeing", 1_700_000_000_000L, "turns", "Ada", 1_700_000_000_001L);
+        try (Recording recording =
+                new FileRecordings(events.toString()).open("hoeing").orElseThrow()) {
+            new GeoJsonExport()
+                    .write(new MissionExport.Source("hoeing", recording, List.of(marker)), out, ignored -> {});
+        }
+
+        assertThat(out.toString(StandardCharsets.UTF_8)).isEqualTo("""
+                {"type":"FeatureCollection","features":[{"type":"Feature","geometry":null,\
+                "properties":{"kind":"marker","id":"a","mission":"hoeing","time":"2023-11-14T22:13:20Z",\
+                "note":"turns","author":"Ada","created":"2023-11-14T22:13:20.001Z"}}]}""");
     }
 }

@@ -11,8 +11,9 @@ import java.util.Optional;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.mission.FileRecordings;
 import io.furrow.mission.Recording;
+import io.furrow.mission.file.FileRecordings;
+import io.furrow.mission.marker.Marker;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -89,15 +90,49 @@ class McapExportTest {
                 .containsExactly(18_446_744_073_709L * 1_000_000);
     }
 
+    @Test
+    void writesMarkersAtTheirTimesOnAChannel() throws Exception {
+        Path mission = folder.resolve("mission.ndjson");
+        Files.writeString(mission, "{\"id\":\"e\",\"time\":7,\"headers\":{},\"entity\":{\"id\":\"t\",\"type\":\"T\"}}");
+        List<Marker> markers = List.of(
+                new Marker("a", "hoeing", 6, "turns", "Ada", 9),
+                new Marker("b", "hoeing", 8, "stops", "", 9),
+                new Marker("c", "hoeing", 1L << 46, "is over", "", 9));
+
+        McapFile file = new McapFile(exported(
+                mission,
+                markers,
+                new Exported(1, 1, Optional.of("a marker: MCAP has no times before 1970 or after 2554"))));
+
+        assertThat(file.messages)
+                .containsExactly(
+                        new McapFile.Message(
+                                "markers",
+                                6_000_000,
+                                "{\"id\":\"a\",\"mission\":\"hoeing\",\"time\":6,\"note\":\"turns\",\"author\":\"Ada\",\"created\":9}"),
+                        new McapFile.Message("T/t", 7_000_000, "{\"id\":\"t\",\"type\":\"T\"}"),
+                        new McapFile.Message(
+                                "markers",
+                                8_000_000,
+                                "{\"id\":\"b\",\"mission\":\"hoeing\",\"time\":8,\"note\":\"stops\",\"author\":\"\",\"created\":9}"));
+        assertThat(file.schemas.get(1))
+                .startsWith("furrow.Marker jsonschema {")
+                .contains("\"note\":{\"type\":\"string\"}");
+    }
+
     private static byte[] exported(Path lines, Exported expected) throws Exception {
+        return exported(lines, List.of(), expected);
+    }
+
+    private static byte[] exported(Path lines, List<Marker> markers, Exported expected) throws Exception {
         ByteArrayOutputStream out = new ByteArrayOutputStream();
         try (Recording recording =
                 new FileRecordings(lines.toString()).open("hoeing").orElseThrow()) {
-            assertThat(new McapExport().write("hoeing", recording, out, ignored -> {}))
-                    .isEqualTo(expected);
+            MissionExport.Source mission = new MissionExport.Source("hoeing", recording, markers);
+            assertThat(new McapExport().write(mission, out, ignored -> {})).isEqualTo(expected);
         }
         String kept = System.getProperty("furrow.mcap.folder");
-        if (kept != null) { // for ./furrow soak mcap
+        if (kept != null && markers.isEmpty()) { // for ./furrow soak mcap, which compares events
             Path copy = Files.createTempFile(Path.of(kept), "mission", ".ndjson");
             Files.copy(lines, copy, StandardCopyOption.REPLACE_EXISTING);
             Files.write(Path.of(copy.toString().replace(".ndjson", ".mcap")), out.toByteArray());

@@ -6,6 +6,8 @@ import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.control.mission.DeviceGroup;
+
 /** What the topic {@code service.alarmmanager} asks for. */
 public sealed interface AlarmCommand extends Command {
     /** What is muted: one alarm, or all of a kind, those to come too. */
@@ -32,7 +34,7 @@ public sealed interface AlarmCommand extends Command {
     /**
      * Somebody looks at it.
      *
-     * @param user who; null where nobody says so
+     * @param user who; null if nobody says so
      */
     record Acknowledge(String alarm, String user) implements AlarmCommand {
         @Override
@@ -50,7 +52,7 @@ public sealed interface AlarmCommand extends Command {
     /**
      * It is over, whatever devices say.
      *
-     * @param user who says so; null where nobody does
+     * @param user who says so; null if nobody does
      */
     record Close(String alarm, String user) implements AlarmCommand {
         @Override
@@ -65,7 +67,7 @@ public sealed interface AlarmCommand extends Command {
         }
     }
 
-    /** Nobody is told of it for a while. */
+    /** Nobody is notified of it for a while. */
     record Mute(Target target, Duration time) implements AlarmCommand {
         @Override
         public String verb() {
@@ -94,7 +96,7 @@ public sealed interface AlarmCommand extends Command {
     String ALARM = "alarm";
     String USER = "user";
 
-    static AlarmCommand read(String verb, Members members) throws RefusedException {
+    static AlarmCommand read(String verb, RequestMembers members) throws RefusedException {
         return switch (verb == null ? "" : verb) {
             case "acknowledge" -> new Acknowledge(members.name(ALARM), members.textOrNull(USER));
             case "close" -> new Close(members.name(ALARM), members.textOrNull(USER));
@@ -104,7 +106,7 @@ public sealed interface AlarmCommand extends Command {
         };
     }
 
-    private static Target target(Members members) throws RefusedException {
+    private static Target target(RequestMembers members) throws RefusedException {
         if (members.has(ALARM)) {
             return new OfAlarm(members.name(ALARM));
         }
@@ -116,11 +118,11 @@ public sealed interface AlarmCommand extends Command {
         } catch (IllegalArgumentException e) {
             String kinds =
                     Arrays.stream(AlarmKind.values()).map(AlarmKind::code).collect(Collectors.joining(", "));
-            throw Members.wrong("kind", "one of " + kinds);
+            throw RequestMembers.wrong("kind", "one of " + kinds);
         }
     }
 
-    private static Duration time(Members members) throws RefusedException {
+    private static Duration time(RequestMembers members) throws RefusedException {
         Duration time = members.durationOrNull("for");
         if (time == null) {
             throw new RefusedException(

@@ -9,7 +9,7 @@ import com.fasterxml.jackson.annotation.JsonValue;
 public enum AlarmKind {
     /** Devices were not heard of for longer than they may be; the subject is the entity of their mission, else domain. */
     SILENT_DEVICE,
-    /** So much of a mission is silent that rather its site or connection is away; the subject is the mission's entity. */
+    /** So much of a mission is silent that rather its site or connection is unavailable; the subject is the mission's entity. */
     SILENT_MISSION,
     /** Nothing arrives from any device; the subject is the topic that nothing arrives on. */
     SILENT_FARM,
@@ -28,7 +28,7 @@ public enum AlarmKind {
         return name().toLowerCase(Locale.ROOT).replace('_', '-');
     }
 
-    /** @throws IllegalArgumentException where there is none of that code */
+    /** @throws IllegalArgumentException if there is none of that code */
     @JsonCreator
     public static AlarmKind of(String code) {
         for (AlarmKind kind : values()) {

@@ -6,6 +6,8 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.control.mission.DeviceGroup;
+
 /**
  * What is said of a domain. Null is what is not said.
  *
@@ -28,10 +30,10 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
                 fields == null ? others.fields : fields);
     }
 
-    static DomainDetails read(Members members) throws RefusedException {
+    static DomainDetails read(RequestMembers members) throws RefusedException {
         ObjectNode area = members.objectOrNull("area");
         if (area != null && !DeviceGroup.isArea(area)) {
-            throw Members.wrong("area", "a GeoJSON Polygon or MultiPolygon");
+            throw RequestMembers.wrong("area", "a GeoJSON Polygon or MultiPolygon");
         }
         return new DomainDetails(
                 members.textOrNull("name"),

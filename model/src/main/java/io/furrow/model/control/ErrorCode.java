@@ -35,6 +35,8 @@ public enum ErrorCode {
     /** The device is not provisioned: it reports by itself. */
     NO_CREDENTIALS,
     UNKNOWN_REPLAY,
+    /** Another replay has the name or the topic. */
+    REPLAY_EXISTS,
     UNKNOWN_ALARM,
     /** The replay or alarm is not in the state that the command needs. */
     WRONG_STATE,

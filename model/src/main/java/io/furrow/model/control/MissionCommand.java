@@ -5,6 +5,11 @@ import java.time.Instant;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.mission.MissionTemplate;
+
 /** What the topic {@code service.missionmanager} asks for. */
 public sealed interface MissionCommand extends Command {
     record Create(String mission, String domain, MissionPlan plan) implements MissionCommand {
@@ -21,7 +26,7 @@ public sealed interface MissionCommand extends Command {
     }
 
     /**
-     * Makes the mission where there is none.
+     * Makes the mission if there is none.
      *
      * @param domain null for that of a mission that is there
      * @param start when it shall start; null, and a time that has passed, is now
@@ -82,7 +87,7 @@ public sealed interface MissionCommand extends Command {
         }
     }
 
-    /** Keeps a new version; the version that the template names is passed over. */
+    /** Keeps a new version; the version that the template names is skipped. */
     record SaveTemplate(MissionTemplate template) implements MissionCommand {
         @Override
         public String verb() {
@@ -128,7 +133,7 @@ public sealed interface MissionCommand extends Command {
         }
     }
 
-    static MissionCommand read(String verb, Members members) throws RefusedException {
+    static MissionCommand read(String verb, RequestMembers members) throws RefusedException {
         return switch (verb == null ? "" : verb) {
             case "create" -> new Create(members.name("mission"), members.name("domain"), MissionPlan.read(members));
             case "start" ->
@@ -152,7 +157,7 @@ public sealed interface MissionCommand extends Command {
         };
     }
 
-    private static MissionDevices added(Members members) throws RefusedException {
+    private static MissionDevices added(RequestMembers members) throws RefusedException {
         if (!members.has("devices")) {
             throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'devices'");
         }

@@ -6,16 +6,16 @@ package io.furrow.model.control;
  * @param <C> the commands of that manager
  */
 public sealed interface Received<C> {
-    /** @param requestId null where the request has none */
+    /** @param requestId null if the request has none */
     record Request<C>(String requestId, C command) implements Received<C> {}
 
     /**
      * A request that cannot be understood, or what is no message at all.
      *
-     * @param requestId null where none can be read
+     * @param requestId null if none can be read
      * @param answer without the request's id
      */
-    record Refused<C>(String requestId, Response answer) implements Received<C> {}
+    record Refused<C>(String requestId, CommandResult answer) implements Received<C> {}
 
     /** Nothing that a manager acts on: its own responses, and records without a value. */
     record Passed<C>() implements Received<C> {}

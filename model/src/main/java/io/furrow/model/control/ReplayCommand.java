@@ -1,6 +1,7 @@
 package io.furrow.model.control;
 
 import java.time.Instant;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.regex.Pattern;
 
@@ -8,6 +9,11 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.topic.TopicName;
 
 /** What the topic {@code service.replaymanager} asks for. */
 public sealed interface ReplayCommand extends Command {
@@ -17,14 +23,32 @@ public sealed interface ReplayCommand extends Command {
     /** How replays are called: {@code <mission>.<id8>}. */
     Pattern REPLAY = Pattern.compile("[A-Za-z0-9_-]{1,64}\\.[0-9a-f]{8}");
 
+    /** Where replays may be asked to be played. */
+    Pattern TOPIC = Pattern.compile("data\\.[A-Za-z0-9_-]{1,64}\\.replay\\.[0-9a-f]{8}");
+
+    /** How groups are called: the {@code id8} that their replays share. */
+    Pattern GROUP = Pattern.compile("[0-9a-f]{8}");
+
+    /** Missions of one group. */
+    int MAX_OF_GROUP = 16;
+
     /**
-     * @param from event time of the first event; null for the mission's first
-     * @param to event time after the last event; null for the mission's end
+     * @param missions one, or several that follow one clock
+     * @param topic to play one mission on; null for one that is called after the mission
      * @param speed 0.1 to 1000, or {@link #MAX}
-     * @param devices ids of the entities that are played back; empty for all
+     * @param range what is played over and over; null for all
      */
-    record Start(String mission, Instant from, Instant to, double speed, boolean loop, List<String> devices)
+    record Start(List<String> missions, String topic, double speed, WantedReplay.Range range, ReplayPlan plan)
             implements ReplayCommand {
+        public Start {
+            missions = List.copyOf(missions);
+        }
+
+        /** Whether it asks for replays that follow one clock. */
+        public boolean isGroup() {
+            return missions.size() > 1;
+        }
+
         @Override
         public String verb() {
             return "start";
@@ -32,31 +56,128 @@ public sealed interface ReplayCommand extends Command {
 
         @Override
         public void describe(ObjectNode request) {
-            request.put("mission", mission);
-            DeviceGroup.put(request, "from", from);
-            DeviceGroup.put(request, "to", to);
-            request.set("speed", json(speed));
-            request.put("loop", loop);
-            if (!devices.isEmpty()) {
-                ArrayNode ids = request.putArray("devices");
-                devices.forEach(ids::add);
+            if (isGroup()) {
+                ArrayNode names = request.putArray("missions");
+                missions.forEach(names::add);
+            } else {
+                request.put("mission", missions.get(0));
             }
+            DeviceGroup.put(request, "topic", topic);
+            request.set("speed", json(speed));
+            if (range != null) {
+                range.describe(request.putObject("range"));
+            }
+            plan.describe(request);
+        }
+
+        private static Start read(RequestMembers members) throws RefusedException {
+            List<String> missions = missions(members);
+            String topic = members.textOrNull("topic");
+            if (topic != null && (missions.size() > 1 || !TOPIC.matcher(topic).matches())) {
+                throw RequestMembers.wrong(
+                        "topic", "data.<name>.replay.<eight hexadecimal digits>, and is for one mission only");
+            }
+            ReplayPlan plan = ReplayPlan.read(members);
+            double speed = ReplayCommand.speed(members, false);
+            if (missions.size() > 1 && (speed == MAX || plan.maxGap() != null || plan.source() != null)) {
+                throw RequestMembers.wrong("missions", "one where 'speed' is max, or 'maxGap' or 'source' is given");
+            }
+            ObjectNode range = members.objectOrNull("range");
+            return new Start(
+                    missions,
+                    topic,
+                    speed,
+                    range == null ? null : WantedReplay.Range.read(new RequestMembers(range)),
+                    plan);
+        }
+
+        private static List<String> missions(RequestMembers members) throws RefusedException {
+            if (!members.has("missions")) {
+                return List.of(members.name("mission"));
+            }
+            ArrayNode names = members.arrayOrNull("missions", MAX_OF_GROUP);
+            List<String> missions = new ArrayList<>();
+            for (JsonNode name : names) {
+                if (!TopicName.isLegal(name.asText()) || missions.contains(name.asText())) {
+                    throw RequestMembers.wrong("missions", "a list of different names of missions");
+                }
+                missions.add(name.asText());
+            }
+            if (missions.isEmpty() || members.has("mission")) {
+                throw RequestMembers.wrong("missions", "a list of missions, without 'mission' beside it");
+            }
+            return missions;
         }
     }
 
-    /** A command to a replay that is there. */
+    /**
+     * A command to what is there.
+     *
+     * @see Target
+     */
     sealed interface Steering extends ReplayCommand {
-        String replay();
+        Target target();
     }
 
-    /** Commands that say no more than which replay they mean. */
+    /**
+     * What is steered: a replay by its name, or all replays of a group.
+     *
+     * @param replay null for a group
+     * @param group null for a replay
+     */
+    record Target(String replay, String group) {
+        public static Target of(String replay) {
+            return new Target(replay, null);
+        }
+
+        private static Target read(RequestMembers members) throws RefusedException {
+            String group = members.textOrNull("group");
+            if (group == null) {
+                return of(named(members.text("replay")));
+            }
+            if (members.has("replay")) {
+                throw RequestMembers.wrong("group", "without 'replay' beside it");
+            }
+            if (!GROUP.matcher(group).matches()) {
+                throw new RefusedException(
+                        ErrorCode.ILLEGAL_NAME,
+                        "'%s' is no group; one is called by eight hexadecimal digits"
+                                .formatted(RequestMembers.quotable(group)));
+            }
+            return new Target(null, group);
+        }
+
+        private static String named(String replay) throws RefusedException {
+            if (!REPLAY.matcher(replay).matches()) {
+                throw new RefusedException(
+                        ErrorCode.ILLEGAL_NAME,
+                        "'%s' is no replay; one is called <mission>.<eight hexadecimal digits>"
+                                .formatted(RequestMembers.quotable(replay)));
+            }
+            return replay;
+        }
+
+        ObjectNode describe(ObjectNode request) {
+            DeviceGroup.put(request, "replay", replay);
+            DeviceGroup.put(request, "group", group);
+            return request;
+        }
+
+        /** As it stands in a sentence. */
+        @Override
+        public String toString() {
+            return replay == null ? "group '" + group + "'" : "replay '" + replay + "'";
+        }
+    }
+
+    /** Commands that say no more than what they mean. */
     enum Verb {
         STOP,
         PAUSE,
         RESUME
     }
 
-    record Simple(String replay, Verb what) implements Steering {
+    record Simple(Target target, Verb what) implements Steering {
         @Override
         public String verb() {
             return what.name().toLowerCase(java.util.Locale.ROOT);
@@ -64,12 +185,12 @@ public sealed interface ReplayCommand extends Command {
 
         @Override
         public void describe(ObjectNode request) {
-            request.put("replay", replay);
+            target.describe(request);
         }
     }
 
-    /** @param to event time to go on from */
-    record Seek(String replay, Instant to) implements Steering {
+    /** @param to event time to continue from */
+    record Seek(Target target, Instant to) implements Steering {
         @Override
         public String verb() {
             return "seek";
@@ -77,12 +198,11 @@ public sealed interface ReplayCommand extends Command {
 
         @Override
         public void describe(ObjectNode request) {
-            request.put("replay", replay);
-            DeviceGroup.put(request, "to", to);
+            DeviceGroup.put(target.describe(request), "to", to);
         }
     }
 
-    record Speed(String replay, double speed) implements Steering {
+    record Speed(Target target, double speed) implements Steering {
         @Override
         public String verb() {
             return "speed";
@@ -90,13 +210,12 @@ public sealed interface ReplayCommand extends Command {
 
         @Override
         public void describe(ObjectNode request) {
-            request.put("replay", replay);
-            request.set("speed", json(speed));
+            target.describe(request).set("speed", json(speed));
         }
     }
 
-    /** @param count how many events are played, one after the other, of a replay that is paused */
-    record Step(String replay, int count) implements Steering {
+    /** @param count how many events are played, one after the other, of a replay that is paused; back where it is negative */
+    record Step(Target target, int count) implements Steering {
         @Override
         public String verb() {
             return "step";
@@ -104,58 +223,57 @@ public sealed interface ReplayCommand extends Command {
 
         @Override
         public void describe(ObjectNode request) {
-            request.put("replay", replay).put("count", count);
+            target.describe(request).put("count", count);
         }
     }
 
-    static ReplayCommand read(String verb, Members members) throws RefusedException {
+    /** @param range what is played over and over from now on; null for all */
+    record Loop(Target target, WantedReplay.Range range) implements Steering {
+        @Override
+        public String verb() {
+            return "loop";
+        }
+
+        @Override
+        public void describe(ObjectNode request) {
+            target.describe(request);
+            if (range != null) {
+                range.describe(request);
+            }
+        }
+    }
+
+    static ReplayCommand read(String verb, RequestMembers members) throws RefusedException {
         return switch (verb == null ? "" : verb) {
-            case "start" -> start(members);
-            case "stop" -> new Simple(replay(members), Verb.STOP);
-            case "pause" -> new Simple(replay(members), Verb.PAUSE);
-            case "resume" -> new Simple(replay(members), Verb.RESUME);
-            case "seek" -> new Seek(replay(members), needed("to", members));
-            case "speed" -> new Speed(replay(members), speed(members, true));
-            case "step" -> new Step(replay(members), members.wholeNumber("count", 1, 1_000_000, 1));
-            default -> throw Requests.unknown(verb, "start, stop, pause, resume, seek, speed, step");
+            case "start" -> Start.read(members);
+            case "stop" -> new Simple(Target.read(members), Verb.STOP);
+            case "pause" -> new Simple(Target.read(members), Verb.PAUSE);
+            case "resume" -> new Simple(Target.read(members), Verb.RESUME);
+            case "seek" -> new Seek(Target.read(members), members.time("to"));
+            case "speed" -> new Speed(Target.read(members), speed(members, true));
+            case "step" -> new Step(Target.read(members), steps(members));
+            case "loop" -> new Loop(Target.read(members), range(members));
+            default -> throw Requests.unknown(verb, "start, stop, pause, resume, seek, speed, step, loop");
         };
     }
 
-    private static Start start(Members members) throws RefusedException {
-        String mission = members.name("mission");
-        Instant from = members.timeOrNull("from");
-        Instant to = members.timeOrNull("to");
-        if (from != null && to != null && !from.isBefore(to)) {
-            throw Members.wrong("to", "after 'from'");
+    private static int steps(RequestMembers members) throws RefusedException {
+        int count = members.wholeNumber("count", -1_000_000, 1_000_000, 1);
+        if (count == 0) {
+            throw RequestMembers.wrong("count", "a whole number from -1000000 to 1000000, and not 0");
         }
-        List<String> devices = members.texts("devices", DeviceGroup.ENTITY_ID, "entity ids");
-        return new Start(mission, from, to, speed(members, false), members.flag("loop"), devices);
+        return count;
     }
 
-    private static String replay(Members members) throws RefusedException {
-        String replay = members.text("replay");
-        if (!REPLAY.matcher(replay).matches()) {
-            throw new RefusedException(
-                    ErrorCode.ILLEGAL_NAME,
-                    "'%s' is no replay; one is called <mission>.<eight hexadecimal digits>"
-                            .formatted(Members.quotable(replay)));
-        }
-        return replay;
+    private static WantedReplay.Range range(RequestMembers members) throws RefusedException {
+        return members.has("from") || members.has("to") ? WantedReplay.Range.read(members) : null;
     }
 
-    private static Instant needed(String member, Members members) throws RefusedException {
-        Instant time = members.timeOrNull(member);
-        if (time == null) {
-            throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member '" + member + "'");
-        }
-        return time;
-    }
-
-    private static double speed(Members members, boolean needed) throws RefusedException {
+    static double speed(RequestMembers members, boolean needed) throws RefusedException {
         JsonNode speed = members.json().path("speed");
         if (!members.has("speed")) {
             if (needed) {
-                throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'speed'");
+                throw RequestMembers.missing("speed");
             }
             return 1;
         }
@@ -164,7 +282,7 @@ public sealed interface ReplayCommand extends Command {
         }
         double number = speed.isNumber() ? speed.doubleValue() : Double.NaN;
         if (!(number >= 0.1 && number <= 1000)) {
-            throw Members.wrong("speed", "a number from 0.1 to 1000, or max");
+            throw RequestMembers.wrong("speed", "a number from 0.1 to 1000, or max");
         }
         return number;
     }

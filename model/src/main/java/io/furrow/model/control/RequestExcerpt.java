@@ -14,10 +14,10 @@ import io.furrow.model.ngsi.NgsiJson;
  * The members of a request that say whose it is and what it is about, read without the rest: for requests that are too large, or that
  * could not be carried out.
  *
- * @param json texts of at most {@value #LONGEST} characters; empty where the value is no JSON object
+ * @param json texts of at most {@value #MAX_LENGTH} characters; empty if the value is no JSON object
  */
 public record RequestExcerpt(ObjectNode json) {
-    private static final int LONGEST = 200;
+    private static final int MAX_LENGTH = 200;
     private static final Set<String> MEMBERS =
             Set.of("type", "requestId", "command", "user", "domain", "mission", "replay", "alarm", "template");
 
@@ -38,7 +38,7 @@ public record RequestExcerpt(ObjectNode json) {
         while (parser.nextToken() == JsonToken.FIELD_NAME) {
             String member = parser.currentName();
             JsonToken token = parser.nextToken();
-            if (MEMBERS.contains(member) && token == JsonToken.VALUE_STRING && parser.getTextLength() <= LONGEST) {
+            if (MEMBERS.contains(member) && token == JsonToken.VALUE_STRING && parser.getTextLength() <= MAX_LENGTH) {
                 json.put(member, parser.getText());
             } else {
                 parser.skipChildren();
@@ -50,15 +50,15 @@ public record RequestExcerpt(ObjectNode json) {
         return "response".equals(json.path("type").textValue());
     }
 
-    /** Null where the request has none that is legal. */
+    /** Null if the request has none that is legal. */
     public String requestId() {
         String id = json.path("requestId").textValue();
         return Requests.isRequestId(id) ? id : null;
     }
 
     /** A refusal that names what the request is about. */
-    public Response refusal(ErrorCode code, String reason) {
-        return Requests.aboutSubjects(Response.refused(new RefusedException(code, reason)), json);
+    public CommandResult refusal(ErrorCode code, String reason) {
+        return Requests.aboutSubjects(CommandResult.refused(new RefusedException(code, reason)), json);
     }
 
     public byte[] toBytes() {

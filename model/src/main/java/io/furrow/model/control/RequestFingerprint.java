@@ -15,8 +15,9 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Tells whether two requests of one id ask for the same: 32 hexadecimal digits of the SHA-256 of all members but {@code requestId},
- * whatever their order. The user is one of them, so that the same id from somebody else is another request.
+ * Determines whether two requests of one id ask for the same: 32 hexadecimal digits of the SHA-256 of all members but
+ * {@code requestId}, whatever their order. The user is one of them, so that the same id from somebody else is another
+ * request.
  */
 public final class RequestFingerprint {
     /** Header of a response: the fingerprint of the request that it answers. */
@@ -28,7 +29,7 @@ public final class RequestFingerprint {
 
     private RequestFingerprint() {}
 
-    /** Of the value of a record; empty where that is no JSON object. */
+    /** Of the value of a record; empty if that is no JSON object. */
     public static String of(byte[] request) {
         try {
             return NgsiJson.read(request) instanceof ObjectNode object ? of(object) : "";

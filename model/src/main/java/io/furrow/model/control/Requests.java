@@ -7,24 +7,25 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 
 /**
  * Requests to and from JSON. Reading never throws: what cannot be understood is {@link Received.Refused} with a code and a
- * sentence. Members of names that no command has are passed over, because older clients send more than is asked for.
+ * sentence. Members of names that no command has are skipped, because older clients send more than is asked for.
  */
 public final class Requests {
     private static final Pattern REQUEST_ID = Pattern.compile("[!-~]{1,200}");
     /** Members that an error answers with, so that a client without request ids knows what it is about. */
-    private static final List<String> SUBJECTS = List.of("domain", "mission", "replay", "alarm");
+    private static final List<String> SUBJECTS = List.of("domain", "mission", "replay", "group", "alarm");
 
     private Requests() {}
 
     /** Makes a command of a request's members. */
     private interface Reader<C> {
-        C read(String verb, Members members) throws RefusedException;
+        C read(String verb, RequestMembers members) throws RefusedException;
     }
 
     /** A record of {@code service.domainmanager}; the value may be null. */
@@ -57,10 +58,10 @@ public final class Requests {
     }
 
     /** The answer to a command that was understood and not granted. */
-    public static Response refusal(RefusedException refusal, Command command) {
+    public static CommandResult refusal(RefusedException refusal, Command command) {
         ObjectNode request = json();
         command.describe(request);
-        return aboutSubjects(Response.refused(refusal), request);
+        return aboutSubjects(CommandResult.refused(refusal), request);
     }
 
     private static <C> Received<C> read(byte[] value, Reader<C> reader) {
@@ -71,7 +72,7 @@ public final class Requests {
         try {
             json = NgsiJson.read(value);
         } catch (UnreadableException e) {
-            return refused(ErrorCode.NOT_JSON, Members.quotable(e.getMessage()));
+            return refused(ErrorCode.NOT_JSON, RequestMembers.quotable(e.getMessage()));
         }
         if ("response".equals(json.path("type").textValue())) {
             return new Received.Passed<>();
@@ -84,22 +85,22 @@ public final class Requests {
     }
 
     private static <C> Received<C> read(ObjectNode json, Reader<C> reader) {
-        Members members = new Members(json);
+        RequestMembers members = new RequestMembers(json);
         String requestId = null;
         try {
             requestId = requestId(members);
-            Members.checkReadable(json);
+            RequestMembers.checkReadable(json);
             C command = reader.read(members.textOrNull("command"), members);
             return new Received.Request<>(requestId, command);
         } catch (RefusedException e) {
-            return new Received.Refused<>(requestId, aboutSubjects(Response.refused(e), json));
+            return new Received.Refused<>(requestId, aboutSubjects(CommandResult.refused(e), json));
         }
     }
 
-    private static String requestId(Members members) throws RefusedException {
+    private static String requestId(RequestMembers members) throws RefusedException {
         String id = members.textOrNull("requestId");
         if (id != null && !isRequestId(id)) {
-            throw Members.wrong("requestId", "1 to 200 printable ASCII signs without blanks");
+            throw RequestMembers.wrong("requestId", "1 to 200 printable ASCII characters without spaces");
         }
         return id;
     }
@@ -110,11 +111,11 @@ public final class Requests {
     }
 
     private static <C> Received<C> refused(ErrorCode code, String reason) {
-        return new Received.Refused<>(null, Response.refused(new RefusedException(code, reason)));
+        return new Received.Refused<>(null, CommandResult.refused(new RefusedException(code, reason)));
     }
 
-    static Response aboutSubjects(Response refusal, ObjectNode request) {
-        Response answer = refusal;
+    static CommandResult aboutSubjects(CommandResult refusal, ObjectNode request) {
+        CommandResult answer = refusal;
         for (String subject : SUBJECTS) {
             String name = request.path(subject).asText("");
             if (TopicName.isLegal(name) || ReplayCommand.REPLAY.matcher(name).matches()) {
@@ -128,12 +129,12 @@ public final class Requests {
         return JsonNodeFactory.instance.objectNode();
     }
 
-    static RefusedException unknown(String verb, String known) {
+    public static RefusedException unknown(String verb, String known) {
         return verb == null
                 ? new RefusedException(
                         ErrorCode.MISSING_MEMBER, "the request needs a member 'command': one of " + known)
                 : new RefusedException(
                         ErrorCode.UNKNOWN_COMMAND,
-                        "there is no command '%s' here, but %s".formatted(Members.quotable(verb), known));
+                        "there is no command '%s' here, but %s".formatted(RequestMembers.quotable(verb), known));
     }
 }

@@ -1,2 +1,2 @@
-/** What the control plane is told and answers, as JSON on the topics of its managers. */
+/** Commands to the control plane and its responses, as JSON on the topics of its managers. */
 package io.furrow.model.control;

@@ -13,10 +13,11 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * What a device is, told by its host: a record of {@code service.devices.status} under the key of {@code service.devices}.
+ * The status of a device, reported by its host: a record of {@code service.devices.status} under the key of {@code
+ * service.devices}.
  *
- * @param sequence of the wanted device that this is the state of; a smaller one than the newest wanted says nothing of it
- * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters of it; null where it did not
+ * @param sequence of the desired device that this is the state of; a smaller one than the newest wanted says nothing of it
+ * @param reason why it failed, at most {@value Limits#REASON_LENGTH} characters of it; null if it did not
  */
 public record DeviceStatus(long sequence, State state, String reason) {
     /** How it is with a device. */
@@ -36,7 +37,7 @@ public record DeviceStatus(long sequence, State state, String reason) {
     }
 
     /**
-     * Reads the value of a record; members of other names are passed over.
+     * Reads the value of a record; members of other names are skipped.
      *
      * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
      */

@@ -17,12 +17,12 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param id id of the entity as which the device reports
  * @param service tenant, empty for the default one
  * @param servicePath {@code /} for the root
- * @param domain empty where it belongs to none
- * @param mission empty where it is on none
+ * @param domain empty if it belongs to none
+ * @param mission empty if it is on none
  * @param from event time from which on this holds, epoch ms
- * @param until event time at which it ends, epoch ms; null where it holds until the next version
+ * @param until event time at which it ends, epoch ms; null if it holds until the next version
  * @param sequence grows with every version of a device; a version with a smaller one is out of date
- * @param carriedBy id of the entity that carries this one; null where none does
+ * @param carriedBy id of the entity that carries this one; null if none does
  */
 public record DeviceVersion(
         String id,
@@ -42,7 +42,7 @@ public record DeviceVersion(
 
     /**
      * Reads the value of a record. {@code service}, {@code servicePath}, {@code domain}, {@code mission}, {@code until} and
-     * {@code carriedBy} may be missing or null; members of other names are passed over.
+     * {@code carriedBy} may be missing or null; members of other names are skipped.
      *
      * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
      */

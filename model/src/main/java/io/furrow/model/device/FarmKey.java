@@ -16,7 +16,7 @@ import javax.crypto.spec.SecretKeySpec;
  * @param until when passwords made of it cease to count; null for the newest key
  */
 record FarmKey(int number, String text, Instant until) {
-    static final int LEAST_BYTES = 16;
+    static final int MIN_BYTES = 16;
 
     private static final String MAC = "HmacSHA256";
     private static final int CODE_CHARACTERS = 22;
@@ -25,10 +25,10 @@ record FarmKey(int number, String text, Instant until) {
     /** @throws IllegalArgumentException where the text is too short */
     FarmKey {
         int bytes = text.getBytes(StandardCharsets.UTF_8).length;
-        if (bytes < LEAST_BYTES) {
+        if (bytes < MIN_BYTES) {
             throw new IllegalArgumentException(
                     "a farm's secret has at least %d bytes, this one %d; make one with: ./furrow secret new FILE"
-                            .formatted(LEAST_BYTES, bytes));
+                            .formatted(MIN_BYTES, bytes));
         }
     }
 

@@ -18,7 +18,7 @@ import java.util.Objects;
  * them.
  *
  * <p>It has one key or, after a rotation, several. The newest makes passwords; those of older keys are accepted until a time that
- * each of them has. API keys are addresses, a part of MQTT topics: one key goes on making them through rotations.
+ * each of them has. API keys are addresses, a part of MQTT topics: one key continues making them through rotations.
  */
 public final class FarmSecret {
     /** What the names of all its MQTT users begin with. */
@@ -89,7 +89,7 @@ public final class FarmSecret {
      *
      * @param now keys whose time was over by then are left out, but that which makes API keys
      * @param until when passwords of the key that was the newest cease to count
-     * @param newApiKeys whether the new key makes API keys too; the others then only tell which were made of them
+     * @param newApiKeys whether the new key makes API keys too; the others then only recognize those derived from them
      */
     public FarmSecret rotated(Instant now, Instant until, boolean newApiKeys) {
         FarmKey fresh = random(newest().number() + 1);
@@ -185,7 +185,7 @@ public final class FarmSecret {
     /**
      * What may be shown of a key.
      *
-     * @param fingerprint 16 hexadecimal digits that tell nothing of it
+     * @param fingerprint 16 hexadecimal digits that reveal nothing of it
      * @param until when its passwords cease to count; null for the newest key
      * @param makesApiKeys whether it makes API keys
      */
@@ -208,7 +208,7 @@ public final class FarmSecret {
         return newest().number();
     }
 
-    /** Of the newest key: 16 hexadecimal digits that tell nothing of it. */
+    /** Of the newest key: 16 hexadecimal digits that reveal nothing of it. */
     public String fingerprint() {
         return newest().fingerprint();
     }

@@ -17,7 +17,7 @@ import java.util.regex.Pattern;
 /**
  * The file of a farm's secret. Its first line is {@value #HEADER}; then come a line for each key, {@code key <number> <key>}, with
  * {@code api-keys} at that which makes API keys and {@code until <time>} at each but the newest; empty lines and those that begin
- * with # are passed over. A file with another first line is a secret of one key, that line.
+ * with # are skipped. A file with another first line is a secret of one key, that line.
  */
 public final class FarmSecretCodec {
     /** Shorter than a secret may be, so that no version takes it for one. */

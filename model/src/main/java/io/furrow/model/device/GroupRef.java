@@ -11,7 +11,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * @param sequence of the part; another one has other settings
  */
 public record GroupRef(int part, int index, long sequence) {
-    /** Null where the node is no such object. */
+    /** Null if the node is no such object. */
     static GroupRef read(JsonNode json) {
         boolean complete = json.path("part").canConvertToInt()
                 && json.path("index").canConvertToInt()

@@ -5,7 +5,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.model.control.DeviceGroup;
+import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -15,7 +15,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * one part, so that no record grows with the mission.
  *
  * @param part from 0 on
- * @param sequence grows with every change of anything that is wanted
+ * @param sequence grows with every change of anything that is requested
  * @param devices groups and entity ids as requests have them; owned by the list, not to be changed by readers
  */
 public record MissionDeviceList(String mission, int part, long sequence, ArrayNode devices) {
@@ -49,7 +49,7 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
                 devices);
     }
 
-    /** The settings of a group; none where there is no group of that index. */
+    /** The settings of a group; none if there is no group of that index. */
     ObjectNode settings(int index) {
         return devices.get(index) instanceof ObjectNode group
                 ? DeviceGroup.settings(group)

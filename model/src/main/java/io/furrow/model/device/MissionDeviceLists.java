@@ -38,7 +38,7 @@ public final class MissionDeviceLists {
     }
 
     /**
-     * The device with its settings in itself; empty where they are not known yet, or not any more: then a record is to come, of the
+     * The device with its settings in itself; empty if they are not known yet, or not any more: then a record is to come, of the
      * part or of the device.
      *
      * @throws UnreadableException where the part is no such record

@@ -14,16 +14,16 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * A record of {@code service.devices} as the control plane writes it: to whom the device belongs, which is all that jobs read,
- * and what its host shall run. Whoever hosts devices brings what runs in line with what is wanted and says so on {@code
+ * and what its host shall run. Whoever hosts devices brings what runs in line with what is requested and says so on {@code
  * service.devices.status}, see {@link DeviceStatus}.
  *
- * @param type of the entity; null where the device reports by itself and nobody is asked to run it
- * @param device id at the IoT Agent and in MQTT topics; null where {@code type} is
- * @param running false where it shall be taken away; {@code version} then has an end
- * @param period between two measures; null where the host chooses
+ * @param type of the entity; null if the device reports by itself and nobody is asked to run it
+ * @param device id at the IoT Agent and in MQTT topics; null if {@code type} is
+ * @param running false if it shall be removed; {@code version} then has an end
+ * @param period between two measures; null if the host chooses
  * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}, where the record itself has them;
  *     owned by the record
- * @param group where they are else, see {@link MissionDeviceLists#resolve}; null where the record itself has them
+ * @param group where they are else, see {@link MissionDeviceLists#resolve}; null if the record itself has them
  * @param generation how often its credentials were rotated, see {@link FarmSecret#device(String, String, int)}
  */
 public record WantedDevice(

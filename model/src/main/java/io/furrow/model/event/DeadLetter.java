@@ -10,13 +10,13 @@ import io.furrow.model.ngsi.Reason;
 /**
  * Input that was set aside: the original bytes are the value of a record on {@code <topic>.dead}, this is in its headers.
  *
- * @param message a sentence for people, at most {@value #LONGEST_MESSAGE} signs
+ * @param message a sentence for people, at most {@value #MAX_MESSAGE_LENGTH} signs
  * @param stage who set it aside, for instance {@code ngsi-source}
  * @param source where it came from: {@code <topic>-<partition>@<offset>}, or the sender's address and path
  */
 public record DeadLetter(Reason reason, String message, String stage, String source) {
     /** A sentence may quote the input, which may be megabytes. */
-    private static final int LONGEST_MESSAGE = 500;
+    private static final int MAX_MESSAGE_LENGTH = 500;
 
     public static final String REASON = "dead-reason";
     public static final String MESSAGE = "dead-message";
@@ -30,7 +30,9 @@ public record DeadLetter(Reason reason, String message, String stage, String sou
     public DeadLetter {
         String sentence = message == null ? reason.code() : message;
         message = unicode(
-                sentence.length() <= LONGEST_MESSAGE ? sentence : sentence.substring(0, LONGEST_MESSAGE - 1) + "…");
+                sentence.length() <= MAX_MESSAGE_LENGTH
+                        ? sentence
+                        : sentence.substring(0, MAX_MESSAGE_LENGTH - 1) + "…");
         source = unicode(source);
     }
 

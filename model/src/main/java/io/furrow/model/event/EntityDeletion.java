@@ -7,13 +7,13 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.Instants;
+import io.furrow.model.time.Instants;
 
 /**
  * The end of an entity as a source passes it on: key = the entity's id, no value, record timestamp = {@code time}, headers =
  * {@link #headers(String)}.
  *
- * @param time when the entity was deleted where the context broker tells it, else when the source learned of it; whole
+ * @param time when the entity was deleted if the context broker reports it, else when the source learned of it; whole
  *     milliseconds. Never the time of the entity's last values: a deletion is newer than they are.
  * @param received when the source learned of it
  */

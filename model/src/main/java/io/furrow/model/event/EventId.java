@@ -14,11 +14,11 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.Instants;
+import io.furrow.model.time.Instants;
 
 /**
  * The id of an event: the first 128 bits of a SHA-256 over tenant, service path, entity id, event time, the sorted attribute name
- * and value pairs and, where it is told, the entity's {@code dateModified}, in lower-case hexadecimal. So three changes that turn
+ * and value pairs and, if present, the entity's {@code dateModified}, in lower-case hexadecimal. So three changes that turn
  * something on, off and on again under one time of the device are three events. Types, metadata, other built-ins, the order of
  * attributes and the way a number is written (18, 18.0, 1.8e1) make no difference, because they differ between notifications of one
  * change.
@@ -42,7 +42,7 @@ public final class EventId {
         return parts.digest();
     }
 
-    /** The id of the event that tells the entity as it stands there. */
+    /** The id of the event that reports the entity in this state. */
     public static String of(FiwareScope scope, EntityBuilder entity, Instant eventTime) {
         List<EntityBuilder.Attribute> attributes = entity.attributes();
         attributes.sort(Comparator.comparing(EntityBuilder.Attribute::name));

@@ -7,7 +7,7 @@ import io.furrow.model.ngsi.Entity;
 
 /**
  * When an event happened, as an {@link EventTimeRule} has it; by default the device's own time, else when the context broker changed
- * what is told, else the time of receipt. A date and time without offset is UTC, as NGSI-v2 has it.
+ * what it reports, else the time of receipt. A date and time without offset is UTC, as NGSI-v2 has it.
  *
  * @param time whole milliseconds, never before 1970, at most the allowed skew after the receipt
  * @param basis what it was taken from

@@ -13,7 +13,7 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.Entity;
-import io.furrow.model.ngsi.Instants;
+import io.furrow.model.time.Instants;
 
 /**
  * Which of the times that an event may carry is its event time.

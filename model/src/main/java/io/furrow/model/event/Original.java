@@ -22,7 +22,7 @@ public record Original(String topic, int partition, long offset, long bytes) {
     private static final Pattern PLACE = Pattern.compile("(.+)-(\\d{1,9})@(\\d{1,18})");
     private static final Pattern SIZE = Pattern.compile("\\d{1,18}");
 
-    /** Of the headers with these texts, null where there is none; empty where they name no place. */
+    /** Of the headers with these texts, null if there is none; empty if they name no place. */
     public static Optional<Original> of(String position, String bytes) {
         Matcher place = PLACE.matcher(position == null ? "" : position);
         if (!place.matches()) {

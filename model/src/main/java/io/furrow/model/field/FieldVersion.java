@@ -23,7 +23,7 @@ import io.furrow.model.ngsi.UnreadableException;
  *
  * @param id what an entity id may hold, see {@link #isId}
  * @param validFrom event time from which on this holds, epoch ms
- * @param geometry GeoJSON of a Polygon or MultiPolygon, its coordinates not looked at; null where the field ends
+ * @param geometry GeoJSON of a Polygon or MultiPolygon, its coordinates not looked at; null if the field ends
  * @param properties what else is said of it, without {@code validFrom}; owned by the version, not to be changed by readers
  */
 public record FieldVersion(String id, long validFrom, ObjectNode geometry, ObjectNode properties) {
@@ -35,7 +35,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
     private static final DateTimeFormatter UTC_MILLIS =
             new DateTimeFormatterBuilder().appendInstant(3).toFormatter();
 
-    /** What tells the versions of all fields apart. */
+    /** The key that distinguishes the versions of all fields. */
     public record Key(String id, long validFrom) {
         /**
          * Reads a record's key, its time in ISO 8601 with any offset.
@@ -68,8 +68,8 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
     }
 
     /**
-     * Reads the value of a record: a Feature with {@code id} (text or whole number), {@code geometry} (null where the field
-     * ends, never missing) and {@code properties.validFrom}. Members of other names are passed over.
+     * Reads the value of a record: a Feature with {@code id} (text or whole number), {@code geometry} (null if the field
+     * ends, never missing) and {@code properties.validFrom}. Members of other names are skipped.
      *
      * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such Feature
      */
@@ -80,7 +80,7 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         }
         JsonNode id = feature.path("id");
         if (!(id.isTextual() || id.isIntegralNumber()) || !isId(id.asText())) {
-            throw refused("the field has no member 'id' of 1 to 200 signs that an entity id may hold");
+            throw refused("the field has no member 'id' of 1 to 200 characters that are allowed in an entity id");
         }
         if (!(feature.path("properties") instanceof ObjectNode said)) {
             throw refused("'properties' of the field is no object");
@@ -126,14 +126,19 @@ public record FieldVersion(String id, long validFrom, ObjectNode geometry, Objec
         return geometry == null;
     }
 
-    /** What people call the field; empty where it has no name. */
+    /** What people call the field; empty if it has no name. */
     public String name() {
         return properties.path("name").asText("");
     }
 
-    /** The domain that the field belongs to; empty where it belongs to none. */
+    /** The domain that the field belongs to; empty if it belongs to none. */
     public String domain() {
         return properties.path("Domain").asText("");
+    }
+
+    /** Whether its property {@code kind} is {@code exclusion}: an area in which devices may be close to each other. */
+    public boolean isExclusion() {
+        return properties.path("kind").asText("").equals("exclusion");
     }
 
     /** UTF-8 JSON of the Feature. */

@@ -16,7 +16,7 @@ import java.util.Optional;
 import java.util.Set;
 import java.util.UUID;
 
-/** Writes files that only their owner may read, and tells of those that others may. */
+/** Writes files that only their owner may read, and reports those that others may. */
 public final class PrivateFile {
     private static final FileAttribute<Set<PosixFilePermission>> OWNER_ONLY =
             PosixFilePermissions.asFileAttribute(PosixFilePermissions.fromString("rw-------"));
@@ -57,7 +57,7 @@ public final class PrivateFile {
         }
     }
 
-    /** A sentence for the log where every user of the machine may read the file; empty where not, or where nobody can tell. */
+    /** A sentence for the log where every user of the machine may read the file; empty if not, or if that is unknown. */
     public static Optional<String> exposure(Path file) throws IOException {
         PosixFileAttributeView view = Files.getFileAttributeView(file, PosixFileAttributeView.class);
         if (view == null) {

@@ -44,7 +44,7 @@ public final class ReloadedFile<T> implements Supplier<T> {
         T read() throws IOException;
     }
 
-    /** What tells a file from its successor, also where it is replaced by a link to another one. */
+    /** What distinguishes a file from its successor, also where it is replaced by a link to another one. */
     private record Stamp(FileTime modified, long bytes, Object file) {
         static Stamp of(Path file) throws IOException {
             try {
@@ -97,7 +97,7 @@ public final class ReloadedFile<T> implements Supplier<T> {
         return content;
     }
 
-    /** Why the files could not be used when they were checked last; empty where they are in use. */
+    /** Why the files could not be used when they were checked last; empty if they are in use. */
     public Optional<String> problem() {
         return Optional.ofNullable(problem);
     }

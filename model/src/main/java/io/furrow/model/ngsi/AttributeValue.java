@@ -6,7 +6,7 @@ import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
 /** The value of one wanted attribute as far as it is a text or a number; overwritten by each entity. */
-class AttributeValue {
+public class AttributeValue {
     private enum Kind {
         /** No such attribute, or its value is null. */
         ABSENT,
@@ -19,11 +19,11 @@ class AttributeValue {
     private String text = "";
     private double number;
 
-    void clear() {
+    public void clear() {
         kind = Kind.ABSENT;
     }
 
-    /** Takes the value that the parser stands at; false where it is wrong or rare. */
+    /** Takes the value that the parser stands at; false if it is wrong or rare. */
     boolean take(StrictTokens tokens, JsonParser parser) throws IOException {
         switch (parser.currentToken()) {
             case VALUE_NULL -> kind = Kind.ABSENT;
@@ -48,7 +48,7 @@ class AttributeValue {
         return true;
     }
 
-    boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {
+    public boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {
         return tokens.skipWithinLimits();
     }
 
@@ -58,7 +58,7 @@ class AttributeValue {
     }
 
     /** The finite number at which the parser stands, or that its text names; NaN for everything else. */
-    static double numberOrNaN(JsonParser parser) throws IOException {
+    public static double numberOrNaN(JsonParser parser) throws IOException {
         JsonToken token = parser.currentToken();
         if (token.isNumeric()) {
             double number = number(parser);
@@ -67,12 +67,12 @@ class AttributeValue {
         return token == JsonToken.VALUE_STRING ? Numbers.finite(parser.getText()) : Double.NaN;
     }
 
-    boolean isPresent() {
+    public boolean isPresent() {
         return kind != Kind.ABSENT;
     }
 
     /** The text as it is; null for everything else. */
-    String textOrNull() {
+    public String textOrNull() {
         return kind == Kind.TEXT ? text : null;
     }
 

@@ -39,7 +39,7 @@ public record Entity(ObjectNode json) {
     }
 
     /**
-     * An entity from a JSON object in whatever form: NGSI-v2 normalized or key-values, or NGSI-LD, told from its shape.
+     * An entity from a JSON object in whatever form: NGSI-v2 normalized or key-values, or NGSI-LD, detected by its shape.
      *
      * @throws UnreadableException with {@link Reason#NOT_AN_ENTITY}
      */
@@ -77,7 +77,7 @@ public record Entity(ObjectNode json) {
         return type == null ? "Thing" : type.textValue();
     }
 
-    /** The value of an attribute; empty where the entity has no such attribute or its value is null. */
+    /** The value of an attribute; empty if the entity has no such attribute or its value is null. */
     public Optional<JsonNode> value(String attribute) {
         JsonNode value = json.path(attribute).path("value");
         return value.isMissingNode() || value.isNull() || NOT_ATTRIBUTES.contains(attribute)
@@ -85,7 +85,7 @@ public record Entity(ObjectNode json) {
                 : Optional.of(value);
     }
 
-    /** The value of an attribute as text; empty where it is missing, blank or no text. */
+    /** The value of an attribute as text; empty if it is missing, blank or no text. */
     public Optional<String> text(String attribute) {
         return value(attribute)
                 .filter(JsonNode::isTextual)
@@ -111,7 +111,7 @@ public record Entity(ObjectNode json) {
 
     /**
      * Whether this is the report that the entity was deleted: what it held last, with {@code alterationType} (and
-     * {@code deletedAt} where the context broker tells the time).
+     * {@code deletedAt} if the context broker reports the time).
      */
     public boolean isDeleted() {
         return text("alterationType").filter("entityDelete"::equals).isPresent();

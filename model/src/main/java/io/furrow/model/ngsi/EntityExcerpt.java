@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * Reads the wanted attributes of a normalized entity in one pass; the others are passed over without becoming objects. Refuses
+ * Reads the wanted attributes of a normalized entity in one pass; the others are skipped without becoming objects. Refuses
  * what a reading of the whole entity would refuse, so that nothing passes here at which a later reader would fail.
  */
 final class EntityExcerpt {
@@ -69,7 +69,7 @@ final class EntityExcerpt {
         return excerpt;
     }
 
-    /** Passes over the attribute that begins here; answers whether it has a member {@code value}. */
+    /** Skips the attribute that begins here; answers whether it has a member {@code value}. */
     private static boolean passOver(JsonParser parser, boolean textsMatter) throws IOException, UnreadableException {
         boolean hasValue = false;
         for (int depth = 1; depth > 0; ) {

@@ -10,11 +10,16 @@ import java.util.Set;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
+import io.furrow.model.position.LocationValue;
+import io.furrow.model.position.PositionReading;
+import io.furrow.model.position.PositionRules;
+import io.furrow.model.time.Instants;
+
 /**
- * Takes id, type, position and the wanted attributes from the bytes of a normalized entity as they pass, without a tree and
- * without a copy; everything else is passed over. It answers as {@link Entity#parse(byte[], Set)} and {@link
- * PositionReading#of} do, to the last case: what is wrong, and what is so rare that it is not worth a line here, is read
- * by them. One reader reads one entity after the other; the answers are about the newest. Not safe for threads.
+ * Reads id, type, position and the requested attributes from the bytes of a normalized entity, without a tree and
+ * without a copy; skips everything else. It answers as {@link Entity#parse(byte[], Set)} and {@link
+ * PositionReading#of} do, to the last case: what is wrong, and what is so rare that it is not worth a line here, is
+ * read by them. One reader reads one entity after the other; the answers are about the newest. Not safe for threads.
  */
 public final class EntityReader {
     private final Set<String> wanted;
@@ -25,10 +30,10 @@ public final class EntityReader {
 
     private String id;
     private String type = "";
-    /** The whole of what is wanted, where it was read as a tree; else null. */
+    /** The whole of what is requested, where it was read as a tree; else null. */
     private Entity tree;
 
-    /** Reads these attributes beside those that tell the position. */
+    /** Reads these attributes beside those of the position. */
     public EntityReader(Set<String> attributes) {
         values.put("location", location);
         PositionReading.ATTRIBUTES.forEach(name -> values.computeIfAbsent(name, any -> new AttributeValue()));
@@ -102,7 +107,7 @@ public final class EntityReader {
     }
 
     /**
-     * Takes the attribute whose object has just begun; {@code attribute} is null where it is not wanted: then it is only
+     * Takes the attribute whose object has just begun; {@code attribute} is null if it is not wanted: then it is only
      * looked at, because what is refused anywhere is refused here.
      */
     private boolean takeAttribute(AttributeValue attribute, JsonParser parser) throws IOException {
@@ -151,7 +156,7 @@ public final class EntityReader {
                 : tree.value(attribute).isPresent();
     }
 
-    /** The value of a wanted attribute as text; empty where it is missing, blank or no text. */
+    /** The value of a wanted attribute as text; empty if it is missing, blank or no text. */
     public Optional<String> text(String attribute) {
         return tree == null
                 ? Optional.ofNullable(value(attribute).textOrNull()).filter(text -> !text.isBlank())
@@ -163,7 +168,7 @@ public final class EntityReader {
         return tree == null ? value(attribute).finite() : tree.number(attribute).orElse(Double.NaN);
     }
 
-    /** The value of a wanted attribute as an instant; empty where it names none. */
+    /** The value of a wanted attribute as an instant; empty if it names none. */
     public Optional<Instant> instant(String attribute) {
         if (tree != null) {
             return tree.value(attribute).flatMap(Instants::of);
@@ -175,7 +180,7 @@ public final class EntityReader {
     private AttributeValue value(String attribute) {
         AttributeValue value = values.get(attribute);
         if (value == null) {
-            throw new IllegalArgumentException("'" + attribute + "' is none of the wanted attributes " + wanted);
+            throw new IllegalArgumentException("'" + attribute + "' is not one of the requested attributes " + wanted);
         }
         return value;
     }

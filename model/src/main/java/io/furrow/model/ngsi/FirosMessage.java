@@ -6,6 +6,9 @@ import java.util.Arrays;
 import com.fasterxml.jackson.core.JsonParser;
 import com.fasterxml.jackson.core.JsonToken;
 
+import io.furrow.model.position.PositionReading;
+import io.furrow.model.position.PositionRules;
+
 /** Reads the position out of FIROS' text, JSON whose quotes are written {@code %27}, without a tree. */
 final class FirosMessage {
     private static final String QUOTE = "%27";

@@ -21,7 +21,7 @@ import com.fasterxml.jackson.databind.json.JsonMapper;
 
 /**
  * The one JSON reader and writer: strict RFC 8259 (UTF-8, one document, no duplicate names, no NaN), nesting at most
- * {@value #MAX_NESTING}, strings at most 8 MiB, numbers at most 1000 signs, decimal numbers kept digit for digit.
+ * {@value #MAX_NESTING}, strings at most 8 MiB, numbers at most 1000 characters, decimal numbers kept digit for digit.
  */
 public final class NgsiJson {
     public static final int MAX_NESTING = 64;

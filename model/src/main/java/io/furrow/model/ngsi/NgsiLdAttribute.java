@@ -12,7 +12,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * One attribute of an NGSI-LD entity as the NGSI-v2 attribute {@code {type, value, metadata}}.
  *
  * <table>
- * <caption>Kinds, told from {@code type} or, in concise form, from the member that holds the value</caption>
+ * <caption>Kinds, detected by {@code type} or, in concise form, from the member that holds the value</caption>
  * <tr><td>{@code Property}</td><td>type as NGSI-v2 gives it to such a value ({@code Number}, {@code Text}, {@code Boolean},
  *     {@code StructuredValue}, {@code geo:json}, {@code None}); {@code {"@type": T, "@value": V}} becomes type T, value V</td></tr>
  * <tr><td>{@code GeoProperty}</td><td>type {@code geo:json}, value the geometry</td></tr>

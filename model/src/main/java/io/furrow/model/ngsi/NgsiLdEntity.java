@@ -140,7 +140,7 @@ final class NgsiLdEntity {
         }
     }
 
-    /** The features of a collection, or the elements of a list; empty where it is neither. */
+    /** The features of a collection, or the elements of a list; empty if it is neither. */
     static Optional<List<JsonNode>> members(JsonNode data) {
         if (data.isArray()) {
             return Optional.of(data.valueStream().toList());

@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 /**
  * What a context broker sent in one piece: the entities that could be read, and why the others could not.
  *
- * @param subscriptionId empty where the form does not name it
+ * @param subscriptionId empty if the form does not name it
  * @param entities in the order of the notification
  * @param rejected one per unreadable entity, at most {@value #MAX_REJECTED}; the others of the same notification are not harmed
  */
@@ -26,7 +26,7 @@ public record Notification(Optional<String> subscriptionId, List<Entity> entitie
      * entity). NGSI-LD: {@code {"type": "Notification", subscriptionId, data}}, where data is a list of entities or a GeoJSON
      * {@code FeatureCollection}, or the bare entity; normalized, concise or simplified, see {@link NgsiLdEntity}.
      *
-     * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, which NGSI-LD has not, or null: then the form is told from the
+     * @param attrsFormat header {@code Ngsiv2-AttrsFormat}, which NGSI-LD has not, or null: then the form is reported from the
      *     shape
      * @throws UnreadableException if nothing in the body can be understood, or more than {@value #MAX_REJECTED} of its entities cannot
      */

@@ -6,14 +6,14 @@ import java.util.regex.Pattern;
 import com.fasterxml.jackson.databind.JsonNode;
 
 /** Numbers as devices send them: JSON numbers, or their text. */
-final class Numbers {
+public final class Numbers {
     private static final Pattern DECIMAL =
             Pattern.compile("[+-]?(\\d{1,40}(\\.\\d{0,40})?|\\.\\d{1,40})([eE][+-]?\\d{1,3})?");
 
     private Numbers() {}
 
     /** The value as a finite number; empty for NaN, infinities and everything that is no number. */
-    static Optional<Double> finite(JsonNode value) {
+    public static Optional<Double> finite(JsonNode value) {
         if (value.isNumber()) {
             return Optional.of(value.doubleValue()).filter(Double::isFinite);
         }
@@ -22,7 +22,7 @@ final class Numbers {
     }
 
     /** The finite number that a text names; NaN for every other text. */
-    static double finite(String untrimmed) {
+    public static double finite(String untrimmed) {
         String text = untrimmed.trim();
         double number = DECIMAL.matcher(text).matches() ? Double.parseDouble(text) : Double.NaN;
         return Double.isFinite(number) ? number : Double.NaN;

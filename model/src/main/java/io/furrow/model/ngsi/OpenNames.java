@@ -9,7 +9,7 @@ import java.util.Set;
  * to document; takes no memory of its own but for objects with many members.
  */
 final class OpenNames {
-    /** Up to so many members a look at each costs less than a set. */
+    /** Up to this many members a look at each costs less than a set. */
     private static final int FEW = 32;
 
     private static final int DEPTHS = NgsiJson.MAX_NESTING + 2;

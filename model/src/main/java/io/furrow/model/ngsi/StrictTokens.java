@@ -9,9 +9,9 @@ import com.fasterxml.jackson.core.StreamReadFeature;
 
 /**
  * The tokens of one JSON document after the other, as strict as {@link NgsiJson}. A method that answers {@code false} has met
- * something that is wrong or rare; what it is, the reader of trees can tell.
+ * something that is wrong or rare; the reader of trees finds out which.
  */
-final class StrictTokens {
+public final class StrictTokens {
     /** Names that come twice are found by {@link OpenNames}, which makes no set for each object. */
     private static final JsonFactory FACTORY = NgsiJson.mapper()
             .getFactory()
@@ -34,7 +34,7 @@ final class StrictTokens {
     }
 
     /** The next token; null at the end of the document and where a name comes twice. */
-    JsonToken next() throws IOException {
+    public JsonToken next() throws IOException {
         JsonToken token = parser.nextToken();
         if (token == JsonToken.FIELD_NAME) {
             return names.add(parser.currentName()) ? token : null;
@@ -47,8 +47,8 @@ final class StrictTokens {
         return token;
     }
 
-    /** Passes over the value that the parser stands at, and answers whether it certainly keeps to {@link EntityLimits}. */
-    boolean skipWithinLimits() throws IOException {
+    /** Skips the value that the parser stands at, and answers whether it certainly keeps to {@link EntityLimits}. */
+    public boolean skipWithinLimits() throws IOException {
         int depth = 0;
         for (JsonToken token = parser.currentToken(); token != null; token = next()) {
             depth += token.isStructStart() ? 1 : token.isStructEnd() ? -1 : 0;
@@ -79,7 +79,7 @@ final class StrictTokens {
     }
 
     /** Whether the text holds no surrogate, neither half of a pair nor a pair, which is rare. */
-    boolean isPlainText() throws IOException {
+    public boolean isPlainText() throws IOException {
         if (plain) {
             return true;
         }
@@ -94,7 +94,7 @@ final class StrictTokens {
     }
 
     /** Whether the text that the parser stands at is this one; makes no text to find out. */
-    boolean isText(String expected) throws IOException {
+    public boolean isText(String expected) throws IOException {
         if (parser.getTextLength() != expected.length()) {
             return false;
         }

@@ -23,14 +23,14 @@ import java.util.Optional;
  * takes the dead letters of {@code data.a.realtime}.
  */
 public final class TopicName {
-    private static final int LONGEST_PLAIN = 64;
-    private static final int LONGEST = 100;
+    private static final int MAX_PLAIN_LENGTH = 64;
+    private static final int MAX_LENGTH = 100;
 
     private TopicName() {}
 
     /** Whether a manager would accept the name for a domain or mission. */
     public static boolean isLegal(String name) {
-        boolean legal = !name.isEmpty() && name.length() <= LONGEST_PLAIN;
+        boolean legal = !name.isEmpty() && name.length() <= MAX_PLAIN_LENGTH;
         for (int i = 0; legal && i < name.length(); i++) {
             char sign = name.charAt(i);
             legal = isAlphanumeric(sign) || sign == '_' || sign == '-';
@@ -48,7 +48,7 @@ public final class TopicName {
         return isLegal(name) && !encodingLike && !topicLike ? name : encoded(name);
     }
 
-    /** The name that became this part of a topic's name; empty where only its hash is known, or where no name becomes it. */
+    /** The name that became this part of a topic's name; empty if only its hash is known, or where no name becomes it. */
     public static Optional<String> original(String part) {
         String name = part.startsWith("_x-") ? decoded(part.substring(3)) : part;
         return of(name).equals(part) ? Optional.of(name) : Optional.empty();
@@ -78,7 +78,7 @@ public final class TopicName {
         for (byte b : name.getBytes(StandardCharsets.UTF_8)) {
             encoded.append(isAlphanumeric(b) ? String.valueOf((char) b) : String.format("-%02X", b));
         }
-        return encoded.length() <= LONGEST ? encoded.toString() : "_h-" + sha256(name);
+        return encoded.length() <= MAX_LENGTH ? encoded.toString() : "_h-" + sha256(name);
     }
 
     private static String sha256(String name) {

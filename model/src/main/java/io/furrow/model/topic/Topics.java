@@ -32,12 +32,15 @@ public final class Topics {
 
     /** How far each mission is; compacted. */
     public static final String MISSIONS_STATUS = "service.missions.status";
-    /** What each device is, told by whoever hosts it; compacted. */
+    /** Status of each device, reported by its host; compacted. */
     public static final String DEVICES_STATUS = "service.devices.status";
     /** When each device was last heard of, its battery, whether it is silent; compacted. */
     public static final String DEVICES_HEALTH = "service.devices.health";
-    /** What each replay is, told by whoever plays it back; compacted. */
+    /** Status of each replay, reported by its player; compacted. */
     public static final String REPLAYS_STATUS = "service.replays.status";
+
+    /** The missions that are stored and can be played back, see {@code RecordedMission}; compacted. */
+    public static final String RECORDINGS = "service.recordings";
 
     /** To whom each device belongs, see {@code DeviceVersion}; compacted. */
     public static final String DEVICES = "service.devices";
@@ -133,7 +136,7 @@ public final class Topics {
         return topic + DEAD;
     }
 
-    /** The topic whose dead letters a topic takes; empty where it takes none. */
+    /** The topic whose dead letters a topic takes; empty if it takes none. */
     public static Optional<String> ofDeadLetters(String topic) {
         return topic.endsWith(DEAD) && topic.length() > DEAD.length()
                 ? Optional.of(topic.substring(0, topic.length() - DEAD.length()))

@@ -6,6 +6,8 @@ import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.control.replay.MadeUpCommands;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsPropertyTest {
@@ -74,8 +76,8 @@ class RequestsPropertyTest {
                     .as(said)
                     .isEqualTo(received);
         } else if (received instanceof Received.Refused<C> refused) {
-            Response answer =
-                    Response.read(refused.answer().to(refused.requestId()).toBytes());
+            CommandResult answer =
+                    CommandResult.read(refused.answer().to(refused.requestId()).toBytes());
             assertThat(answer.status()).as(said).isEqualTo("error");
             assertThat(answer.error()).as(said).isPresent();
             assertThat(answer.json().path("reason").asText()).as(said).isNotBlank();

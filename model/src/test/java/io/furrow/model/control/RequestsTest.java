@@ -10,6 +10,11 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.control.replay.ReplayPlan;
+
 import static org.assertj.core.api.Assertions.assertThat;
 
 class RequestsTest {
@@ -28,10 +33,12 @@ class RequestsTest {
         assertThat(Requests.mission(json("{'type':'request','command':'stop','mission':'m','sent':{'by':'them'}}")))
                 .isEqualTo(new Received.Request<>(null, new MissionCommand.Stop("m")));
         assertThat(Requests.replay(json("{'type':'request','command':'start','mission':'m'}")))
-                .isEqualTo(new Received.Request<>(null, new ReplayCommand.Start("m", null, null, 1, false, List.of())));
+                .isEqualTo(new Received.Request<>(
+                        null, new ReplayCommand.Start(List.of("m"), null, 1, null, ReplayPlan.PLAIN)));
         assertThat(Requests.replay(json("{'type':'request','command':'stop','replay':'m.0a1b2c3d'}")))
-                .isEqualTo(
-                        new Received.Request<>(null, new ReplayCommand.Simple("m.0a1b2c3d", ReplayCommand.Verb.STOP)));
+                .isEqualTo(new Received.Request<>(
+                        null,
+                        new ReplayCommand.Simple(ReplayCommand.Target.of("m.0a1b2c3d"), ReplayCommand.Verb.STOP)));
     }
 
     @Test
@@ -63,7 +70,8 @@ class RequestsTest {
     @Test
     void passesOverResponsesAndRecordsWithoutAValue() {
         assertThat(Requests.domain(null)).isEqualTo(new Received.Passed<>());
-        assertThat(Requests.domain(Response.of("created").to("r").toBytes())).isEqualTo(new Received.Passed<>());
+        assertThat(Requests.domain(CommandResult.of("created").to("r").toBytes()))
+                .isEqualTo(new Received.Passed<>());
         assertThat(Requests.domain(json("{'type':'response'}"))).isEqualTo(new Received.Passed<>());
     }
 
@@ -140,6 +148,18 @@ class RequestsTest {
             {'command':'speed','replay':'m.0a1b2c3d'}                        | missing-member
             {'command':'step','replay':'m.0a1b2c3d','count':0}               | wrong-member
             {'command':'rewind','replay':'m.0a1b2c3d'}                       | unknown-command
+            {'command':'loop','replay':'m.0a1b2c3d','from':5}                | missing-member
+            {'command':'loop','replay':'m.0a1b2c3d','from':5,'to':5}         | wrong-member
+            {'command':'pause','replay':'m.0a1b2c3d','group':'0a1b2c3d'}     | wrong-member
+            {'command':'pause','group':'x'}                                  | illegal-name
+            {'command':'start','missions':[]}                                | wrong-member
+            {'command':'start','missions':['a','a']}                         | wrong-member
+            {'command':'start','missions':['a'],'mission':'b'}               | wrong-member
+            {'command':'start','missions':['a','b'],'speed':'max'}           | wrong-member
+            {'command':'start','missions':['a','b'],'topic':'data.a.replay.0a1b2c3d'} | wrong-member
+            {'command':'start','mission':'a','topic':'data.a b.replay.0a1b2c3d'} | wrong-member
+            {'command':'start','mission':'a','topic':'data.raw'}             | wrong-member
+            {'command':'start','mission':'a','maxGap':'5'}                   | wrong-member
             """)
     void answersWhatIsNoRequestToAReplay(String request, String code) {
         String whole = request.replace("{'command'", "{'type':'request','command'");
@@ -174,7 +194,7 @@ class RequestsTest {
 
     private static String refusal(Received<?> received) {
         assertThat(received).isInstanceOf(Received.Refused.class);
-        Response answer = ((Received.Refused<?>) received).answer();
+        CommandResult answer = ((Received.Refused<?>) received).answer();
         assertThat(answer.json().path("reason").asText()).isNotBlank();
         return answer.error().orElseThrow();
     }

@@ -55,7 +55,7 @@ class FarmSecretCodecTest {
     /** An older version reads the first line as the secret: it must find that too short. */
     @Test
     void beginsWithALineThatIsTooShortForASecret() {
-        assertThat(FarmSecretCodec.HEADER.length()).isLessThan(FarmKey.LEAST_BYTES);
+        assertThat(FarmSecretCodec.HEADER.length()).isLessThan(FarmKey.MIN_BYTES);
     }
 
     @ParameterizedTest

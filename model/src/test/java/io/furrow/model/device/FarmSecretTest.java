@@ -27,7 +27,7 @@ class FarmSecretTest {
 
         assertThat(again).isEqualTo(secret);
         assertThat(again.device("weeding", "t-1")).isEqualTo(secret.device("weeding", "t-1"));
-        // As all versions have made it: devices need not be provisioned anew.
+        // As all versions have made it: devices need not be provisioned again.
         assertThat(secret.apiKey("weeding")).isEqualTo("F49lKHQxb5Oi2OVXvRUbeD");
     }
 

@@ -78,7 +78,7 @@ class ReloadedFileTest {
         assertThat(warnings).hasSize(2);
     }
 
-    /** What a source needs besides the file may be away when the file changes. */
+    /** What a source needs besides the file may be unavailable when the file changes. */
     @Test
     void triesAgainThoughTheFileDoesNotChangeAnyMore() throws IOException {
         ReloadedFile<String> reloaded = open();

@@ -11,6 +11,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.model.position.PositionReading;
+
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatExceptionOfType;
@@ -113,7 +115,7 @@ class EntityExcerptTest {
         }
     }
 
-    /** Its reason; empty where there is none. */
+    /** Its reason; empty if there is none. */
     private static String refusal(NgsiJson.Reading<Entity> reading) {
         try {
             reading.read();

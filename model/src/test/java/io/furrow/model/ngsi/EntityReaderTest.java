@@ -15,6 +15,9 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
+import io.furrow.model.position.PositionReading;
+import io.furrow.model.time.Instants;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatIllegalArgumentException;
 import static org.assertj.core.api.Assertions.fail;
@@ -76,7 +79,7 @@ class EntityReaderTest {
 
     @Test
     void answersTheSameForEveryPositionOfTheCaseTable() throws Exception {
-        Path table = Path.of("src/test/resources/io/furrow/model/ngsi/positions.csv");
+        Path table = Path.of("src/test/resources/io/furrow/model/position/positions.csv");
         for (String line : Files.readAllLines(table)) {
             String keyValues = line.split(" \\| ")[0];
             if (!line.startsWith("#")) {
@@ -108,7 +111,7 @@ class EntityReaderTest {
         reader.read(bytes("{\"id\":\"a\"}"));
         assertThatIllegalArgumentException()
                 .isThrownBy(() -> reader.has("Image"))
-                .withMessageContaining("'Image' is none of the wanted attributes");
+                .withMessageContaining("'Image' is not one of the requested attributes");
     }
 
     @Test

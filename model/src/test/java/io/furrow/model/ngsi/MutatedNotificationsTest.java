@@ -13,6 +13,7 @@ import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
+import io.furrow.model.position.PositionReading;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;

@@ -4,13 +4,13 @@ import java.net.http.HttpHeaders;
 import java.util.Optional;
 import java.util.OptionalLong;
 
-/** The headers of an answer; names in any case. */
+/** The headers of an answer; names are case-insensitive. */
 public record AnswerHeaders(HttpHeaders headers) {
     public Optional<String> first(String name) {
         return headers.firstValue(name);
     }
 
-    /** {@code Fiware-Total-Count}: how many there are, beyond the page. */
+    /** {@code Fiware-Total-Count}: the total number of results, beyond the page. */
     public OptionalLong totalCount() {
         try {
             return headers.firstValueAsLong("Fiware-Total-Count");
@@ -19,7 +19,7 @@ public record AnswerHeaders(HttpHeaders headers) {
         }
     }
 
-    /** The last segment of {@code Location}: the id of what was created. */
+    /** The last segment of {@code Location}: the id of the created resource. */
     public Optional<String> createdId() {
         return first("Location").map(location -> location.substring(location.lastIndexOf('/') + 1));
     }

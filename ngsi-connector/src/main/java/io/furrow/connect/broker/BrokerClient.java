@@ -23,12 +23,12 @@ import java.util.concurrent.TimeoutException;
 import io.furrow.connect.LogText;
 
 /**
- * Asks a context broker over kept connections; never throws for what the network or the broker does. Any number of threads
- * may share one.
+ * Sends requests to a context broker over persistent connections; never throws for failures of the network or the
+ * broker. Thread-safe.
  */
 public final class BrokerClient {
-    /** Bytes of an answer that are read for its words. */
-    private static final int MOST_READ = 4000;
+    /** Bytes of an error answer that are read for its message. */
+    private static final int MAX_READ = 4000;
 
     private final HttpClient client;
     private final BrokerSettings settings;
@@ -52,7 +52,7 @@ public final class BrokerClient {
         return builder.build();
     }
 
-    /** Waits for the answer; an interrupt while it waits stays set and counts as {@link Outcome.Away}. */
+    /** Waits for the answer; an interrupt while waiting stays set and counts as {@link Outcome.Away}. */
     public Outcome send(BrokerRequest asked) {
         URI uri = URI.create(settings.prefix() + asked.path());
         HttpRequest request = request(uri, asked);
@@ -93,7 +93,7 @@ public final class BrokerClient {
         return request.build();
     }
 
-    /** HttpClient's own timeout ends with the headers of the answer; this one ends with its body. */
+    /** The timeout of HttpClient ends with the headers of the answer; this one ends with its body. */
     private HttpResponse<byte[]> answer(HttpRequest request, long deadline)
             throws IOException, InterruptedException, TimeoutException {
         CompletableFuture<HttpResponse<byte[]>> answer =
@@ -133,7 +133,7 @@ public final class BrokerClient {
     }
 
     private static String text(byte[] body) {
-        return LogText.beginning(new String(body, 0, Math.min(body.length, MOST_READ), StandardCharsets.UTF_8));
+        return LogText.beginning(new String(body, 0, Math.min(body.length, MAX_READ), StandardCharsets.UTF_8));
     }
 
     private static Outcome away(String reason, Throwable cause) {

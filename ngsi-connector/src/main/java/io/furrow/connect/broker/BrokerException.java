@@ -7,7 +7,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.UnreadableException;
 
-/** A context broker is away or does not do what it was asked; the message says what and where, for people. */
+/** A context broker is unavailable or rejects a request; the message says what failed and where. */
 public final class BrokerException extends Exception {
     private static final long serialVersionUID = 1L;
 
@@ -18,7 +18,7 @@ public final class BrokerException extends Exception {
         this.retryAfter = retryAfter;
     }
 
-    /** How long the context broker asks to be left alone. */
+    /** The pause that the context broker requests. */
     public Optional<Duration> retryAfter() {
         return retryAfter == null ? Optional.empty() : retryAfter;
     }
@@ -26,7 +26,7 @@ public final class BrokerException extends Exception {
     /**
      * The outcome, if it is a success.
      *
-     * @param what was asked for, for instance {@code list subscriptions}
+     * @param what the request, for instance {@code list subscriptions}
      */
     public static Outcome.Done success(String what, Outcome outcome) throws BrokerException {
         if (outcome instanceof Outcome.Done done) {

@@ -1,9 +1,6 @@
 package io.furrow.connect.broker;
 
-import java.io.IOException;
 import java.net.URI;
-import java.nio.file.Path;
-import java.security.GeneralSecurityException;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -11,131 +8,109 @@ import java.util.Optional;
 import java.util.regex.Pattern;
 import javax.net.ssl.SSLContext;
 
+import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
-import org.apache.kafka.common.config.ConfigDef.Importance;
 import org.apache.kafka.common.config.ConfigDef.Range;
-import org.apache.kafka.common.config.ConfigDef.Type;
-import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
+import org.apache.kafka.common.config.SslConfigs;
 import org.apache.kafka.common.config.types.Password;
+import org.apache.kafka.common.security.ssl.DefaultSslEngineFactory;
 
-import io.furrow.connect.Recommendations;
+import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
 
-/** The options that say where the context broker is and how it is asked: the same in the sink and in the source. */
+/** Options for the connection to the context broker, shared by the sink and the source. */
 public record BrokerOptions(AbstractConfig config) {
+    private static final String PREFIX = "context.broker.";
     public static final String URL = "context.broker.url";
     public static final String TIMEOUT = "context.broker.timeout.ms";
     public static final String AUTH_HEADER = "context.broker.auth.header";
     public static final String AUTH_TOKEN = "context.broker.auth.token";
-    public static final String TRUSTSTORE = "context.broker.truststore.location";
-    public static final String TRUSTSTORE_PASSWORD = "context.broker.truststore.password";
+    static final String TRUSTSTORE = PREFIX + SslConfigs.SSL_TRUSTSTORE_LOCATION_CONFIG;
+    static final String TRUSTSTORE_TYPE = PREFIX + SslConfigs.SSL_TRUSTSTORE_TYPE_CONFIG;
+    static final String TRUSTSTORE_PASSWORD = PREFIX + SslConfigs.SSL_TRUSTSTORE_PASSWORD_CONFIG;
 
-    private static final String GROUP = "Context broker";
-    /** HttpClient sets some headers itself and refuses these. */
+    /** HttpClient sets some headers itself and rejects these. */
     private static final Pattern HEADER_NAME =
             Pattern.compile("(?i)(?!(connection|content-length|expect|host|upgrade)$)[A-Za-z0-9!#$%&'*+.^_`|~-]+");
 
-    /** Checks what concerns more than one option. */
+    /** Checks constraints between options. */
     public BrokerOptions {
-        if (!config.getString(TRUSTSTORE).isEmpty()) {
-            trust(config);
-        }
+        trust(config);
     }
 
-    /** @param urlHelp what the option says if it may be left out, else empty: then the URL is required */
+    /** @param urlHelp the description of the URL's absence if the URL is optional; if empty, the URL is required */
     public static void define(ConfigDef options, Optional<String> urlHelp) {
-        defineUrl(options, urlHelp);
-        options.define(
-                TIMEOUT,
-                Type.LONG,
-                10_000L,
-                Range.between(1, 600_000),
-                Importance.LOW,
-                "Milliseconds that one request may take, to the end of its answer; after that the context broker counts"
-                        + " as away.",
-                GROUP,
-                2,
-                Width.SHORT,
-                "Timeout (ms)");
-        defineAuthentication(options);
-        defineTls(options);
+        OptionGroup group = new OptionGroup(options, "Context broker");
+        defineUrl(group, urlHelp);
+        group.low()
+                .number(
+                        TIMEOUT,
+                        10_000L,
+                        Range.between(1, 600_000),
+                        "Timeout (ms)",
+                        "Maximum milliseconds of one request, to the end of its answer; after that the context broker counts as"
+                                + " unavailable.");
+        defineAuthentication(group);
+        defineTls(group);
     }
 
-    private static void defineUrl(ConfigDef options, Optional<String> urlHelp) {
-        options.define(
-                URL,
-                Type.STRING,
-                urlHelp.isPresent() ? "" : ConfigDef.NO_DEFAULT_VALUE,
-                urlHelp.isPresent() ? Validators.optionalHttpUrl() : Validators.httpUrl(),
-                Importance.HIGH,
-                "Base URL of the context broker, for instance http://orion:1026; /v2/… is added to it."
-                        + urlHelp.map(help -> " " + help).orElse(""),
-                GROUP,
-                1,
-                Width.MEDIUM,
-                "URL");
+    private static void defineUrl(OptionGroup group, Optional<String> urlHelp) {
+        group.high()
+                .text(
+                        URL,
+                        urlHelp.isPresent() ? "" : ConfigDef.NO_DEFAULT_VALUE,
+                        urlHelp.isPresent() ? Validators.optionalHttpUrl() : Validators.httpUrl(),
+                        "URL",
+                        "Base URL of the context broker, for instance http://orion:1026; /v2/… is added to it."
+                                + urlHelp.map(help -> " " + help).orElse(""));
     }
 
-    private static void defineAuthentication(ConfigDef options) {
-        options.define(
+    private static void defineAuthentication(OptionGroup group) {
+        group.secret(
                 AUTH_TOKEN,
-                Type.PASSWORD,
                 "",
                 Validators.headerSecret(),
-                Importance.MEDIUM,
+                "Token",
                 "Token that is sent with every request to the context broker, for the proxy that guards it; empty for"
-                        + " none. With the header Authorization it is all of the value, for instance Bearer abc.",
-                GROUP,
-                3,
-                Width.LONG,
-                "Token");
-        options.define(
-                AUTH_HEADER,
-                Type.STRING,
-                "X-Auth-Token",
-                Validators.matching(HEADER_NAME, "the name of a header that HTTP itself does not use"),
-                Importance.LOW,
-                "Header that carries the token: X-Auth-Token for a Wilma PEP proxy, Authorization for most others.",
-                GROUP,
-                4,
-                Width.MEDIUM,
-                "Token header",
-                Recommendations.values("X-Auth-Token", "Authorization", "apikey"));
+                        + " none. With the header Authorization it is the whole value, for instance Bearer abc.");
+        group.low()
+                .recommending("X-Auth-Token", "Authorization", "apikey")
+                .text(
+                        AUTH_HEADER,
+                        "X-Auth-Token",
+                        Validators.matching(HEADER_NAME, "the name of a header that HTTP itself does not use"),
+                        "Token header",
+                        "Header that carries the token: X-Auth-Token for a Wilma PEP proxy, Authorization for most others.");
     }
 
-    private static void defineTls(ConfigDef options) {
-        options.define(
-                TRUSTSTORE,
-                Type.STRING,
-                "",
-                Validators.matching(Pattern.compile(".*"), "a path"),
-                Importance.LOW,
-                "File with the certificates that https trusts, PEM (.pem, .crt), JKS (.jks) or PKCS12 (all others); empty"
-                        + " for those that the JVM trusts. Only with an https URL.",
-                GROUP,
-                5,
-                Width.LONG,
-                "Truststore",
-                List.of(TRUSTSTORE_PASSWORD),
-                Recommendations.shownIf(URL, value -> value.startsWith("https:")));
-        options.define(
+    /** The trust store options of Kafka's clients, with a prefix. */
+    private static void defineTls(OptionGroup group) {
+        OptionGroup shown = group.low().shownIf(TRUSTSTORE, value -> !value.isEmpty());
+        group.low()
+                .shownIf(URL, value -> value.startsWith("https:"))
+                .text(
+                        TRUSTSTORE,
+                        null,
+                        ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "a path"),
+                        "Trust store",
+                        "File with the certificates that https trusts; unset for those that the JVM trusts. Only with an https"
+                                + " URL.");
+        shown.choice(
+                TRUSTSTORE_TYPE,
+                List.of("JKS", "PKCS12", DefaultSslEngineFactory.PEM_TYPE),
+                "Trust store type",
+                "Format of the trust store: JKS, PKCS12 or PEM.");
+        shown.secret(
                 TRUSTSTORE_PASSWORD,
-                Type.PASSWORD,
-                "",
+                null,
                 Validators.secret(),
-                Importance.LOW,
-                "Password of the truststore; PEM has none.",
-                GROUP,
-                6,
-                Width.MEDIUM,
-                "Truststore password",
-                Recommendations.shownIf(
-                        TRUSTSTORE, value -> !value.isEmpty() && !TrustedCertificates.isPem(Path.of(value))));
+                "Trust store password",
+                "Password of the trust store; PEM has none.");
     }
 
-    /** Empty where the option may be left out and was. */
+    /** Empty if the optional URL is not set. */
     public Optional<URI> url() {
         return Optional.of(config.getString(URL)).filter(url -> !url.isEmpty()).map(URI::create);
     }
@@ -146,17 +121,20 @@ public record BrokerOptions(AbstractConfig config) {
         Password token = config.getPassword(AUTH_TOKEN);
         Map<String, Password> headers =
                 token.value().isEmpty() ? Map.of() : Map.of(config.getString(AUTH_HEADER), token);
-        Optional<SSLContext> tls =
-                config.getString(TRUSTSTORE).isEmpty() ? Optional.empty() : Optional.of(trust(config));
-        return new BrokerSettings(url, Duration.ofMillis(config.getLong(TIMEOUT)), headers, tls);
+        return new BrokerSettings(url, Duration.ofMillis(config.getLong(TIMEOUT)), headers, trust(config));
     }
 
-    private static SSLContext trust(AbstractConfig config) {
+    private static Optional<SSLContext> trust(AbstractConfig config) {
         String file = config.getString(TRUSTSTORE);
-        try {
-            return TrustedCertificates.context(Path.of(file), config.getPassword(TRUSTSTORE_PASSWORD));
-        } catch (IOException | GeneralSecurityException | IllegalArgumentException e) {
-            throw new ConfigException(TRUSTSTORE, file, "cannot be used: " + e);
+        if (file == null) {
+            return Optional.empty();
+        }
+        try (DefaultSslEngineFactory factory = new DefaultSslEngineFactory()) {
+            factory.configure(new ConfigDef().withClientSslSupport().parse(config.originalsWithPrefix(PREFIX)));
+            return Optional.of(factory.sslContext());
+        } catch (KafkaException e) {
+            String cause = e.getCause() == null ? "" : ": " + e.getCause().getMessage();
+            throw new ConfigException(TRUSTSTORE, file, "cannot be used: " + e.getMessage() + cause);
         }
     }
 }

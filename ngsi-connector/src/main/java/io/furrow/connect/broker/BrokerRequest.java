@@ -14,7 +14,7 @@ import io.furrow.model.ngsi.NgsiJson;
  *
  * @param scope sent as {@code Fiware-Service} (none for the default tenant) and {@code Fiware-Servicepath}
  * @param path with its query, percent-encoded, for instance {@code /v2/entities?limit=100}
- * @param body null where there is none
+ * @param body null if there is none
  * @param headers besides those of the scope, {@code Content-Type} among them where there is a body
  * @param repeatable whether a second time does no harm: it is then sent again when a kept connection proves dead
  */
@@ -41,17 +41,17 @@ public record BrokerRequest(
         return new BrokerRequest("PATCH", scope, path, NgsiJson.write(body), JSON, true);
     }
 
-    /** Creates something: a second time would create a second one. */
+    /** Creates a resource: a repetition would create a second one. */
     public static BrokerRequest create(FiwareScope scope, String path, JsonNode body) {
         return new BrokerRequest("POST", scope, path, NgsiJson.write(body), JSON, false);
     }
 
-    /** A POST that only asks, or that leaves the same state when it is done twice. */
+    /** A POST that only queries, or that is idempotent. */
     public static BrokerRequest post(FiwareScope scope, String path, byte[] body) {
         return new BrokerRequest("POST", scope, path, body, JSON, true);
     }
 
-    /** With one header more, or another value of one it has. */
+    /** With an additional or replaced header. */
     public BrokerRequest withHeader(String name, String value) {
         Map<String, String> more = new HashMap<>(headers);
         more.put(name, value);

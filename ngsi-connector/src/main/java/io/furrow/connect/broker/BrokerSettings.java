@@ -9,13 +9,13 @@ import javax.net.ssl.SSLContext;
 import org.apache.kafka.common.config.types.Password;
 
 /**
- * Where a context broker is, and how it is asked.
+ * The connection to a context broker.
  *
  * @param base for instance {@code http://orion:1026}, with or without a path
  * @param timeout of one request, from its start to the end of its answer
  * @param headers sent with every request, for instance a token; their values appear nowhere else
- * @param tls what https trusts; empty for what the JVM trusts
- * @param maxAnswerBytes bytes of an answer's body; of a larger one nothing is taken
+ * @param tls the trusted certificates; empty for those of the JVM
+ * @param maxAnswerBytes maximum bytes of an answer's body; a larger one is dropped
  */
 public record BrokerSettings(
         URI base, Duration timeout, Map<String, Password> headers, Optional<SSLContext> tls, long maxAnswerBytes) {

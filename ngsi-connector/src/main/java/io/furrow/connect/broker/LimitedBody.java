@@ -9,7 +9,7 @@ import java.util.List;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.Flow.Subscription;
 
-/** Takes the body of an answer up to a number of bytes; of a larger one it takes no more and fails. */
+/** Reads the body of an answer up to a number of bytes; a larger one fails. */
 final class LimitedBody implements BodySubscriber<byte[]> {
     /** The body was larger. */
     static final class TooLargeException extends IOException {

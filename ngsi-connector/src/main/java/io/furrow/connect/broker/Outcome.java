@@ -10,7 +10,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** What became of a request to a context broker. */
+/** The outcome of a request to a context broker. */
 public sealed interface Outcome {
     /**
      * It was answered 2xx.
@@ -42,27 +42,27 @@ public sealed interface Outcome {
         }
     }
 
-    /** 404: what was asked for is not there. {@code words} are the status and the broker's reason. */
+    /** 404: the requested resource does not exist. {@code words} are the status and the broker's reason. */
     record Absent(String words) implements Outcome {}
 
     /**
-     * The context broker does not take what it was sent (any other 4xx), or answers it with more bytes than are taken (2xx).
-     * {@code words} are the status and the reason.
+     * The context broker rejects the request (any other 4xx), or its answer is larger than allowed (2xx). {@code words}
+     * are the status and the reason.
      */
     record Refused(int status, String words) implements Outcome {
-        /** Whether it might be answered if less was asked for. */
+        /** Whether a smaller request might succeed. */
         public boolean isTooLarge() {
             return status / 100 == 2;
         }
     }
 
     /**
-     * There was no answer, or one that says to come again (408, 425, 429, 5xx): the same request may succeed later.
+     * There was no answer, or one that requests a retry (408, 425, 429, 5xx): the same request may succeed later.
      *
      * @param reason a sentence with the URL
-     * @param retryAfter how long the broker asks to be left alone, at least zero
-     * @param cause null where there was an answer
-     * @param status of the answer, 0 where there was none
+     * @param retryAfter the pause that the broker requests, at least zero
+     * @param cause null if there was an answer
+     * @param status of the answer, 0 if there was none
      */
     record Away(String reason, Optional<Duration> retryAfter, Throwable cause, int status) implements Outcome {}
 

@@ -1,2 +1,2 @@
-/** REST to a context broker: what is asked, what became of it, and the options that say where and how. */
+/** REST requests to a context broker, their outcomes, and the options of the connection. */
 package io.furrow.connect.broker;

@@ -13,7 +13,7 @@ import static java.nio.file.StandardOpenOption.CREATE;
 import static java.nio.file.StandardOpenOption.READ;
 import static java.nio.file.StandardOpenOption.WRITE;
 
-/** What a journal asks of a disk when it writes; tests put a failing one in its place. */
+/** The disk operations that a journal needs for writing; tests replace it by a failing one. */
 interface Disk {
     /** A segment file that is being written. */
     interface SegmentFile extends AutoCloseable {
@@ -33,7 +33,7 @@ interface Disk {
      */
     SegmentFile create(Path file, ByteBuffer header, long capacity) throws IOException;
 
-    /** Says that a file of this capacity will be created in the folder, so that it can be made ahead. */
+    /** Announces that a file of this capacity will be created in the folder, so that it can be preallocated. */
     default void prepare(Path folder, long capacity) {}
 
     /** No file will be created any more. */

@@ -6,7 +6,7 @@ import java.nio.file.FileStore;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
-/** Makes folders whose names survive the machine: a name is durable when the folder that holds it was synced. */
+/** Creates folders whose names survive a crash of the machine: a name is durable once its parent folder was synced. */
 final class DurableFolders {
     /** Makes the names in a folder durable. */
     interface Sync {
@@ -16,8 +16,8 @@ final class DurableFolders {
     private DurableFolders() {}
 
     /**
-     * Makes a folder and those above it that are missing, and syncs all above it up to the root of its file system. A process
-     * that ended in between may have left any of them unsynced. One that may not be read was there before.
+     * Creates a folder and its missing parents, and syncs all parents up to the root of the file system: a process that
+     * died may have left any of them unsynced. An unreadable parent existed before.
      */
     static void create(Path folder, Sync sync) throws IOException {
         Files.createDirectories(folder);
@@ -29,7 +29,7 @@ final class DurableFolders {
                 above = above.getParent();
             }
         } catch (AccessDeniedException e) {
-            // Nothing was made there: to make a folder needs more rights than to read.
+            // Nothing was created there: creating a folder needs more rights than reading.
             return;
         }
     }

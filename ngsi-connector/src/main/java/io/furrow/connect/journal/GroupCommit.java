@@ -14,9 +14,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Collects appends while the disk is busy and writes them with one sync. An error fails those appends of its group that are not
- * durable, and no other; the next group begins a new file. After {@value #FAILURES_AT_MOST} groups in a row have failed it
- * gives up for good.
+ * Collects appends while the disk is busy and writes them with one sync. An error fails only those appends of its group
+ * that are not durable; the next group starts a new file. After {@value #FAILURES_AT_MOST} failed groups in a row the
+ * journal accepts no more appends.
  */
 final class GroupCommit {
     private static final Logger LOG = LoggerFactory.getLogger(GroupCommit.class);
@@ -29,7 +29,7 @@ final class GroupCommit {
 
     private final String journal;
     private final SegmentWriter writer;
-    private final Room room;
+    private final JournalQuota room;
     private final ArrayDeque<Append> queue = new ArrayDeque<>();
     private Thread thread;
     private long waitingBytes;
@@ -38,7 +38,7 @@ final class GroupCommit {
     private Throwable failure;
     private int failuresInARow;
 
-    GroupCommit(String journal, SegmentWriter writer, Room room) {
+    GroupCommit(String journal, SegmentWriter writer, JournalQuota room) {
         this.journal = journal;
         this.writer = writer;
         this.room = room;
@@ -57,7 +57,7 @@ final class GroupCommit {
         if (payloads.isEmpty()) {
             return Optional.of(CompletableFuture.completedFuture(null));
         }
-        long bytes = Room.sizeOf(payloads);
+        long bytes = JournalQuota.sizeOf(payloads);
         if (!room.isFor(bytes, waitingBytes)) {
             return Optional.empty();
         }
@@ -93,7 +93,7 @@ final class GroupCommit {
         }
     }
 
-    /** Waits for appends; empty when it was closed and all are written. */
+    /** Waits for appends; empty when the journal was closed and all are written. */
     private synchronized List<Append> nextGroup() {
         while (queue.isEmpty() && !closed) {
             try {
@@ -137,18 +137,18 @@ final class GroupCommit {
         }
     }
 
-    /** Without the file made ahead, the next one is made when it is needed. */
+    /** Without the preallocated file, the next one is created on demand. */
     private void prepareNext() {
         try {
             if (writer.isNextUnprepared()) {
                 writer.prepareNext(room.isForSegment());
             }
         } catch (RuntimeException | Error e) {
-            LOG.warn("journal {}: the next file cannot be made ahead", journal, e);
+            LOG.warn("journal {}: the next file cannot be preallocated; it will be created on demand", journal, e);
         }
     }
 
-    /** Nothing is written any more: who waits is told, and the task fails at its next poll. */
+    /** Stops writing: waiting appends fail, and the task fails at its next poll. */
     private void giveUp(Throwable why) {
         List<Append> unwritten;
         synchronized (this) {
@@ -186,7 +186,10 @@ final class GroupCommit {
         notifyAll();
     }
 
-    /** Waits until a condition that a group can bring about holds, or a {@link System#nanoTime} is reached; whether it holds. */
+    /**
+     * Waits until a condition that a group can change holds, or until a {@link System#nanoTime}; returns whether it
+     * holds.
+     */
     synchronized boolean awaitGroup(BooleanSupplier condition, long deadline) throws InterruptedException {
         while (!condition.getAsBoolean()) {
             long left = deadline - System.nanoTime();
@@ -220,7 +223,7 @@ final class GroupCommit {
         return Optional.ofNullable(failure);
     }
 
-    /** Writes what waits and ends; whether it did. */
+    /** Writes the waiting appends and stops; returns whether it did. */
     boolean close() {
         Thread running;
         synchronized (this) {

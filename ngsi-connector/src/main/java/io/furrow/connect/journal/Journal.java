@@ -11,12 +11,12 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * An append-only log of records in preallocated files of one folder. What {@link #append} confirms survives the process and
- * the machine: records are written and synced in groups by one thread. Readers see durable records only. A record is kept
- * until {@link #release} passes it. One journal object at a time has the folder, by a file lock.
+ * An append-only log of records in preallocated files of one folder. Confirmed records survive a crash of the process
+ * and the machine: one thread writes and syncs them in groups. Readers see durable records only. A record is retained
+ * until {@link #release} passes it. A file lock ensures that one journal object at a time uses the folder.
  *
- * <p>When it is opened, an append that had not ended is dropped; damage in what had been confirmed is logged, counted and
- * passed over. The folder's name is part of each checksum: a journal may be moved, not renamed.
+ * <p>On opening, incomplete appends are dropped; corruptions of confirmed records are logged, counted and skipped. The
+ * folder's name is part of each checksum: a journal may be moved, not renamed.
  */
 public final class Journal implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(Journal.class);
@@ -24,17 +24,17 @@ public final class Journal implements AutoCloseable {
     private final Path folder;
     private final JournalLock lock;
     private final Segments segments;
-    private final Damages damages;
-    private final Room room;
+    private final Corruptions damages;
+    private final JournalQuota room;
     private final SegmentWriter writer;
     private final GroupCommit commit;
 
     private Journal(Path folder, JournalLock lock, JournalSettings settings, Disk disk) throws IOException {
         this.folder = folder;
         this.lock = lock;
-        this.damages = new Damages(id());
+        this.damages = new Corruptions(id());
         this.segments = new Segments(new Recovery(folder, SegmentFormat.saltOf(id()), damages).segments());
-        this.room = new Room(settings, folder, disk, segments);
+        this.room = new JournalQuota(settings, folder, disk, segments);
         this.writer = new SegmentWriter(folder, settings.segmentBytes(), disk, segments);
         this.commit = new GroupCommit(id(), writer, room);
     }
@@ -42,7 +42,7 @@ public final class Journal implements AutoCloseable {
     /**
      * Opens the journal of an existing folder, which may be empty.
      *
-     * @return empty if somebody has it open
+     * @return empty if the journal is already open elsewhere
      * @throws UncheckedIOException if the folder cannot be read or locked
      */
     public static Optional<Journal> open(Path folder, JournalSettings settings) {
@@ -71,7 +71,7 @@ public final class Journal implements AutoCloseable {
         return folder.getFileName().toString();
     }
 
-    /** Its folder; files with other names than its own may be kept there, they go with it. */
+    /** Its folder; files with other names may be stored there and are deleted with it. */
     public Path folder() {
         return folder;
     }
@@ -79,14 +79,14 @@ public final class Journal implements AutoCloseable {
     /**
      * Appends all records, next to each other in one file, or none.
      *
-     * @param payloads none of them empty
+     * @param payloads not empty
      * @return completed when all are durable, failed with a {@link JournalException}; empty if there is no room now
      */
     public Optional<CompletableFuture<Void>> append(List<byte[]> payloads) {
         return commit.append(payloads);
     }
 
-    /** A reader that begins at a sequence number, or at the oldest record that is kept if that is later. */
+    /** A reader that begins at a sequence number, or at the oldest retained record if that is later. */
     public JournalReader reader(long from) {
         return new JournalReader(segments, SegmentFormat.saltOf(id()), damages, commit, from);
     }
@@ -97,7 +97,7 @@ public final class Journal implements AutoCloseable {
         return Math.max(last == null ? 0 : last.end().sequence(), commit.skippedTo());
     }
 
-    /** The sequence number of the oldest record that is kept, or {@link #end} if none is. */
+    /** The sequence number of the oldest retained record, or {@link #end} if there is none. */
     public long begin() {
         Segment first = segments.first();
         return first == null ? end() : first.base();
@@ -113,7 +113,7 @@ public final class Journal implements AutoCloseable {
         try {
             segments.release(below);
         } catch (IOException e) {
-            LOG.warn("journal {}: cannot delete a segment, will try again", id(), e);
+            LOG.warn("journal {}: cannot delete a segment, will retry", id(), e);
         }
     }
 
@@ -127,8 +127,8 @@ public final class Journal implements AutoCloseable {
         return commit.waitingBytes();
     }
 
-    /** What could not be read since it was opened. */
-    public List<Damage> damages() {
+    /** The corruptions found since it was opened. */
+    public List<Corruption> damages() {
         return damages.all();
     }
 
@@ -142,12 +142,12 @@ public final class Journal implements AutoCloseable {
         return damages.bytes();
     }
 
-    /** The error because of which it takes nothing any more: the disk failed again and again. */
+    /** The error after which it accepts no more appends: the disk failed repeatedly. */
     public Optional<Throwable> failure() {
         return commit.failure();
     }
 
-    /** Makes durable what was appended, takes nothing more and lets others open the folder. */
+    /** Makes all appended records durable, accepts no more and unlocks the folder. */
     @Override
     public void close() {
         if (commit.close()) {
@@ -163,7 +163,7 @@ public final class Journal implements AutoCloseable {
         try {
             JournalFolders.delete(folder);
         } catch (IOException e) {
-            LOG.warn("cannot delete the folder {} of a journal that holds nothing any more", folder, e);
+            LOG.warn("cannot delete the folder {} of an empty journal; delete it manually", folder, e);
         }
     }
 }

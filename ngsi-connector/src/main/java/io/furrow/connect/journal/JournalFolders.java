@@ -29,9 +29,9 @@ public final class JournalFolders {
     private static final SecureRandom RANDOM = new SecureRandom();
 
     /**
-     * A journal that nobody has open although it holds something.
+     * A journal that holds records and that no task has open.
      *
-     * @param owner as its folder is named
+     * @param owner by the name of its folder
      * @param bytes of its files
      */
     public record Orphan(String owner, Path folder, long bytes) {}
@@ -41,7 +41,7 @@ public final class JournalFolders {
     private final Path own;
     private final JournalSettings settings;
 
-    /** @param root is made if it does not exist */
+    /** @param root is created if missing */
     public JournalFolders(Path root, String owner, JournalSettings settings) {
         this.root = root;
         this.owner = owner;
@@ -55,7 +55,7 @@ public final class JournalFolders {
     }
 
     /**
-     * The first journal of a slot that nobody has open, or a new one.
+     * The first journal of a slot that no task has open, or a new one.
      *
      * @throws UncheckedIOException if the folder cannot be used
      */
@@ -88,9 +88,10 @@ public final class JournalFolders {
     }
 
     /**
-     * Opens the journals of this owner that nobody has open, one after another. One that cannot be opened is logged and left.
+     * Opens the journals of this owner that no task has open, one after another. One that cannot be opened is logged
+     * and skipped.
      *
-     * @param taker has each from then on; one at which it throws is closed, and no further one is opened
+     * @param taker receives and owns each journal; one at which it throws is closed, and no further one is opened
      */
     public void adopt(Consumer<Journal> taker) {
         for (Path folder : foldersOf(own)) {
@@ -100,7 +101,7 @@ public final class JournalFolders {
             try {
                 Journal.open(folder, settings).ifPresent(journal -> give(journal, taker));
             } catch (UncheckedIOException e) {
-                LOG.warn("a journal that nobody uses cannot be taken over", e);
+                LOG.warn("an unused journal cannot be taken over", e);
             }
         }
     }
@@ -114,7 +115,7 @@ public final class JournalFolders {
         }
     }
 
-    /** The journals of any owner that nobody has open and that hold a segment. */
+    /** The journals of any owner that no task has open and that hold a segment. */
     public List<Orphan> orphans() {
         List<Orphan> orphans = new ArrayList<>();
         for (Path owner : foldersOf(root)) {

@@ -12,9 +12,9 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 /**
- * Keeps a folder for one owner, also among several in one process and among copies of this class in several class loaders.
- * The operating system ends it with the process. Of the lock file the owner has two bytes: who gets the first is the owner; who
- * only asks touches the second, and so is never in the way of one that takes the first.
+ * Locks a folder for one owner, also among several owners in one process and among copies of this class in several
+ * class loaders. The operating system releases it with the process. The owner locks two bytes of the lock file: the
+ * first one decides ownership. A query touches only the second one and never blocks an owner.
  */
 final class JournalLock implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(JournalLock.class);
@@ -34,7 +34,7 @@ final class JournalLock implements AutoCloseable {
         this.channel = channel;
     }
 
-    /** The lock, or empty if somebody has it. */
+    /** The lock, or empty if it is held. */
     static Optional<JournalLock> tryLock(Path folder) throws IOException {
         String property = PROPERTY + folder.toRealPath();
         if (!reserve(property, HELD)) {
@@ -60,7 +60,7 @@ final class JournalLock implements AutoCloseable {
         return Optional.ofNullable(lock);
     }
 
-    /** Whether somebody has the lock. */
+    /** Whether the lock is held. */
     static boolean isHeld(Path folder) throws IOException {
         String property = PROPERTY + folder.toRealPath();
         if (!reserve(property, ASKED)) {

@@ -9,18 +9,18 @@ import java.util.List;
 
 import io.furrow.connect.journal.SegmentFormat.End;
 
-/** Reads durable records in their order; keeps none in memory. For one thread at a time. */
+/** Reads durable records in order; caches none. Not thread-safe. */
 public final class JournalReader implements AutoCloseable {
     private final Segments segments;
     private final long salt;
-    private final Damages damages;
+    private final Corruptions damages;
     private final GroupCommit commit;
     private volatile long position;
     private volatile long lost;
     private Segment segment;
     private RecordCursor cursor;
 
-    JournalReader(Segments segments, long salt, Damages damages, GroupCommit commit, long from) {
+    JournalReader(Segments segments, long salt, Corruptions damages, GroupCommit commit, long from) {
         this.segments = segments;
         this.salt = salt;
         this.damages = damages;
@@ -33,7 +33,9 @@ public final class JournalReader implements AutoCloseable {
         return position;
     }
 
-    /** How many records were passed over because they cannot be read; what was missing before the first read counts not. */
+    /**
+     * The number of records that were skipped because they cannot be read, without those missing before the first read.
+     */
     public long lost() {
         return lost;
     }
@@ -124,8 +126,8 @@ public final class JournalReader implements AutoCloseable {
         } catch (NoSuchFileException e) {
             End end = next.end();
             long missing = end.sequence() - next.base();
-            damages.note(new Damage(
-                    next.base(), SegmentFormat.HEADER, end.position(), next.base(), missing, Damage.Kind.MISSING));
+            damages.note(new Corruption(
+                    next.base(), SegmentFormat.HEADER, end.position(), next.base(), missing, Corruption.Kind.MISSING));
             passOverTo(end.sequence());
             boolean more = segments.after(next) != null && advance();
             segment = more ? segment : null;

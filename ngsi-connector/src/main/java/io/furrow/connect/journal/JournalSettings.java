@@ -18,7 +18,7 @@ public record JournalSettings(long maxBytes, int segmentBytes, long maxWaiting, 
         return new JournalSettings(maxBytes, segment, maxWaiting, minFree);
     }
 
-    /** Bytes of files that records of so many bytes may need where there is none yet; it errs on the side of too many. */
+    /** Bytes of files that records of this many bytes may need if there is none yet; it errs on the side of too many. */
     long needed(long bytes) {
         long usableOfSegment = segmentBytes / 4 * 3;
         long newFiles = (bytes / usableOfSegment + 1) * segmentBytes;

@@ -8,12 +8,12 @@ import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
 import java.util.function.Consumer;
 
-import io.furrow.connect.journal.Damage.Kind;
+import io.furrow.connect.journal.Corruption.Kind;
 import io.furrow.connect.journal.SegmentFormat.End;
 
 /**
- * Reads the records of one segment file one after the other, up to an end that may move on. Bytes that are no record are
- * skipped up to the next that are one, and noted.
+ * Reads the records of one segment file one after the other, up to an end that may move. Invalid bytes are skipped up
+ * to the next record, and noted.
  */
 final class RecordCursor implements Closeable {
     private static final int WINDOW = 256 * 1024;
@@ -21,13 +21,13 @@ final class RecordCursor implements Closeable {
     private final long base;
     private final long salt;
     private final FileChannel channel;
-    private final Consumer<Damage> damages;
+    private final Consumer<Corruption> damages;
     private ByteBuffer window = ByteBuffer.allocate(WINDOW).limit(0);
     private long windowAt;
     private long position = SegmentFormat.HEADER;
     private long sequence;
 
-    RecordCursor(Path file, long base, long salt, Consumer<Damage> damages) throws IOException {
+    RecordCursor(Path file, long base, long salt, Consumer<Corruption> damages) throws IOException {
         this.base = base;
         this.salt = salt;
         this.sequence = base;
@@ -53,18 +53,18 @@ final class RecordCursor implements Closeable {
         long found = firstRecordBehind(position, limit);
         if (found < 0) {
             Kind kind = limit < end.position() ? Kind.TRUNCATED : Kind.CORRUPT;
-            damages.accept(new Damage(base, position, end.position(), sequence, end.sequence() - sequence, kind));
+            damages.accept(new Corruption(base, position, end.position(), sequence, end.sequence() - sequence, kind));
             position = end.position();
             sequence = end.sequence();
             return null;
         }
         record = recordAt(found, limit, Long.MAX_VALUE);
-        damages.accept(new Damage(base, position, found, sequence, record.sequence() - sequence, Kind.CORRUPT));
+        damages.accept(new Corruption(base, position, found, sequence, record.sequence() - sequence, Kind.CORRUPT));
         skippedTo(found, record);
         return passed(record);
     }
 
-    /** Reads on where nobody knows the end, to the last record that is whole; what is behind it is noted. */
+    /** Reads to the last complete record if the end is unknown; the bytes behind it are noted. */
     End readToUnknownEnd() throws IOException {
         long limit = channel.size();
         while (true) {
@@ -75,11 +75,12 @@ final class RecordCursor implements Closeable {
             if (record == null) {
                 long found = firstRecordBehind(position, limit);
                 if (found < 0) {
-                    damages.accept(new Damage(base, position, limit, sequence, Damage.UNKNOWN, Kind.TORN_TAIL));
+                    damages.accept(new Corruption(base, position, limit, sequence, Corruption.UNKNOWN, Kind.TORN_TAIL));
                     return at();
                 }
                 record = recordAt(found, limit, Long.MAX_VALUE);
-                damages.accept(new Damage(base, position, found, sequence, record.sequence() - sequence, Kind.CORRUPT));
+                damages.accept(
+                        new Corruption(base, position, found, sequence, record.sequence() - sequence, Kind.CORRUPT));
                 skippedTo(found, record);
             }
             passed(record);
@@ -94,14 +95,14 @@ final class RecordCursor implements Closeable {
     private JournalRecord passed(JournalRecord record) {
         if (record.sequence() > sequence) {
             long missing = record.sequence() - sequence;
-            damages.accept(new Damage(base, position, position, sequence, missing, Kind.MISSING));
+            damages.accept(new Corruption(base, position, position, sequence, missing, Kind.MISSING));
         }
         position += SegmentFormat.sizeOf(record.payload());
         sequence = record.sequence() + 1;
         return record;
     }
 
-    /** Where the next record begins behind a place that is none, or -1. */
+    /** The position of the next record behind an invalid position, or -1. */
     private long firstRecordBehind(long broken, long limit) throws IOException {
         for (long at = broken + 1; at + SegmentFormat.RECORD_HEADER < limit; at++) {
             // A record has a byte of payload at least, so a hole can only hold so many.
@@ -147,7 +148,7 @@ final class RecordCursor implements Closeable {
         return true;
     }
 
-    /** Brings bytes of the file into the window, none from behind the limit: they may still change. */
+    /** Loads bytes of the file into the window, none from behind the limit: they may still change. */
     private void load(long at, int length, long limit) throws IOException {
         if (at >= windowAt && at + length <= windowAt + window.limit()) {
             return;

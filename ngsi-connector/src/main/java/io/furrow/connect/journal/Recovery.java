@@ -12,13 +12,13 @@ import java.util.Optional;
 import java.util.TreeMap;
 import java.util.stream.Stream;
 
-import io.furrow.connect.journal.Damage.Kind;
+import io.furrow.connect.journal.Corruption.Kind;
 import io.furrow.connect.journal.SegmentFormat.End;
 import io.furrow.connect.journal.SegmentFormat.Header;
 
 /**
- * Finds the segments of a journal and where each ends. Each segment says where the one before ends, so only the last file,
- * and one whose successor is damaged, is read to its end; a corruption elsewhere is noted when it is read.
+ * Finds the segments of a journal and the end of each. Each segment stores the end of its predecessor, so only the last
+ * file, and one whose successor is damaged, is read to its end; a corruption elsewhere is noted when it is read.
  */
 final class Recovery {
     /** A file, its length and its header if that could be read. */
@@ -26,9 +26,9 @@ final class Recovery {
 
     private final Path folder;
     private final long salt;
-    private final Damages damages;
+    private final Corruptions damages;
 
-    Recovery(Path folder, long salt, Damages damages) {
+    Recovery(Path folder, long salt, Corruptions damages) {
         this.folder = folder;
         this.salt = salt;
         this.damages = damages;
@@ -67,11 +67,12 @@ final class Recovery {
     private void noteLength(Candidate candidate) {
         long length = candidate.length();
         if (candidate.header().isEmpty()) {
-            damages.note(new Damage(
+            damages.note(new Corruption(
                     candidate.base(), 0, Math.min(length, SegmentFormat.HEADER), candidate.base(), 0, Kind.CORRUPT));
         } else if (length < candidate.header().get().capacity()) {
             long made = candidate.header().get().capacity();
-            damages.note(new Damage(candidate.base(), length, made, candidate.base(), Damage.UNKNOWN, Kind.TRUNCATED));
+            damages.note(new Corruption(
+                    candidate.base(), length, made, candidate.base(), Corruption.UNKNOWN, Kind.TRUNCATED));
         }
     }
 
@@ -84,7 +85,7 @@ final class Recovery {
                 .orElse(false);
         if (!follows && expected > end.sequence()) {
             long missing = expected - end.sequence();
-            damages.note(new Damage(next.base(), 0, 0, end.sequence(), missing, Kind.MISSING));
+            damages.note(new Corruption(next.base(), 0, 0, end.sequence(), missing, Kind.MISSING));
         }
     }
 

@@ -9,9 +9,9 @@ import io.furrow.connect.journal.SegmentFormat.End;
 import io.furrow.connect.journal.SegmentFormat.Header;
 
 /**
- * Writes records into segment files and goes on to the next file when one is full. After an error it never touches the same
- * file again: after a failed sync nobody knows what of it is on the disk, and a second sync may succeed without having
- * written anything. Such a file ends at what was durable before. For one thread.
+ * Writes records into segment files and continues in the next file when one is full. After an error it never uses the
+ * same file again: after a failed sync it is unknown which bytes are on disk, and a second sync may succeed without
+ * having written anything. Such a file ends at the previous durable position. Not thread-safe.
  */
 final class SegmentWriter {
     private static final int BUFFER = 1024 * 1024;
@@ -132,7 +132,7 @@ final class SegmentWriter {
         return !nextPrepared;
     }
 
-    /** Lets the disk make the file after this one ahead, if there is room for it. */
+    /** Preallocates the file after this one, if there is room for it. */
     void prepareNext(boolean room) {
         nextPrepared = true;
         if (room) {
@@ -159,7 +159,7 @@ final class SegmentWriter {
         try {
             file.close();
         } catch (IOException e) {
-            // What counts was synced, or was given up already.
+            // The durable part was synced, or the file was already abandoned.
             file = null;
         }
     }

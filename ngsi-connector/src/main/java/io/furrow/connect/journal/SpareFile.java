@@ -17,8 +17,8 @@ import static java.nio.file.StandardOpenOption.TRUNCATE_EXISTING;
 import static java.nio.file.StandardOpenOption.WRITE;
 
 /**
- * A file of zeros that is made in the background, so that nobody waits for it when the next segment is needed. It leaves the
- * disk to others half of the time until it is needed. Its methods are called by one thread.
+ * Preallocates a file of zeros in the background, so that no append waits for the next segment. It leaves half of the
+ * disk time to others until the file is needed. Its methods are called by one thread.
  */
 final class SpareFile {
     private static final Logger LOG = LoggerFactory.getLogger(SpareFile.class);
@@ -41,7 +41,7 @@ final class SpareFile {
         unwanted = false;
         made = CompletableFuture.supplyAsync(() -> write(path, bytes), SpareFile::onThread)
                 .exceptionally(failure -> {
-                    LOG.debug("{} could not be made ahead", path, failure);
+                    LOG.debug("{} could not be preallocated", path, failure);
                     return false;
                 });
     }
@@ -78,7 +78,7 @@ final class SpareFile {
         }
     }
 
-    /** Whether the file is whole; without it, the segment is made when it is needed, and reports what is wrong. */
+    /** Returns whether the file is complete; otherwise the segment is created on demand, which reports the error. */
     private boolean write(Path path, long bytes) {
         try (FileChannel channel = FileChannel.open(path, CREATE, TRUNCATE_EXISTING, WRITE)) {
             ByteBuffer zeros = ByteBuffer.allocateDirect((int) Math.min(PIECE, bytes));
@@ -92,7 +92,7 @@ final class SpareFile {
             }
             return !unwanted;
         } catch (IOException e) {
-            LOG.debug("{} could not be made ahead", path, e);
+            LOG.debug("{} could not be preallocated", path, e);
             return false;
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();

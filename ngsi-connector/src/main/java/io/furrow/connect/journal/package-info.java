@@ -1,5 +1,5 @@
 /**
- * A durable, bounded queue of byte records on disk: {@link io.furrow.connect.journal.Journal}. It knows nothing of Connect
- * or of what the bytes mean.
+ * A durable, bounded queue of byte records on disk: {@link io.furrow.connect.journal.Journal}. Independent of Connect
+ * and of the content of the records.
  */
 package io.furrow.connect.journal;

@@ -1,19 +1,18 @@
 package io.furrow.connect.ledger;
 
-import java.util.ArrayList;
 import java.util.Collections;
 import java.util.LinkedHashMap;
-import java.util.List;
 import java.util.Map;
-import java.util.concurrent.CopyOnWriteArrayList;
-import java.util.function.LongSupplier;
+import java.util.concurrent.atomic.LongAdder;
 import java.util.function.Supplier;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * What one task has counted since its start. Whatever comes in is in exactly one place; at any quiet moment, which is one in
- * which no request, repair or append is under way,
+ * Counts the records and requests of a source task since its start. Each input is counted in exactly one place; while no
+ * request, repair or append is in progress,
  *
  * <pre>
  * received                   = accepted + dead + excluded
@@ -21,103 +20,81 @@ import com.fasterxml.jackson.databind.JsonNode;
  * recovered + durable        = produced + skipped + lost + pending
  * </pre>
  *
- * <p>The unit is the entity that came in, which is the record that is made of it: one entity (or deletion) of a notification
- * makes one record, and so does each entity or body that cannot be read, whose record is a dead letter. Only what has
- * {@code requests} in its sentence counts HTTP requests. {@code pending} is a gauge of the journal.
+ * <p>The unit is the received entity, which is also the unit of the resulting records: each entity or deletion of a
+ * notification becomes one record, and each unreadable entity or body becomes one dead letter. Only counters described by
+ * {@code requests} count HTTP requests. {@code pending} is a gauge of the journal.
  *
- * <p>Who counts what: the translation counts received, accepted, dead and excluded; the handler of requests turnedAway and all
- * that counts requests; the journal recovered, durable (before it says so to anybody), lost and pending; the task produced and
- * skipped, when the worker tells it; the repair repaired, once what it emitted is durable (what is not, it tries again and
- * counts once), and repeated.
+ * <p>The translation counts received, accepted, dead and excluded; the request handler counts turnedAway and all requests;
+ * the journal counts recovered, durable (before it confirms them), lost and pending; the task counts produced and skipped,
+ * when the worker reports them; the repair counts repaired, once its records are durable (records that are not durable are
+ * retried and counted once), and repeated.
  */
-public final class Ledger implements Numbers {
-    private final List<Counter> counters = new ArrayList<>();
-    private final List<Gauge> gauges = new CopyOnWriteArrayList<>();
+public final class Ledger extends Metrics {
     private final Map<String, Supplier<JsonNode>> details = Collections.synchronizedMap(new LinkedHashMap<>());
 
-    public final Counter requests = counter("requests", "POST requests whose sender may send and whose body was read");
-    public final Counter received =
-            counter("received", "Entities that notifications brought, a body that cannot be read counting as one");
-    public final Counter accepted = counter("accepted", "Received entities that became a record of the topic");
-    public final Counter dead = counter("dead", "Received entities and bodies that became a dead letter");
-    public final Counter excluded = counter("excluded", "Received entities dropped because of their type");
-    public final Counter turnedAway = counter(
+    public final LongAdder requests = counter("requests", "POST requests of authorized senders whose body was read");
+    public final LongAdder received =
+            counter("received", "Entities received in notifications; an unreadable body counts as one");
+    public final LongAdder accepted = counter("accepted", "Received entities that became a record of the topic");
+    public final LongAdder dead = counter("dead", "Received entities and bodies that became a dead letter");
+    public final LongAdder excluded = counter("excluded", "Received entities dropped because of their type");
+    public final LongAdder turnedAway = counter(
             "turnedAway", "Accepted and dead records that did not become durable; no 2xx was sent for any of them");
-    public final Counter durable = counter("durable", "Records on disk, dead letters and repaired ones included");
-    public final Counter recovered = counter(
+    public final LongAdder durable = counter("durable", "Records on disk, dead letters and repaired ones included");
+    public final LongAdder recovered = counter(
             "recovered",
-            "Records in journals opened at the start or adopted later, not known to be in Kafka by then, readable or not");
-    public final Counter produced = counter("produced", "Records that Kafka has acknowledged");
-    public final Counter skipped =
-            counter("skipped", "Records that a transformation filtered out or the worker was told to skip on errors");
-    public final Counter lost = counter(
+            "Records in journals opened at the start or adopted later, not known to be in Kafka by then, readable or"
+                    + " not");
+    public final LongAdder produced = counter("produced", "Records that Kafka has acknowledged");
+    public final LongAdder skipped =
+            counter("skipped", "Records that a transformation filtered out or that the worker skips on errors");
+    public final LongAdder lost = counter(
             "lost", "Records that were durable or recovered, and can no longer be read: corrupt in the journal");
-    public final Counter corrupt = counter("corrupt", "Places in the journal that could not be read and were skipped");
-    public final Counter repaired =
+    public final LongAdder corrupt =
+            counter("corrupt", "Places in the journal that could not be read and were skipped");
+    public final LongAdder repaired =
             counter("repaired", "Durable records of entities that the repair read from the context broker");
-    public final Counter repeated = counter(
+    public final LongAdder repeated = counter(
             "repeated",
-            "Entities that the repair read and passed over, because the last record of each tells the same state or a newer one");
-    public final Counter gaps = counter("gaps", "Times that notifications were or may have been missed");
-    public final Counter oversized = counter(
-            "oversized", "Durable records that became dead letters, because the topic takes no record so large");
-    public final Counter clockAhead =
+            "Entities that the repair read and skipped, because the last record of each has the same state or a newer"
+                    + " one");
+    public final LongAdder gaps = counter("gaps", "Detected gaps in which notifications were or may have been missed");
+    public final LongAdder oversized = counter(
+            "oversized", "Durable records that became dead letters, because they exceed the record size of the topic");
+    public final LongAdder clockAhead =
             counter("clockAhead", "Accepted entities whose own time is too far in the future");
-    public final Counter undated = counter(
+    public final LongAdder undated = counter(
             "undated",
-            "Accepted entities without dateModified, of which a change back to an earlier value cannot be told from a duplicate");
-    public final Counter unauthorized = counter("unauthorized", "Requests answered 401: a wrong secret, or none");
-    public final Counter foreignTenant =
+            "Accepted entities without dateModified, of which a change back to an earlier value cannot be distinguished"
+                    + " from a duplicate");
+    public final LongAdder unauthorized = counter("unauthorized", "Requests answered 401: a wrong or missing secret");
+    public final LongAdder foreignTenant =
             counter("foreignTenant", "Requests answered 403: a tenant that is not allowed");
-    public final Counter foreign =
-            counter("foreign", "Requests answered 403: they name a host, or come from a page, that is not allowed");
-    public final Counter held = counter("held", "Requests whose records had to wait for room in the journal");
-    public final Counter overload =
-            counter("overload", "Requests reset or answered 503: there was no room, or no durability in time");
-    public final Counter late = counter(
-            "late", "Requests of overload whose records may still become durable: they were taken, only not in time");
-    public final Counter cut =
-            counter("cut", "Requests whose sender was too slow or went away before its body was read");
-
-    /** All zero, without gauges. */
-    public Ledger() {}
-
-    private Counter counter(String name, String help) {
-        Counter counter = new Counter(name, help);
-        counters.add(counter);
-        return counter;
-    }
-
-    /** Shows one number of now more, for instance what is pending. */
-    public void gauge(String name, String help, LongSupplier now) {
-        gauges.add(new Gauge(name, help, now));
-    }
+    public final LongAdder foreign = counter("foreign", "Requests answered 403: their Host or Origin is not allowed");
+    public final LongAdder held = counter("held", "Requests whose records had to wait for space in the journal");
+    public final LongAdder overload =
+            counter("overload", "Requests reset or answered 503: no space, or not durable in time");
+    public final LongAdder late =
+            counter("late", "Requests counted in overload whose records may still become durable");
+    public final LongAdder cut =
+            counter("cut", "Requests whose sender was too slow or disconnected before its body was read");
 
     /**
-     * Shows something on {@code /health} that is no number.
+     * Adds a value to {@code /health} that is not a number.
      *
-     * @param now called by whoever looks: quick, from any thread, and without throwing
+     * @param now called when the page is shown: fast, thread-safe, and without exceptions
      */
     public void detail(String name, Supplier<JsonNode> now) {
         details.put(name, now);
     }
 
-    /** What is shown on {@code /health} besides the numbers, in the order in which it was added. */
-    public Map<String, Supplier<JsonNode>> details() {
+    /** All metrics and details as one object. */
+    public ObjectNode toJson() {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        all().forEach(metric -> json.put(metric.name(), metric.now()));
         synchronized (details) {
-            return new LinkedHashMap<>(details);
+            details.forEach((name, detail) -> json.set(name, detail.get()));
         }
-    }
-
-    /** In a fixed order. */
-    @Override
-    public List<Counter> counters() {
-        return List.copyOf(counters);
-    }
-
-    /** In the order in which they were added. */
-    @Override
-    public List<Gauge> gauges() {
-        return List.copyOf(gauges);
+        return json;
     }
 }

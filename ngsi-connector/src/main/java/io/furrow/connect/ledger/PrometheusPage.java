@@ -3,7 +3,6 @@ package io.furrow.connect.ledger;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.util.Locale;
 
 import io.prometheus.metrics.expositionformats.PrometheusTextFormatWriter;
 import io.prometheus.metrics.model.snapshots.CounterSnapshot;
@@ -11,61 +10,48 @@ import io.prometheus.metrics.model.snapshots.CounterSnapshot.CounterDataPointSna
 import io.prometheus.metrics.model.snapshots.GaugeSnapshot;
 import io.prometheus.metrics.model.snapshots.GaugeSnapshot.GaugeDataPointSnapshot;
 import io.prometheus.metrics.model.snapshots.Labels;
+import io.prometheus.metrics.model.snapshots.MetricMetadata;
+import io.prometheus.metrics.model.snapshots.MetricSnapshot;
 import io.prometheus.metrics.model.snapshots.MetricSnapshots;
 
+import static java.util.List.of;
+
 /**
- * The ledger in the text format of Prometheus: {@code furrow_ngsi_source_received_total{connector="…",task="0"} 7}, a gauge
- * without {@code _total}.
+ * Writes metrics of a source task in the text format of Prometheus:
+ * {@code furrow_ngsi_source_received_total{connector="…",task="0"} 7}, gauges without {@code _total}.
  */
 public final class PrometheusPage {
     public static final String CONTENT_TYPE = PrometheusTextFormatWriter.CONTENT_TYPE;
 
-    private static final String PREFIX = "furrow_ngsi_source_";
-
-    private final Ledger ledger;
+    private final Metrics metrics;
     private final Labels labels;
-    private final PrometheusTextFormatWriter writer =
-            PrometheusTextFormatWriter.builder().build();
 
-    /** @param task which of the connector's tasks the ledger is of */
-    public PrometheusPage(Ledger ledger, String connector, int task) {
-        this.ledger = ledger;
+    /** @param task index of the task that owns the metrics */
+    public PrometheusPage(Metrics metrics, String connector, int task) {
+        this.metrics = metrics;
         this.labels = Labels.of("connector", connector, "task", Integer.toString(task));
     }
 
-    /** The numbers of now. */
+    /** The current values. */
     public byte[] write() {
-        MetricSnapshots.Builder metrics = MetricSnapshots.builder();
-        for (Counter counter : ledger.counters()) {
-            metrics.metricSnapshot(CounterSnapshot.builder()
-                    .name(PREFIX + snakeCase(counter.name()))
-                    .help(counter.help())
-                    .dataPoint(CounterDataPointSnapshot.builder()
-                            .labels(labels)
-                            .value(counter.sum())
-                            .build())
-                    .build());
-        }
-        for (Gauge gauge : ledger.gauges()) {
-            metrics.metricSnapshot(GaugeSnapshot.builder()
-                    .name(PREFIX + snakeCase(gauge.name()))
-                    .help(gauge.help())
-                    .dataPoint(GaugeDataPointSnapshot.builder()
-                            .labels(labels)
-                            .value(gauge.now().getAsLong())
-                            .build())
-                    .build());
-        }
         ByteArrayOutputStream page = new ByteArrayOutputStream();
         try {
-            writer.write(page, metrics.build());
+            PrometheusTextFormatWriter.builder()
+                    .build()
+                    .write(
+                            page,
+                            new MetricSnapshots(
+                                    metrics.all().stream().map(this::snapshot).toList()));
         } catch (IOException e) {
             throw new UncheckedIOException("memory cannot fail", e);
         }
         return page.toByteArray();
     }
 
-    private static String snakeCase(String camelCase) {
-        return camelCase.replaceAll("([A-Z])", "_$1").toLowerCase(Locale.ROOT);
+    private MetricSnapshot snapshot(Metric metric) {
+        MetricMetadata metadata = new MetricMetadata("furrow_ngsi_source_" + metric.name('_'), metric.help());
+        return metric.isCounter()
+                ? new CounterSnapshot(metadata, of(new CounterDataPointSnapshot(metric.now(), labels, null, 0)))
+                : new GaugeSnapshot(metadata, of(new GaugeDataPointSnapshot(metric.now(), labels, null)));
     }
 }

@@ -1,2 +1,5 @@
-/** What the source has counted: {@link io.furrow.connect.ledger.Ledger}, and how it is shown. Knows no other part. */
+/**
+ * The counters of the source, {@link io.furrow.connect.ledger.Ledger}, and their pages. Independent of all other
+ * packages.
+ */
 package io.furrow.connect.ledger;

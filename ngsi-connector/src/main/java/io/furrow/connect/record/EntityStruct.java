@@ -16,7 +16,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * An entity as a struct of one schema, whatever its type and attributes, so that a topic has one schema for ever:
+ * An entity as a struct of one schema, whatever its type and attributes, so that a topic has one schema forever:
  *
  * <pre>
  * io.furrow.ngsi.Entity 1     id, type, attributes: map of name to

@@ -1,2 +1,2 @@
-/** Entities as Connect's structs, the same in the source and in the sink. */
+/** Entities as Connect structs, shared by the source and the sink. */
 package io.furrow.connect.record;

@@ -5,13 +5,13 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 
 /**
- * How many notifications of each own subscription arrived. Anybody can send any id: of those that are not known to be own, the
- * newest {@value #MOST_OTHERS} are counted, because one that was made just now may notify before its id is known. Not safe for
- * threads.
+ * Counts the arrived notifications of each own subscription. Any sender can send any id: of unknown ids the newest
+ * {@value #MAX_OTHERS} are counted, because a subscription that was just created may notify before its id is known. Not
+ * thread-safe.
  */
 final class Arrivals {
-    private static final int MOST_OTHERS = 1000;
-    private static final int LONGEST_ID = 128;
+    private static final int MAX_OTHERS = 1000;
+    private static final int MAX_ID_LENGTH = 128;
 
     private final Map<String, Long> own = new HashMap<>();
     private final Map<String, Long> others = new LinkedHashMap<>(16, 0.75f, true) {
@@ -19,13 +19,13 @@ final class Arrivals {
 
         @Override
         protected boolean removeEldestEntry(Map.Entry<String, Long> eldest) {
-            return size() > MOST_OTHERS;
+            return size() > MAX_OTHERS;
         }
     };
 
     void add(String subscription, int count) {
         if (own.computeIfPresent(subscription, (id, before) -> before + count) == null
-                && subscription.length() <= LONGEST_ID) {
+                && subscription.length() <= MAX_ID_LENGTH) {
             others.merge(subscription, (long) count, Long::sum);
         }
     }
@@ -34,7 +34,7 @@ final class Arrivals {
         return own.getOrDefault(subscription, others.getOrDefault(subscription, 0L));
     }
 
-    /** One subscription is own instead of another, which may be empty. */
+    /** A subscription replaces another one, which may be empty. */
     void replace(String former, String subscription) {
         own.remove(former);
         Long before = others.remove(subscription);

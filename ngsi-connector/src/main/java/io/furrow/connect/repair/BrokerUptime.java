@@ -13,13 +13,13 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Finds out whether a context broker was started again, from the {@code uptime} that Orion tells at {@code GET /version}. A
- * restart loses the notifications that wait in its memory, and the counts of what it had begun. One that does not tell its
- * uptime, or not to us, was never started again, as far as this shows.
+ * Detects a restart of the context broker from the {@code uptime} that Orion reports at {@code GET /version}. A restart
+ * loses the notifications that wait in its memory, and the counters of begun notifications. A broker that does not
+ * report its uptime, or not to this client, counts as never restarted.
  */
 final class BrokerUptime {
     private static final Pattern UPTIME = Pattern.compile("(\\d{1,6}) d, (\\d{1,2}) h, (\\d{1,2}) m, (\\d{1,2}) s");
-    /** Uptime and time of the answer are cut to seconds. */
+    /** Uptime and time of the answer are truncated to seconds. */
     private static final Duration BLUR = Duration.ofSeconds(1);
 
     private final Function<BrokerRequest, Outcome> broker;
@@ -31,7 +31,7 @@ final class BrokerUptime {
     }
 
     /**
-     * Whether it was, or may have been, started after a time.
+     * Whether the broker was, or may have been, started after a time.
      *
      * @param now by the clock of the context broker
      */

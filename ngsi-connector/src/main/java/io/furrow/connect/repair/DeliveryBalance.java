@@ -4,42 +4,43 @@ import java.time.Instant;
 import java.util.Optional;
 
 import io.furrow.connect.subscription.DeliveryReport;
-import io.furrow.connect.subscription.Kept;
+import io.furrow.connect.subscription.SubscriptionStatus;
 
 /**
- * Holds what a context broker says it sent against what arrived, look by look. What it had begun to send at one look must have
- * arrived by the next; what it says has failed is missing at once, and so is what it cannot say. The books balance when all
- * that was begun has arrived; where that does not happen for {@value #MOST_UNBALANCED} looks, something may be missing.
+ * Compares the notifications that a context broker reports as sent with those that arrived, poll by poll. Notifications
+ * begun at one poll must have arrived by the next; reported failures and unknown counters count as missing immediately.
+ * The balance is even when all begun notifications have arrived; if it is not for {@value #MAX_UNBALANCED} polls,
+ * notifications may be missing.
  */
 final class DeliveryBalance {
-    static final int MOST_UNBALANCED = 30;
+    static final int MAX_UNBALANCED = 30;
 
-    /** What a look shows. */
+    /** The result of a poll. */
     sealed interface Verdict {
-        /** All that was begun up to {@code until} has arrived. */
+        /** All notifications begun up to {@code until} have arrived. */
         record Balanced(Instant until) implements Verdict {}
 
-        /** Some is on its way. */
+        /** Some notifications are in flight. */
         record Open() implements Verdict {}
 
-        /** Something is or may be missing. */
+        /** Notifications are or may be missing. */
         record Missing(String reason) implements Verdict {}
 
-        /** There was no look before to compare with. */
+        /** There was no previous poll to compare with. */
         record First() implements Verdict {}
     }
 
     /**
      * Notifications of the subscription that arrived since the start.
      *
-     * @param before the context broker was asked
+     * @param before the context broker was polled
      * @param after it answered
      */
     record Arrived(long before, long after) {}
 
     private final boolean countable;
 
-    private record Look(Kept kept, Arrived arrived) {
+    private record Look(SubscriptionStatus kept, Arrived arrived) {
         DeliveryReport report() {
             return kept.report();
         }
@@ -54,20 +55,20 @@ final class DeliveryBalance {
     private long baseArrived;
     private int unbalanced;
 
-    /** @param countable whether a notification says which subscription it is of; else only failures are found */
+    /** @param countable whether a notification names its subscription; otherwise only failures are detected */
     DeliveryBalance(boolean countable) {
         this.countable = countable;
     }
 
-    /** What came of the context broker since the look before. */
-    Verdict look(Kept kept, Arrived arrived) {
+    /** The change since the previous poll. */
+    Verdict look(SubscriptionStatus kept, Arrived arrived) {
         Look now = new Look(kept, arrived);
         Verdict verdict = last.isEmpty() ? new Verdict.First() : compare(last.get(), now);
         last = Optional.of(now);
         unbalanced = verdict instanceof Verdict.Open ? unbalanced + 1 : 0;
-        if (unbalanced == MOST_UNBALANCED) {
+        if (unbalanced == MAX_UNBALANCED) {
             verdict = new Verdict.Missing(
-                    "sent and arrived notifications have differed for " + MOST_UNBALANCED + " looks");
+                    "sent and arrived notifications have differed for " + MAX_UNBALANCED + " looks");
         }
         if (verdict instanceof Verdict.Missing || verdict instanceof Verdict.First) {
             repaired(arrived.after());
@@ -76,9 +77,10 @@ final class DeliveryBalance {
     }
 
     /**
-     * All that had been begun at the last look was read again: counting begins there.
+     * Everything begun at the last poll was read again: counting restarts there.
      *
-     * @param arrived until the end of the reading; what was begun before and arrives later tells nothing new and is not counted
+     * @param arrived until the end of the reading; notifications begun before that arrive later are duplicates and
+     *     are not counted
      */
     void repaired(long arrived) {
         baseSent = last.orElseThrow().sent();
@@ -92,14 +94,14 @@ final class DeliveryBalance {
                 .orElseGet(() -> count(before, now));
     }
 
-    private Optional<String> failure(Kept before, Kept now) {
+    private Optional<String> failure(SubscriptionStatus before, SubscriptionStatus now) {
         DeliveryReport then = before.report();
         DeliveryReport report = now.report();
-        if (now.state() == Kept.State.CREATED || !before.id().equals(now.id())) {
-            return Optional.of("the subscription was gone");
+        if (now.state() == SubscriptionStatus.State.CREATED || !before.id().equals(now.id())) {
+            return Optional.of("the subscription was removed");
         }
-        if (now.state() == Kept.State.RESUMED) {
-            return Optional.of("the subscription did not tell us");
+        if (now.state() == SubscriptionStatus.State.RESUMED) {
+            return Optional.of("the subscription did not notify this source");
         }
         if (!report.lastFailure().equals(then.lastFailure()) || report.failsInARow() > then.failsInARow()) {
             return Optional.of("the context broker could not deliver");

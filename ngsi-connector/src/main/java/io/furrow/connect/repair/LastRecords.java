@@ -8,33 +8,35 @@ import java.util.List;
 import java.util.Map;
 import java.util.Set;
 
+import io.furrow.connect.repair.entity.EntityRecord;
+
 /**
- * The last record of each entity on the topic, and whether it may be older than what the topic or the context broker had before:
- * then the entity is stale and has to be read again. Takes a bounded part of the heap: the entity that was quiet longest is
- * forgotten, and one of which nothing is remembered counts as stale where its record is no newer than any that was
- * forgotten. Not safe for threads.
+ * Tracks the last record of each entity on the topic, and whether it may be older than a previous state of the topic or
+ * the context broker: then the entity is stale and has to be read again. Uses a bounded part of the heap: the entity
+ * that was quiet longest is forgotten. An unknown entity counts as stale if its record is no newer than any forgotten
+ * one. Not thread-safe.
  */
-final class LastRecords {
-    /** Of an entry besides its identity: the nodes of map and set, two texts, the event id. */
+public final class LastRecords {
+    /** Per entry besides its identity: the nodes of map and set, two texts, the event id. */
     private static final int ENTRY_BYTES = 320;
 
     private static final long UNKNOWN = Long.MIN_VALUE;
 
-    /** What is to become of a record that tells what was read from the context broker. */
+    /** The decision on a record that was read from the context broker. */
     enum Judgment {
-        /** It tells what the topic does not. */
+        /** The topic does not have this state. */
         NEWS,
-        /** The topic's last record tells the same, or what is newer. */
+        /** The topic's last record has the same state or a newer one. */
         REPEATED,
-        /** Another record came since the context broker was asked, and which one is newer cannot be told. */
+        /** Another record arrived since the context broker was queried, and their order is unknown. */
         ASK_AGAIN
     }
 
     private static final class Last {
         private String eventId;
-        /** Hash of the type; 0 where it is not known. */
+        /** Hash of the type; 0 if unknown. */
         private int type;
-        /** The newest known time of any record so far, epoch milliseconds; the last record may tell an older one. */
+        /** The newest known time of any record so far, epoch milliseconds; the last record may be older. */
         private long modified;
 
         private long at;
@@ -43,7 +45,7 @@ final class LastRecords {
 
         private boolean gone;
         private boolean stale;
-        /** Entities of several types have this id, and their records cannot be compared. */
+        /** Entities of several types share this id, and their records cannot be compared. */
         private boolean mixed;
     }
 
@@ -60,15 +62,15 @@ final class LastRecords {
         this.maxBytes = maxBytes;
     }
 
-    /** A point in the order of records, to compare later ones with. */
+    /** A position in the order of records, to compare later ones with. */
     long now() {
         return clock;
     }
 
     /**
-     * A notification's record was appended to the topic's.
+     * A notification's record was appended to the topic.
      *
-     * @return whether its state was not told before by the same subscription, nor read
+     * @return whether its state is new: neither notified before by the same subscription nor read
      */
     boolean append(EntityRecord record, String subscription) {
         long modified = millis(record);
@@ -97,7 +99,7 @@ final class LastRecords {
         return isNew || isOther || modified == UNKNOWN;
     }
 
-    /** A record from before the start, of which only the event is known; those of since then are later. */
+    /** A record from before the start, of which only the event is known; records since the start are later. */
     void restore(EntityRecord record) {
         Last last = entities.get(record.identity());
         if (last == null) {
@@ -110,7 +112,7 @@ final class LastRecords {
         }
     }
 
-    /** What is to become of what was read, and what it shows about the records so far. */
+    /** Decides on a record that was read, and updates the stale entities. */
     Judgment judge(EntityRecord found, long asked) {
         Last last = entities.get(found.identity());
         if (last == null) {
@@ -136,7 +138,7 @@ final class LastRecords {
         return Judgment.ASK_AGAIN;
     }
 
-    /** A record that tells what was read was appended. */
+    /** A record of a read state was appended. */
     void appendFound(EntityRecord found) {
         Last last = entities.get(found.identity());
         if (last == null) {
@@ -147,7 +149,7 @@ final class LastRecords {
         mark(found.identity(), last, false);
     }
 
-    /** A record that was appended did not become durable: what the last one is cannot be said. */
+    /** An appended record did not become durable: the last record is unknown. */
     void fail(String identity) {
         Last last = entities.get(identity);
         if (last != null) {
@@ -157,7 +159,7 @@ final class LastRecords {
         }
     }
 
-    /** The entity is not ours to read. */
+    /** The entity does not belong to this task. */
     void settle(String identity) {
         Last last = entities.get(identity);
         if (last != null) {
@@ -167,7 +169,7 @@ final class LastRecords {
         }
     }
 
-    /** What changed before this time may have been told before this task remembered anything. */
+    /** Changes before this time may have been notified before this task started to track records. */
     void forgetUntil(Instant time) {
         forgotten = Math.max(forgotten, time.toEpochMilli());
     }
@@ -176,17 +178,17 @@ final class LastRecords {
         return !stale.isEmpty() && stale.contains(identity);
     }
 
-    /** An entity of before the start has to be read again. */
+    /** An entity from before the start has to be read again. */
     void restoreStale(String identity) {
         stale.add(identity);
     }
 
-    /** Those that have to be read again, also forgotten ones; the set of them takes no more than the entities do. */
+    /** The entities to read again, including forgotten ones; their number is bounded like the entities. */
     List<String> stale() {
         return List.copyOf(stale);
     }
 
-    /** Whether more entities were stale than can be remembered, since this was last asked. */
+    /** Whether more entities were stale than fit since the last call. */
     boolean takeOverflow() {
         boolean was = overflow;
         overflow = false;
@@ -233,7 +235,7 @@ final class LastRecords {
         return record.modified().map(Instant::toEpochMilli).orElse(UNKNOWN);
     }
 
-    /** At two bytes per sign. */
+    /** At two bytes per character. */
     private static long bytesOf(String identity) {
         return ENTRY_BYTES + 2L * identity.length();
     }

@@ -2,7 +2,7 @@ package io.furrow.connect.repair;
 
 import java.time.Duration;
 
-/** When all ids are listed: at once where it is urgent, else when an interval has passed since the last time. */
+/** Schedules the listing of all ids: immediately if urgent, else when an interval has passed since the last one. */
 final class ListingSchedule {
     private final long intervalNanos;
     private boolean urgent;

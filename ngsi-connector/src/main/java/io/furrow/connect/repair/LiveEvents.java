@@ -10,18 +10,19 @@ import java.util.function.Function;
 import java.util.function.Supplier;
 
 import io.furrow.connect.repair.LastRecords.Judgment;
+import io.furrow.connect.repair.entity.EntityRecord;
 
 /**
- * Brings the records of notifications and of repairs into one order, and knows of it what the repair must: how many notifications
- * of each subscription arrived, and what the last record of each entity is. Any thread; the lock is held while serialized
- * records are appended, never while something is serialized.
+ * Orders the records of notifications and repairs, and tracks the state that the repair needs: the number of arrived
+ * notifications per subscription and the last record of each entity. Thread-safe; the lock is held while serialized
+ * records are appended, never during serialization.
  */
 public final class LiveEvents {
     private final Arrivals arrivals = new Arrivals();
     private final LastRecords last;
     private volatile Consumer<String> staleListener = identity -> {};
 
-    /** @param maxBytes heap for what is remembered of entities */
+    /** @param maxBytes heap for the tracked entities */
     public LiveEvents(long maxBytes) {
         last = new LastRecords(maxBytes);
     }
@@ -29,7 +30,7 @@ public final class LiveEvents {
     /** Appends records; empty if there is no room now. */
     public interface Appending extends Supplier<Optional<CompletableFuture<Void>>> {}
 
-    /** A notification of a subscription came, whatever became of it. */
+    /** A notification of a subscription arrived, whatever its result. */
     public synchronized void arrived(String subscription) {
         arrivals.add(subscription, 1);
     }
@@ -65,7 +66,7 @@ public final class LiveEvents {
                 }
             }
             if (!isNew) {
-                // Delivered again, or repaired already: it would stand for one that did not arrive.
+                // A duplicate, or already repaired: it would hide a notification that did not arrive.
                 arrivals.add(subscription, -1);
             }
         }
@@ -85,13 +86,13 @@ public final class LiveEvents {
         });
     }
 
-    /** Is told each entity that has to be read again; from any thread. */
+    /** Registers a listener for each entity that has to be read again; it is called from any thread. */
     void onStale(Consumer<String> listener) {
         staleListener = listener;
     }
 
-    /** These were to be read again when the source stopped. */
-    synchronized void restoreStale(Iterable<String> identities) {
+    /** Restores the entities that were to be read again when the source stopped. */
+    public synchronized void restoreStale(Iterable<String> identities) {
         identities.forEach(last::restoreStale);
     }
 
@@ -100,18 +101,18 @@ public final class LiveEvents {
         last.restore(record);
     }
 
-    /** Whether what was read is worth a record. */
+    /** Whether a read state is new. */
     synchronized boolean isNews(EntityRecord found, long asked) {
         return last.judge(found, asked) == Judgment.NEWS;
     }
 
-    /** What was appended of what a repair found; empty where there was no room. */
+    /** The findings of a repair that were appended; empty durability if there was no room. */
     record Appended<T>(List<T> found, Optional<CompletableFuture<Void>> durable) {}
 
     /**
-     * Appends what is news among what was read from the context broker.
+     * Appends the new states among those read from the context broker.
      *
-     * @param asked the {@link #now} before the context broker was asked
+     * @param asked the {@link #now} before the context broker was queried
      */
     <T> Appended<T> appendNews(
             List<T> found,
@@ -140,7 +141,7 @@ public final class LiveEvents {
                 appended.found(), Optional.of(watched(appended.durable().get(), records, List.of())));
     }
 
-    /** A point in the order of records. */
+    /** A position in the order of records. */
     synchronized long now() {
         return last.now();
     }
@@ -158,7 +159,7 @@ public final class LiveEvents {
         return last.takeOverflow();
     }
 
-    /** What changed before this time may be on the topic, though nothing of it is remembered. */
+    /** Changes before this time may be on the topic although they are not tracked. */
     synchronized void forgetUntil(Instant time) {
         last.forgetUntil(time);
     }

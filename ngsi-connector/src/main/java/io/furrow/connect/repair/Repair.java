@@ -10,28 +10,33 @@ import java.util.TreeSet;
 import java.util.function.Predicate;
 
 import io.furrow.connect.broker.BrokerException;
+import io.furrow.connect.repair.entity.BrokerEntities;
+import io.furrow.connect.repair.entity.EntityState;
+import io.furrow.connect.repair.entity.Identities;
+import io.furrow.connect.repair.entity.KeysetReader;
+import io.furrow.connect.repair.entity.KnownEntities;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.Origin;
 
-/** One reading of what may have been missed, and the emission of what the topic does not tell. */
-final class Repair {
+/** Reads changes that may have been missed once, and emits the states that the topic does not have. */
+public final class Repair {
     private final BrokerEntities entities;
     private final RepairSettings.Reading reading;
     private final LiveEvents live;
     private final KnownEntities known;
-    private final Emission emission;
+    private final RepairPublisher emission;
     private int changed;
     private int repeated;
     private int deleted;
 
-    Repair(
+    public Repair(
             BrokerEntities entities,
             RepairSettings.Reading reading,
             LiveEvents live,
             KnownEntities known,
-            Emission emission) {
+            RepairPublisher emission) {
         this.entities = entities;
         this.reading = reading;
         this.live = live;
@@ -39,15 +44,15 @@ final class Repair {
         this.emission = emission;
     }
 
-    /** What was found, in the words of a log line. */
+    /** The findings, for a log message. */
     record Result(int changed, int repeated, int deleted) {}
 
     Result result() {
         return new Result(changed, repeated, deleted);
     }
 
-    /** Emits the state of what changed from a time on. */
-    void changesFrom(Instant since) throws BrokerException, InterruptedException, IOException {
+    /** Emits the state of entities that changed since a time. */
+    public void changesFrom(Instant since) throws BrokerException, InterruptedException, IOException {
         long[] asked = {live.now()};
         new KeysetReader(
                         (from, offset, limit) -> {
@@ -60,7 +65,7 @@ final class Repair {
 
     private void emit(List<EntityState> states, long asked) throws InterruptedException, IOException {
         Instant now = Clock.systemUTC().instant();
-        List<Finding> findings = new ArrayList<>();
+        List<MissedChange> findings = new ArrayList<>();
         for (EntityState state : states) {
             if (!reading.isExcluded(state.entity().type())) {
                 findings.add(finding(state, now));
@@ -71,16 +76,16 @@ final class Repair {
         repeated += findings.size() - emitted;
     }
 
-    private Finding finding(EntityState state, Instant now) {
+    private MissedChange finding(EntityState state, Instant now) {
         if (state.problem().isPresent()) {
-            return new Finding.Unreadable(state, now);
+            return new MissedChange.Unreadable(state, now);
         }
         EntityEvent event = EntityEvent.of(state.entity(), state.scope(), now, reading.times(), Origin.REPAIR);
-        return Finding.Changed.of(event, state.time());
+        return MissedChange.Changed.of(event, state.time());
     }
 
     /** Reads entities again whose last record may not be the newest. */
-    void stale(Predicate<FiwareScope> ours) throws BrokerException, InterruptedException, IOException {
+    public void stale(Predicate<FiwareScope> ours) throws BrokerException, InterruptedException, IOException {
         for (String identity : live.stale()) {
             FiwareScope place = Identities.scope(identity);
             if (ours.test(place)) {
@@ -108,8 +113,8 @@ final class Repair {
         return entities.covers(state) && !reading.isExcluded(state.entity().type());
     }
 
-    /** Emits the end of what is gone, and learns what there is. */
-    void deletions() throws BrokerException, InterruptedException, IOException {
+    /** Emits the deletions of entities that no longer exist, and registers existing ones. */
+    public void deletions() throws BrokerException, InterruptedException, IOException {
         if (known.isOverfull()) {
             return;
         }
@@ -133,7 +138,9 @@ final class Repair {
         }
     }
 
-    /** One that is there but was not listed came back meanwhile, or is none of ours any more. */
+    /**
+     * An entity that exists but was not listed was created again meanwhile, or no longer belongs to the subscription.
+     */
     private void checkGone(String identity) throws BrokerException, InterruptedException, IOException {
         if (!known.contains(identity)) {
             return;
@@ -151,6 +158,6 @@ final class Repair {
         Instant now = Clock.systemUTC().instant();
         EntityDeletion deletion =
                 new EntityDeletion(Identities.id(identity), Identities.scope(identity), now, now, Origin.REPAIR);
-        deleted += emission.emit(List.of(new Finding.Deleted(deletion)), asked);
+        deleted += emission.emit(List.of(new MissedChange.Deleted(deletion)), asked);
     }
 }

@@ -4,19 +4,19 @@ import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
-/** Where findings become records. */
+/** Converts findings into records and appends them. */
 public interface RepairOutput {
     /**
-     * The record of a finding, as {@link #append} takes it.
+     * Serializes the record of a finding for {@link #append}.
      *
-     * @param subscription id of the one that should have told of it
+     * @param subscription id of the subscription that should have notified it
      */
-    byte[] serialize(String subscription, Finding finding);
+    byte[] serialize(String subscription, MissedChange finding);
 
     /**
-     * Takes all records or none; quick.
+     * Appends all records or none; does not block.
      *
-     * @return completed when they are durable, failed if that will not be known any more; empty if there is no room now
+     * @return completed when they are durable, failed if that will not be known; empty if there is no room now
      */
     Optional<CompletableFuture<Void>> append(List<byte[]> records);
 }

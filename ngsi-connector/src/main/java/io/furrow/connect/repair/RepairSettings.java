@@ -8,22 +8,22 @@ import java.util.regex.Pattern;
 import io.furrow.model.event.EventTimeRule;
 
 /**
- * How a repair is done.
+ * The settings of a repair.
  *
- * @param folder for what outlives a restart
- * @param overlap how much before the last known good time it begins
- * @param mode what is read
- * @param reading how the context broker is asked, and what is left out
- * @param deletions how entities that are gone are found
+ * @param folder for persistent state
+ * @param overlap how long before the last known good time the reading begins
+ * @param mode which changes are read
+ * @param reading how the context broker is queried, and which entities are excluded
+ * @param deletions how deletions are detected
  */
 public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading reading, Deletions deletions) {
-    /** What is read from the context broker. */
+    /** The changes to read from the context broker. */
     public enum Mode {
-        /** Nothing: what is missed stays missed. */
+        /** None: missed changes stay missed. */
         OFF,
-        /** What changed since the last time known good; nothing for a subscription that is new. */
+        /** Changes since the last time known good; none for a new subscription. */
         CHANGES,
-        /** The same, and every entity for a subscription that is new. */
+        /** The same and, for a new subscription, every entity. */
         INITIAL
     }
 
@@ -41,7 +41,8 @@ public record RepairSettings(Path folder, Duration overlap, Mode mode, Reading r
 
     /**
      * @param knownMaxBytes heap per subscription for the ids of known entities
-     * @param interval at most how often all ids are listed, but for starts and subscriptions that were gone or stopped
+     * @param interval minimum time between listings of all ids, except after starts and removed or stopped
+     *     subscriptions
      */
     public record Deletions(long knownMaxBytes, Duration interval) {}
 }

@@ -1,7 +1,7 @@
 package io.furrow.connect.repair;
 
-/** How much heap a JSON document takes when it is read into a tree. */
-final class TreeEstimate {
+/** Estimates the heap that a JSON document needs as a tree. */
+public final class TreeEstimate {
     /** An object with its map, a list with its array, the entry of a member with its name, an element. */
     private static final int OBJECT = 160;
 
@@ -11,8 +11,8 @@ final class TreeEstimate {
 
     private TreeEstimate() {}
 
-    /** Bytes, rather too many than too few; of what is no JSON any number. */
-    static long of(byte[] json) {
+    /** Bytes, rather too many than too few; any number for invalid JSON. */
+    public static long of(byte[] json) {
         long bytes = 2L * json.length;
         boolean inText = false;
         for (int i = 0; i < json.length; i++) {

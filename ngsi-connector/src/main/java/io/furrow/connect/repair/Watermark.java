@@ -11,10 +11,10 @@ import java.time.Instant;
 import java.util.Optional;
 
 /**
- * A time, by the clock of the context broker, up to which all that one subscription told or missed is durable. Outlives a
- * restart in a file; never moves back.
+ * A time, by the clock of the context broker, up to which all notified or missed changes of one subscription are
+ * durable. Survives a restart in a file; never moves back.
  */
-final class Watermark {
+public final class Watermark {
     private final Path file;
     private Optional<Instant> time;
 
@@ -23,8 +23,8 @@ final class Watermark {
         this.time = time;
     }
 
-    /** A file that cannot be understood is as good as none: then more is read again than needed. */
-    static Watermark open(Path file) throws IOException {
+    /** An unreadable file counts as missing: then more is read again than needed. */
+    public static Watermark open(Path file) throws IOException {
         if (!Files.exists(file)) {
             return new Watermark(file, Optional.empty());
         }
@@ -36,11 +36,11 @@ final class Watermark {
         }
     }
 
-    Optional<Instant> time() {
+    public Optional<Instant> time() {
         return time;
     }
 
-    void advanceTo(Instant later) throws IOException {
+    public void advanceTo(Instant later) throws IOException {
         if (time.isPresent() && !later.isAfter(time.get())) {
             return;
         }

@@ -1,2 +1,2 @@
-/** Finds out what the source was not told, and reads it from the context broker. Knows nothing of Connect. */
+/** Detects missed notifications and reads the changes from the context broker. Independent of Connect. */
 package io.furrow.connect.repair;

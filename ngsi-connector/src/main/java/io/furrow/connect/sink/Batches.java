@@ -8,14 +8,14 @@ import java.util.Map;
 import io.furrow.model.event.FiwareScope;
 
 /**
- * Cuts what is to be done of entities into requests of one scope, at most {@code maxCount} entities and {@code maxBytes} bytes
- * each; an entity that is larger goes alone.
+ * Splits updates or deletions into requests of one scope, at most {@code maxCount} entities and {@code maxBytes} bytes
+ * each; a larger entity is sent alone.
  */
-record Batches(int maxCount, long maxBytes) {
-    /** An update or a deletion, where it belongs, and its JSON, which is written once. */
-    record Rendered<T>(T of, FiwareScope scope, byte[] json) {}
+public record Batches(int maxCount, long maxBytes) {
+    /** An update or a deletion, its scope, and its JSON, which is written once. */
+    public record Rendered<T>(T of, FiwareScope scope, byte[] json) {}
 
-    <T> List<List<Rendered<T>>> cut(List<Rendered<T>> all) {
+    public <T> List<List<Rendered<T>>> cut(List<Rendered<T>> all) {
         Map<FiwareScope, List<Rendered<T>>> byScope = new LinkedHashMap<>();
         all.forEach(one ->
                 byScope.computeIfAbsent(one.scope(), scope -> new ArrayList<>()).add(one));

@@ -20,19 +20,19 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Reads what a record says of which entity. The value is what a converter made of it: bytes or text of JSON, a map of JSON
- * values, or a struct; none is a deletion of the entity whose id is the record's key.
+ * Reads the change and its entity from a record. The value is the output of a converter: bytes or text of JSON, a map
+ * of JSON values, or a struct; a tombstone deletes the entity whose id is the record's key.
  *
  * @param defaultScope of records without headers
  * @param defaultType of entities without type, empty for {@code Thing}
  */
 record ChangeReader(FiwareScope defaultScope, String defaultType) {
-    /** The tenants and paths that a context broker takes. */
+    /** The tenants and paths that a context broker accepts. */
     static final Pattern SERVICE = Pattern.compile("[a-z0-9_]{0,50}");
 
     static final Pattern SERVICE_PATH = Pattern.compile("/[A-Za-z0-9_/]{0,600}");
 
-    /** @throws UnreadableException if the record is about no entity that a context broker can have */
+    /** @throws UnreadableException if the record does not describe an entity that a context broker can store */
     Change read(SinkRecord record, int source) throws UnreadableException {
         FiwareScope scope = scope(record);
         long time = time(record);
@@ -67,7 +67,7 @@ record ChangeReader(FiwareScope defaultScope, String defaultType) {
         return scope;
     }
 
-    /** The record's time is the event's, unless the topic stamps records itself. */
+    /** The record's timestamp is the event time, unless the topic uses log-append time. */
     private static long time(SinkRecord record) {
         if (record.timestampType() == TimestampType.LOG_APPEND_TIME) {
             return RecordHeaders.millis(record, HeaderNames.CE_TIME).orElse(record.timestamp());

@@ -4,13 +4,13 @@ import java.time.Duration;
 
 import org.apache.kafka.common.config.AbstractConfig;
 import org.apache.kafka.common.config.ConfigDef;
-import org.apache.kafka.common.config.ConfigDef.Importance;
 import org.apache.kafka.common.config.ConfigDef.Range;
-import org.apache.kafka.common.config.ConfigDef.Type;
-import org.apache.kafka.common.config.ConfigDef.Width;
 import org.apache.kafka.common.config.ConfigException;
 
-/** How much goes into a request, how many at a time, what is remembered, and how a delivery that fails is tried again. */
+import io.furrow.connect.OptionGroup;
+import io.furrow.connect.sink.api.BrokerBackoff;
+
+/** Options for batching, parallelism, caching and retries of a delivery. */
 record DeliveryOptions(AbstractConfig config) {
     static final String BATCH_SIZE = "batch.size";
     static final String BATCH_BYTES = "batch.bytes";
@@ -22,9 +22,7 @@ record DeliveryOptions(AbstractConfig config) {
     static final String RETRY_BACKOFF = "retry.backoff.ms";
     static final String RETRY_BACKOFF_MAX = "retry.backoff.max.ms";
 
-    private static final String RETRIES = "Retries";
-
-    /** Checks what concerns more than one option. */
+    /** Checks constraints between options. */
     DeliveryOptions {
         if (config.getLong(RETRY_BACKOFF_MAX) < config.getLong(RETRY_BACKOFF)) {
             throw new ConfigException(
@@ -33,133 +31,79 @@ record DeliveryOptions(AbstractConfig config) {
     }
 
     static void define(ConfigDef options) {
-        defineBatches(options);
-        defineKnown(options);
-        defineRetries(options);
-        defineIsolation(options);
+        defineBatches(new OptionGroup(options, "Batches"));
+        defineCache(new OptionGroup(options, "Memory").low());
+        defineRetries(new OptionGroup(options, "Retries").low());
     }
 
-    private static void defineBatches(ConfigDef options) {
-        String group = "Batches";
-        options.define(
-                BATCH_SIZE,
-                Type.INT,
-                100,
-                Range.between(1, 10_000),
-                Importance.MEDIUM,
-                "Most entities in one request.",
-                group,
-                1,
-                Width.SHORT,
-                "Batch");
-        options.define(
-                BATCH_BYTES,
-                Type.LONG,
-                900_000L,
-                Range.atLeast(1),
-                Importance.LOW,
-                "Most bytes of entities in one request. Orion refuses bodies over 1 MiB unless started with a higher"
-                        + " -inReqPayloadMaxSize.",
-                group,
-                2,
-                Width.SHORT,
-                "Batch (bytes)");
-        options.define(
-                PARALLEL,
-                Type.INT,
-                2,
-                Range.between(1, 64),
-                Importance.LOW,
-                "Most requests of a task that are under way at a time. They are of different entities, so the order within an"
-                        + " entity is kept; more than the cores of the context broker make nothing faster.",
-                group,
-                3,
-                Width.SHORT,
-                "Parallel requests");
+    private static void defineBatches(OptionGroup group) {
+        group.integer(BATCH_SIZE, 100, Range.between(1, 10_000), "Batch", "Maximum entities in one request.");
+        group.low()
+                .number(
+                        BATCH_BYTES,
+                        900_000L,
+                        Range.atLeast(1),
+                        "Batch (bytes)",
+                        "Maximum bytes of entities in one request. Orion rejects bodies over 1 MiB unless started with a higher"
+                                + " -inReqPayloadMaxSize.");
+        group.low()
+                .integer(
+                        PARALLEL,
+                        2,
+                        Range.between(1, 64),
+                        "Parallel requests",
+                        "Maximum concurrent requests of a task. They are for different entities, so the order per entity is"
+                                + " preserved; more requests than the context broker has cores bring no speed.");
     }
 
-    private static void defineKnown(ConfigDef options) {
-        options.define(
+    private static void defineCache(OptionGroup group) {
+        group.number(
                 MAX_KNOWN,
-                Type.LONG,
                 1_000_000L,
                 Range.atLeast(0),
-                Importance.LOW,
-                "Most attributes, of all entities together, whose event times a task remembers, some 30 bytes each; of"
-                        + " entities beyond that, and after a start, the times are read from the context broker.",
-                "Memory",
-                1,
-                Width.SHORT,
-                "Known attributes");
-        options.define(
+                "Cached attributes",
+                "Maximum attributes of all entities whose event times a task caches, about 30 bytes each; the times of"
+                        + " further entities, and after a start, are read from the context broker.");
+        group.number(
                 MAX_KNOWN_AGE,
-                Type.LONG,
                 600_000L,
                 Range.between(0, Duration.ofDays(365).toMillis()),
-                Importance.LOW,
-                "Milliseconds after which the times of an entity are read from the context broker again, before a record of it is"
-                        + " written: so long an older value may overwrite a newer one that another task or program wrote."
-                        + " 0 reads them for every delivery.",
-                "Memory",
-                2,
-                Width.SHORT,
-                "Age of what is known (ms)");
+                "Max. age of cached times (ms)",
+                "Milliseconds after which the cached times of an entity are read from the context broker again before a"
+                        + " record is written: until then an older value may overwrite a newer one of another task or"
+                        + " program. 0 reads them for every delivery.");
     }
 
-    private static void defineRetries(ConfigDef options) {
-        String group = RETRIES;
-        options.define(
+    private static void defineRetries(OptionGroup group) {
+        group.number(
                 RETRY_BACKOFF,
-                Type.LONG,
                 1_000L,
                 Range.between(1, 600_000),
-                Importance.LOW,
-                "Milliseconds until the same records are tried again when the context broker is away; twice as long after each"
-                        + " further failure, and never shorter than its Retry-After says, up to an hour.",
-                group,
-                1,
-                Width.SHORT,
-                "Back-off (ms)");
-        options.define(
+                "Back-off (ms)",
+                "Milliseconds until a retry when the context broker is unavailable; doubled after each further failure,"
+                        + " and never shorter than its Retry-After says, up to an hour.");
+        group.number(
                 RETRY_BACKOFF_MAX,
-                Type.LONG,
                 60_000L,
                 Range.between(1, 3_600_000),
-                Importance.LOW,
-                "Most milliseconds between two tries, where the context broker does not ask for more.",
-                group,
-                2,
-                Width.SHORT,
-                "Longest back-off (ms)");
-    }
-
-    private static void defineIsolation(ConfigDef options) {
-        options.define(
+                "Max. back-off (ms)",
+                "Maximum milliseconds between two retries, unless the context broker requests more.");
+        group.integer(
                 ISOLATE_AFTER,
-                Type.INT,
                 5,
                 Range.between(0, 1_000_000),
-                Importance.LOW,
-                "Every so many tries of the same records that the context broker answers 500, batches are halved until the entity"
-                        + " that draws it stands alone. If any other record of the delivery is written then, that entity is"
-                        + " refused. 0 for never.",
-                RETRIES,
-                3,
-                Width.SHORT,
-                "Tries until isolation");
-        options.define(
+                "Tries until isolation",
+                "Number of failed tries (answer 500) of the same records after which batches are halved until the"
+                        + " entity that causes it is isolated. If any other record of the delivery is then written,"
+                        + " that entity is rejected. 0 for never.");
+        group.integer(
                 REFUSE_AFTER,
-                Type.INT,
                 100,
                 Range.between(0, 1_000_000),
-                Importance.LOW,
-                "Tries after which an entity that draws a 500 alone is refused although no other record of the delivery could be"
-                        + " written to show that the context broker works. 100 are about 90 minutes with the default"
-                        + " back-off. 0 for never: then such a record waits as long as it takes.",
-                RETRIES,
-                4,
-                Width.SHORT,
-                "Tries until refusal");
+                "Tries until rejection",
+                "Tries after which an entity that causes a 500 alone is rejected although no other record of the"
+                        + " delivery could be written to show that the context broker works. 100 are about 90 minutes"
+                        + " with the default back-off. 0 for never: such a record is then retried indefinitely.");
     }
 
     Batches batches() {
@@ -182,8 +126,8 @@ record DeliveryOptions(AbstractConfig config) {
         return new Isolation(config.getInt(ISOLATE_AFTER), config.getInt(REFUSE_AFTER));
     }
 
-    Backoff backoff() {
-        return new Backoff(
+    BrokerBackoff backoff() {
+        return new BrokerBackoff(
                 Duration.ofMillis(config.getLong(RETRY_BACKOFF)), Duration.ofMillis(config.getLong(RETRY_BACKOFF_MAX)));
     }
 }

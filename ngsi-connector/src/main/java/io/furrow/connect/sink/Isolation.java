@@ -7,10 +7,10 @@ import java.util.Map;
 import java.util.Set;
 
 /**
- * Decides when a delivery that draws answers 500 is taken apart, to set the entities aside that draw them: at every n-th try in a
- * row, and at the first where one of its entities was set aside before.
+ * Decides when a delivery that causes answers 500 is split to isolate the entities that cause them: at every n-th try
+ * in a row, and at the first try if one of its entities was isolated before.
  */
-final class Isolation {
+public final class Isolation {
     private static final int MAX_SUSPECTS = 1_000;
 
     private final int after;
@@ -27,16 +27,16 @@ final class Isolation {
 
     /**
      * @param after n; 0 for never
-     * @param refuseAfter the try from which an entity is set aside although nothing shows that the context broker takes others; 0
-     *     for none
+     * @param refuseAfter the try from which an entity is rejected although nothing shows that the context broker
+     *     accepts others; 0 for never
      */
-    Isolation(int after, int refuseAfter) {
+    public Isolation(int after, int refuseAfter) {
         this.after = after;
         this.refuseAfter = refuseAfter;
     }
 
-    /** Whether this try of the delivery takes it apart. */
-    boolean isDue(Collection<Change> changes) {
+    /** Whether this try splits the delivery. */
+    public boolean isDue(Collection<Change> changes) {
         if (after == 0) {
             return false;
         }
@@ -46,22 +46,24 @@ final class Isolation {
         return suspected || (failures + 1) % after == 0;
     }
 
-    /** Whether this try sets aside what draws a 500 although nothing of the delivery could be written. */
-    boolean refusesWithoutProof() {
+    /**
+     * Whether this try rejects an entity that causes a 500 although no other record of the delivery could be written.
+     */
+    public boolean refusesWithoutProof() {
         return refuseAfter > 0 && failures + 1 >= refuseAfter;
     }
 
-    void suspect(EntityKey key) {
+    public void suspect(EntityKey key) {
         suspects.add(key);
     }
 
-    /** A try has ended with an answer 500. */
-    void failed() {
+    /** A try ended with an answer 500. */
+    public void failed() {
         failures++;
     }
 
-    /** The delivery is through. */
-    void passed() {
+    /** The delivery was written. */
+    public void passed() {
         failures = 0;
     }
 }

@@ -9,10 +9,15 @@ import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerOptions;
+import io.furrow.connect.sink.api.ContextWriter;
+import io.furrow.connect.sink.api.EntityTimesCache;
 
-/** The options of the sink, a group each; throws {@link ConfigException} naming the option where one cannot be used. */
+/**
+ * The configuration of the sink connector, one record per group of options. Throws {@link ConfigException} with the
+ * name of the invalid option.
+ */
 public class NgsiSinkConfig extends AbstractConfig {
-    /** Set by the connector for each task, not by people. */
+    /** Set by the connector for each task, not by users. */
     static final String TASK_INDEX = "task.index";
 
     private final BrokerOptions broker;
@@ -62,10 +67,11 @@ public class NgsiSinkConfig extends AbstractConfig {
         return delivery;
     }
 
-    /** Knows nothing yet. */
+    /** A writer with an empty cache. */
     ContextWriter writer() {
         BrokerClient client = new BrokerClient(broker.settings());
-        KnownTimes known = new KnownTimes(delivery.maxKnownAttributes(), delivery.maxKnownAge(), System::nanoTime);
+        EntityTimesCache known =
+                new EntityTimesCache(delivery.maxKnownAttributes(), delivery.maxKnownAge(), System::nanoTime);
         return new ContextWriter(
                 client, api.api(), known, delivery.batches(), delivery.parallelRequests(), delivery.isolation());
     }

@@ -13,11 +13,11 @@ import org.apache.kafka.connect.sink.SinkConnector;
 import io.furrow.connect.CheckedTogether;
 import io.furrow.connect.PluginVersion;
 
-/** Writes the entities of topics into a context broker. Tasks share the partitions. */
+/** Writes the entities of topics to a context broker. Tasks share the partitions. */
 public class NgsiSinkConnector extends SinkConnector {
     private Map<String, String> properties;
 
-    /** Made by the worker. */
+    /** Called by the worker. */
     public NgsiSinkConnector() {}
 
     @Override

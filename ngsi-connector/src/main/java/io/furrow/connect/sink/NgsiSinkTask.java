@@ -20,15 +20,19 @@ import org.slf4j.LoggerFactory;
 import io.furrow.connect.PluginVersion;
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.ledger.LedgerBean;
-import io.furrow.connect.sink.ContextWriter.Fates;
-import io.furrow.connect.sink.ContextWriter.RefusedChange;
+import io.furrow.connect.sink.api.BrokerAwayException;
+import io.furrow.connect.sink.api.BrokerBackoff;
+import io.furrow.connect.sink.api.ContextWriter;
+import io.furrow.connect.sink.api.ContextWriter.Fates;
+import io.furrow.connect.sink.api.ContextWriter.RefusedChange;
+import io.furrow.connect.sink.api.WrongSettingException;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Writes each delivery of the worker before it asks for the next, so that what is committed is written. A record that cannot
- * be read or is refused goes to the errant-record reporter, after all others are written; a context broker that is away gets
- * the same records again.
+ * Writes each delivery of the worker before it accepts the next, so that committed records are written. Unreadable and
+ * rejected records go to the errant-record reporter after all others are written. If the context broker is unavailable,
+ * the same records are retried.
  */
 public class NgsiSinkTask extends SinkTask {
     private record Errant(SinkRecord record, Exception cause) {}
@@ -40,11 +44,11 @@ public class NgsiSinkTask extends SinkTask {
     private SinkEntityOptions entities;
     private ChangeReader reader;
     private ContextWriter writer;
-    private Backoff backoff;
+    private BrokerBackoff backoff;
     private boolean hasNeighbors;
     private LedgerBean bean;
 
-    /** Made by the worker. */
+    /** Called by the worker. */
     public NgsiSinkTask() {}
 
     @Override
@@ -63,7 +67,7 @@ public class NgsiSinkTask extends SinkTask {
         bean = LedgerBean.show(ledger, "ngsi-sink", config.name(), config.taskIndex());
     }
 
-    /** Other tasks may have written what this one remembers. */
+    /** Other tasks may have written the cached entities. */
     @Override
     public void open(Collection<TopicPartition> partitions) {
         writer.forget();
@@ -92,7 +96,7 @@ public class NgsiSinkTask extends SinkTask {
         int unreadable = errant.size();
         Fates fates = write(changes);
         for (RefusedChange refused : fates.refused) {
-            String message = "the context broker refuses the entity: " + refused.words();
+            String message = "the context broker rejects the entity: " + refused.words();
             errant.add(new Errant(records.get(refused.change().source()), new DataException(message)));
         }
         count(fates);
@@ -106,8 +110,9 @@ public class NgsiSinkTask extends SinkTask {
     private void read(SinkRecord record, int source, List<Change> changes, List<Errant> errant) {
         if (record.key() == null && hasNeighbors && keylessTopics.add(record.topic())) {
             LOG.warn(
-                    "Topic {} has records with no key, so that one entity may come to several tasks: an older value can then"
-                            + " overwrite a newer one for as long as {} says; let the entity's id be the key, or set tasks.max=1",
+                    "Topic {} has records without key, so that several tasks may receive one entity: an older value can"
+                            + " then overwrite a newer one for as long as {} allows; use the entity's id as the key, or"
+                            + " set tasks.max=1",
                     record.topic(),
                     DeliveryOptions.MAX_KNOWN_AGE);
         }
@@ -147,7 +152,7 @@ public class NgsiSinkTask extends SinkTask {
             if (reporter == null) {
                 SinkRecord record = bad.record();
                 String name = record.topic() + "-" + record.kafkaPartition() + "@" + record.kafkaOffset();
-                String remedy = "; set errors.tolerance=all and errors.deadletterqueue.topic.name to set such aside";
+                String remedy = "; set errors.tolerance=all and errors.deadletterqueue.topic.name to skip such records";
                 throw new ConnectException(name + ": " + bad.cause().getMessage() + remedy, bad.cause());
             }
             reporter.report(bad.record(), bad.cause());

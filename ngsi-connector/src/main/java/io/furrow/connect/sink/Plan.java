@@ -3,10 +3,10 @@ package io.furrow.connect.sink;
 import java.util.List;
 
 /**
- * What one delivery asks of the context broker: first the deletions, then the updates; no two updates are of one entity.
+ * The operations of one delivery: first the deletions, then the updates; no two updates are of one entity.
  *
- * @param partial deletions that some attributes are newer than: they take the other attributes away
- * @param stale how many changes say nothing that is newer than what is known
- * @param coalesced how many changes are part of another's update, or gave way to a deletion
+ * @param partial deletions that are older than some attributes: they remove the other attributes
+ * @param stale number of changes without a value newer than the known state
+ * @param coalesced number of changes that were merged into another update or overridden by a deletion
  */
-record Plan(List<Change> deletions, List<Change> partial, List<Update> updates, int stale, int coalesced) {}
+public record Plan(List<Change> deletions, List<Change> partial, List<Update> updates, int stale, int coalesced) {}

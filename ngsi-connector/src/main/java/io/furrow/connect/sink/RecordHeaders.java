@@ -1,21 +1,25 @@
 package io.furrow.connect.sink;
 
 import java.nio.charset.StandardCharsets;
+import java.time.Instant;
 import java.util.Date;
 import java.util.OptionalLong;
 
-import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.apache.kafka.connect.header.Header;
 import org.apache.kafka.connect.sink.SinkRecord;
 
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.time.Instants;
 
-/** The headers of a record, whatever the worker's header converter made of their text: text again, bytes, numbers, dates. */
+/**
+ * Reads the headers of a record, whatever the worker's header converter made of their text: text, bytes, numbers or
+ * dates.
+ */
 final class RecordHeaders {
     private RecordHeaders() {}
 
-    /** The text of a header; {@code otherwise} where there is none. */
+    /** The text of a header; {@code otherwise} if it is missing. */
     static String text(SinkRecord record, String name, String otherwise) {
         Object value = value(record, name);
         if (value == null) {
@@ -25,9 +29,9 @@ final class RecordHeaders {
     }
 
     /**
-     * The text of a header that names something.
+     * The text of a header that holds a name.
      *
-     * @throws UnreadableException if the header came as a number: 007 and 7 are two names and one number
+     * @throws UnreadableException if the header is a number: 007 and 7 are two names and one number
      */
     static String name(SinkRecord record, String name, String otherwise) throws UnreadableException {
         if (value(record, name) instanceof Number number) {
@@ -39,7 +43,7 @@ final class RecordHeaders {
         return text(record, name, otherwise);
     }
 
-    /** Epoch milliseconds of a header that is a date, a number or text of them, or ISO 8601 with offset; else empty. */
+    /** Epoch milliseconds of a header that is a date, a number or text of them, or ISO 8601 (UTC without offset); else empty. */
     static OptionalLong millis(SinkRecord record, String name) {
         Object value = value(record, name);
         if (value instanceof Date date) {
@@ -47,10 +51,9 @@ final class RecordHeaders {
         } else if (value instanceof Number number) {
             return OptionalLong.of(number.longValue());
         }
-        String text = text(record, name, "").trim();
-        return text.matches("-?\\d{1,18}")
-                ? OptionalLong.of(Long.parseLong(text))
-                : ReportedTimes.millis(JsonNodeFactory.instance.textNode(text));
+        return Instants.ofText(text(record, name, "")).stream()
+                .mapToLong(Instant::toEpochMilli)
+                .findFirst();
     }
 
     private static Object value(SinkRecord record, String name) {

@@ -6,13 +6,13 @@ import java.util.Map;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * What shall be written of one entity.
+ * The values to write for one entity.
  *
- * @param attributes normalized, without what only the context broker sets
+ * @param attributes normalized, without members that only the context broker sets
  * @param times the event time of each attribute
- * @param changes what it was made of, in the order of their arrival
+ * @param changes the merged changes, in the order of their arrival
  */
-record Update(
+public record Update(
         EntityKey key,
         String type,
         Map<String, ObjectNode> attributes,

@@ -7,10 +7,11 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.LogText;
-import io.furrow.model.event.EntityEvent;
-import io.furrow.model.event.EventTime;
 
-/** Names each device whose clock is too far ahead once in the log; forgets the longest silent of more than 10 000. */
+/**
+ * Logs each device whose clock is too far ahead once. Remembers 10 000 devices and forgets the one that was silent
+ * longest.
+ */
 final class ClockReport {
     private static final Logger LOG = LoggerFactory.getLogger(ClockReport.class);
 
@@ -31,17 +32,13 @@ final class ClockReport {
         };
     }
 
-    /** Whether this is the first event of its device with such a clock, as far as remembered. */
-    synchronized boolean note(EntityEvent event) {
-        if (event.time().basis() != EventTime.Basis.RECEIPT_FOR_FUTURE) {
-            return false;
-        }
-        String device = event.scope().identity(event.entity().id());
+    /** Whether this is the first such event of its device, as far as remembered. */
+    synchronized boolean note(String device) {
         if (reported.put(device, true) != null) {
             return false;
         }
         LOG.warn(
-                "The clock of {} is too far ahead; its events get the time of receipt. Check the device, or raise {}",
+                "The clock of {} is too far ahead; its events get the time of receipt. Correct the device, or raise {}",
                 LogText.oneLine(device),
                 "max.clock.skew.ms");
         return true;

@@ -9,15 +9,30 @@ import org.apache.kafka.common.config.ConfigException;
 
 import io.furrow.connect.broker.BrokerOptions;
 import io.furrow.connect.journal.JournalSettings;
+import io.furrow.connect.source.option.AccessOptions;
+import io.furrow.connect.source.option.AcknowledgingOptions;
+import io.furrow.connect.source.option.EntityOptions;
+import io.furrow.connect.source.option.JournalOptions;
+import io.furrow.connect.source.option.ListeningOptions;
+import io.furrow.connect.source.option.OverloadOptions;
+import io.furrow.connect.source.option.PendingOptions;
+import io.furrow.connect.source.option.RecordOptions;
+import io.furrow.connect.source.option.RepairOptions;
+import io.furrow.connect.source.option.SecurityOptions;
+import io.furrow.connect.source.option.SizeOptions;
+import io.furrow.connect.source.option.SubscriptionOptions;
+import io.furrow.connect.source.option.TlsOptions;
+import io.furrow.connect.source.option.TopicOptions;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.http.AccessRule;
 
 /**
- * The options of the source, a group each; throws {@link ConfigException} naming the option where one cannot be used. Each
- * group defines its options and checks them together as it is made; what concerns two groups is checked here.
+ * The configuration of the source connector, one record per group of options. Throws {@link ConfigException} with the
+ * name of the invalid option. Each group defines its options and validates them on construction; constraints between
+ * two groups are validated here.
  */
 public class NgsiSourceConfig extends AbstractConfig {
-    /** Set by the connector for each task, not by people. */
+    /** Set by the connector for each task, not by users. */
     static final String TASK_INDEX = "task.index";
 
     static final String TASK_COUNT = "task.count";
@@ -40,7 +55,7 @@ public class NgsiSourceConfig extends AbstractConfig {
     private final SubscriptionOptions subscription;
     private final RepairOptions repair;
 
-    NgsiSourceConfig(Map<String, String> properties) {
+    public NgsiSourceConfig(Map<String, String> properties) {
         super(definition(), properties);
         listening = new ListeningOptions(this, taskIndex());
         topics = new TopicOptions(this);
@@ -118,11 +133,11 @@ public class NgsiSourceConfig extends AbstractConfig {
         if (!subscription.enabled()) {
             return;
         }
-        if (tasks > IdShare.MOST) {
+        if (tasks > IdShare.MAX) {
             throw new ConfigException(
                     "tasks.max",
                     tasks,
-                    "the ids can be divided among " + IdShare.MOST + " tasks at most; lower it, or set "
+                    "the ids can be divided among " + IdShare.MAX + " tasks at most; lower it, or set "
                             + SubscriptionOptions.ENABLED + "=false");
         }
         if (tasks > 1) {
@@ -148,8 +163,8 @@ public class NgsiSourceConfig extends AbstractConfig {
         BrokerOptions.define(
                 options,
                 Optional.of(
-                        "Empty where subscriptions are made by somebody else: the source then makes none, and cannot"
-                                + " repair what it missed."));
+                        "Empty if subscriptions are managed elsewhere: the source then creates none and cannot repair"
+                                + " missed notifications."));
         SubscriptionOptions.define(options);
         RepairOptions.define(options);
         return options;
@@ -159,7 +174,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return originalsStrings().getOrDefault("name", "ngsi-source");
     }
 
-    /** Which of the connector's tasks this is, from 0. */
+    /** The index of this task, from 0. */
     int taskIndex() {
         return Integer.parseInt(originalsStrings().getOrDefault(TASK_INDEX, "0"));
     }
@@ -205,7 +220,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return overload;
     }
 
-    /** Which requests are answered at all. */
+    /** The rule for the requests that are answered at all. */
     AccessRule accessRule() {
         return AccessRule.allowing(access.allowed(), AccessOptions.NAMES)
                 .servedAs(listening.host())
@@ -213,7 +228,7 @@ public class NgsiSourceConfig extends AbstractConfig {
                 .withProbes("/health");
     }
 
-    SecurityOptions security() {
+    public SecurityOptions security() {
         return security;
     }
 
@@ -225,7 +240,7 @@ public class NgsiSourceConfig extends AbstractConfig {
         return broker;
     }
 
-    SubscriptionOptions subscription() {
+    public SubscriptionOptions subscription() {
         return subscription;
     }
 
@@ -237,8 +252,8 @@ public class NgsiSourceConfig extends AbstractConfig {
         return JournalSettings.of(journal.maxBytes(), pending.maxBytes(), journal.minFreeBytes());
     }
 
-    /** What the translation of notifications needs. */
-    NotificationTranslator.Settings translation() {
+    /** The settings of the translation of notifications. */
+    public NotificationTranslator.Settings translation() {
         return new NotificationTranslator.Settings(
                 name(),
                 topics.topic(),

@@ -15,13 +15,13 @@ import io.furrow.connect.CheckedTogether;
 import io.furrow.connect.PluginVersion;
 
 /**
- * Takes the HTTP notifications of a context broker into Kafka, one record per entity. Each task listens on a port of its own
- * and keeps a journal of its own.
+ * Writes the HTTP notifications of a context broker to Kafka, one record per entity. Each task listens on its own port
+ * and has its own journal.
  */
 public class NgsiSourceConnector extends SourceConnector {
     private Map<String, String> properties;
 
-    /** Made by the worker. */
+    /** Called by the worker. */
     public NgsiSourceConnector() {}
 
     @Override
@@ -62,13 +62,16 @@ public class NgsiSourceConnector extends SourceConnector {
         return task;
     }
 
-    /** A record of the journal and its place there go into Kafka together. */
+    /** A journal record and its position in the journal are committed to Kafka together. */
     @Override
     public ExactlyOnceSupport exactlyOnceSupport(Map<String, String> properties) {
         return ExactlyOnceSupport.SUPPORTED;
     }
 
-    /** Any offset of the right shape will do: before the oldest record that is kept means the oldest, beyond the end the end. */
+    /**
+     * Accepts any offset of the right shape: an offset before the oldest retained record means the oldest, one beyond
+     * the end means the end.
+     */
     @Override
     public boolean alterOffsets(Map<String, String> properties, Map<Map<String, ?>, Map<String, ?>> offsets) {
         offsets.forEach(SourceOffsets::require);

@@ -14,22 +14,29 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.PluginVersion;
+import io.furrow.connect.source.journal.JournalMaintenance;
+import io.furrow.connect.source.journal.TaskJournals;
+import io.furrow.connect.source.option.JournalOptions;
+import io.furrow.connect.source.option.TopicOptions;
 
-/** Listens for notifications, answers when they are in its journal, and hands the journal's records to the worker. */
+/**
+ * Listens for notifications, answers each when its records are in the journal, and returns the journal's records to the
+ * worker.
+ */
 public class NgsiSourceTask extends SourceTask {
     private static final Logger LOG = LoggerFactory.getLogger(NgsiSourceTask.class);
 
     private static final Duration POLL_WAIT = Duration.ofMillis(200);
 
-    private final AtomicReference<RunningSource> source = new AtomicReference<>();
-    private final AtomicReference<JournalKeeper> keeper = new AtomicReference<>();
+    private final AtomicReference<SourceRuntime> source = new AtomicReference<>();
+    private final AtomicReference<JournalMaintenance> keeper = new AtomicReference<>();
     private NgsiSourceConfig config;
     private int batchSize;
     private SourceRecords sourceRecords;
     private TopicLimits limits;
     private RecordSizes sizes;
 
-    /** Made by the worker. */
+    /** Called by the worker. */
     public NgsiSourceTask() {}
 
     @Override
@@ -43,25 +50,25 @@ public class NgsiSourceTask extends SourceTask {
         batchSize = config.acknowledging().batchSize();
         sourceRecords = config.records().records();
         try {
-            source.set(Standby.leave(config)
+            source.set(SourceRuntime.attach(config)
                     .map(running -> resumed(running, this::committed))
-                    .orElseGet(() -> RunningSource.open(config, this::committed)));
+                    .orElseGet(() -> SourceRuntime.open(config, this::committed)));
             askForLimits();
-            keeper.set(JournalKeeper.start(source.get().journals(), config.taskCount() > 1));
+            keeper.set(JournalMaintenance.start(source.get().journals(), config.taskCount() > 1));
         } catch (RuntimeException | Error e) {
-            // The worker does not stop a task that did not start.
+            // The worker does not stop a task that failed to start.
             stop();
             throw e;
         }
         LOG.info(
-                "{} takes notifications on {}:{} into {}",
+                "{} accepts notifications on {}:{} for topic {}",
                 config.name(),
                 config.listening().host(),
                 port(),
                 source.get().journals().own().folder());
     }
 
-    private static RunningSource resumed(RunningSource running, TaskJournals.Committed committed) {
+    private static SourceRuntime resumed(SourceRuntime running, TaskJournals.Committed committed) {
         try {
             running.journals().resume(committed);
             return running;
@@ -88,7 +95,7 @@ public class NgsiSourceTask extends SourceTask {
         return SourceOffsets.committed(context.offsetStorageReader(), journal);
     }
 
-    /** The port that is listened on. */
+    /** The port of the listener. */
     int port() {
         return source.get().reception().port();
     }
@@ -98,11 +105,11 @@ public class NgsiSourceTask extends SourceTask {
         TaskJournals open = source.get().journals();
         open.own().failure().ifPresent(failure -> {
             throw new ConnectException(
-                    "the disk of " + open.own().folder() + " failed again and again; look at it or change "
+                    "the disk of " + open.own().folder() + " failed repeatedly; check it or change "
                             + JournalOptions.DIR + ", then restart the task",
                     failure);
         });
-        TaskJournals.Turn turn = open.next(batchSize, POLL_WAIT);
+        TaskJournals.Batch turn = open.next(batchSize, POLL_WAIT);
         if (turn.records().isEmpty()) {
             return null;
         }
@@ -112,10 +119,10 @@ public class NgsiSourceTask extends SourceTask {
         return records;
     }
 
-    /** Without metadata the record was filtered out or skipped by the worker's own settings. */
+    /** Without metadata the record was filtered out or skipped because of the worker's settings. */
     @Override
     public void commitRecord(SourceRecord record, RecordMetadata metadata) {
-        RunningSource running = source.get();
+        SourceRuntime running = source.get();
         if (running == null) {
             return;
         }
@@ -130,17 +137,17 @@ public class NgsiSourceTask extends SourceTask {
     }
 
     /**
-     * Once the worker calls this it polls and commits nothing more, so what is in the journals waits for another task. To leave
-     * little, nothing is answered from here on. While Kafka is away listener and journals stay as they are: the worker will
-     * start the task again.
+     * After this call the worker neither polls nor commits, so the remaining records of the journals wait for another
+     * task. The listener stops here to leave few records. While Kafka is unavailable, the listener and the journals
+     * stay open: the worker will restart the task.
      */
     @Override
     public void stop() {
         if (limits != null) {
             limits.close();
         }
-        JournalKeeper keeping = keeper.getAndSet(null);
-        RunningSource running = source.getAndSet(null);
+        JournalMaintenance keeping = keeper.getAndSet(null);
+        SourceRuntime running = source.getAndSet(null);
         boolean standby = keeping != null
                 && keeping.isKafkaAway()
                 && !config.journal().standby().isZero();
@@ -151,7 +158,7 @@ public class NgsiSourceTask extends SourceTask {
             keeping.close();
         }
         if (running != null && standby) {
-            Standby.enter(config, running);
+            running.detach();
         } else if (running != null) {
             running.close();
         }

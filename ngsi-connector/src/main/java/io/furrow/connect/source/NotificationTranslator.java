@@ -8,13 +8,14 @@ import java.util.function.Consumer;
 import java.util.regex.Pattern;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.EntityVersion;
+import io.furrow.connect.repair.entity.EntityVersion;
 import io.furrow.connect.source.Translation.Refusal;
+import io.furrow.connect.source.http.ReceivedNotification;
+import io.furrow.connect.source.option.JournalOptions;
 import io.furrow.model.event.DeadLetter;
-import io.furrow.model.event.EntityDeletion;
-import io.furrow.model.event.EntityEvent;
-import io.furrow.model.event.EventTime;
+import io.furrow.model.event.EntityRecord;
 import io.furrow.model.event.EventTimeRule;
+import io.furrow.model.event.NotificationRules;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
@@ -24,59 +25,64 @@ import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * Turns a notification into records: one per entity, without a value where it was deleted, one dead letter per entity that cannot be read, and one dead letter
- * with the original bytes where nothing can be read, or more than the source can hold would come of it. No record is larger than
- * {@link Settings#maxRecordBytes}.
+ * Translates a notification into records: one per entity, a tombstone for a deleted entity, and one dead letter per
+ * unreadable entity. A notification that is unreadable as a whole, or whose records exceed the capacity of the source,
+ * becomes one dead letter with the original bytes. No record is larger than {@link Settings#maxRecordBytes}.
  */
-final class NotificationTranslator {
+public final class NotificationTranslator {
     static final String STAGE = "ngsi-source";
 
-    private static final Pattern SUBSCRIPTION = Pattern.compile("[A-Za-z0-9_.:-]{1,128}");
-    private static final int LONGEST_MESSAGE = 500;
+    private static final int MAX_MESSAGE_LENGTH = 500;
     private static final int HEADERS_AT_MOST = 32 * 1024;
-    /** What the journal adds to a record. */
+    /** The bytes that the journal adds to a record. */
     private static final int JOURNAL_OVERHEAD = 100;
-    /** Records are longer than the body, mostly by their headers; never by more than this. */
+    /** Records are longer than the body, mostly because of their headers; never by more than this factor. */
     private static final int LARGEST_GROWTH = 256;
 
     /**
-     * @param name of the connector, for {@code ce_source} where no subscription is named
-     * @param excluded entities of a type that one of these matches as a whole are dropped
+     * @param name of the connector, for {@code ce_source} if the notification names no subscription
+     * @param excluded patterns of types; an entity whose whole type matches one is dropped
      * @param maxRecordBytes of one record
-     * @param maxNotificationBytes of all records of a notification: what is larger can never be made durable
+     * @param maxNotificationBytes of all records of a notification: a larger one can never become durable
      */
-    record Settings(
+    public record Settings(
             String name,
             String topic,
             String deadLetterTopic,
             List<Pattern> excluded,
             EventTimeRule times,
             int maxRecordBytes,
-            long maxNotificationBytes) {}
+            long maxNotificationBytes) {
+        NotificationRules rules() {
+            return new NotificationRules(name, excluded, times, Origin.NOTIFICATION);
+        }
+    }
 
     private final Settings settings;
+    private final NotificationRules rules;
     private final Ledger ledger;
     private final Consumer<String> arrived;
     private final ClockReport clocks = new ClockReport();
     private final UndatedReport undated = new UndatedReport();
 
-    NotificationTranslator(Settings settings, Ledger ledger) {
+    public NotificationTranslator(Settings settings, Ledger ledger) {
         this(settings, ledger, subscription -> {});
     }
 
-    /** @param arrived is told the subscription of each notification that names one */
+    /** @param arrived receives the subscription of each notification that names one */
     NotificationTranslator(Settings settings, Ledger ledger, Consumer<String> arrived) {
         this.settings = settings;
+        this.rules = settings.rules();
         this.ledger = ledger;
         this.arrived = arrived;
     }
 
-    Translation translate(ReceivedNotification received) {
+    public Translation translate(ReceivedNotification received) {
         ledger.requests.increment();
         if (!received.complete()) {
             return refused(
                     received,
-                    "the body is larger than " + received.body().length + " bytes; only these were kept (truncated)");
+                    "the body is larger than " + received.body().length + " bytes; the rest was dropped (truncated)");
         }
         try {
             return translate(Notification.read(received.body(), received.attrsFormat()), received);
@@ -85,8 +91,8 @@ final class NotificationTranslator {
         }
     }
 
-    /** Does not even read it, for this reason. */
-    Translation refuse(ReceivedNotification received, String message) {
+    /** Rejects the notification for the given reason without parsing it. */
+    public Translation refuse(ReceivedNotification received, String message) {
         ledger.requests.increment();
         return refused(received, message);
     }
@@ -96,15 +102,11 @@ final class NotificationTranslator {
     }
 
     private Translation translate(Notification notification, ReceivedNotification received) {
-        String source = "/ngsi/"
-                + notification
-                        .subscriptionId()
-                        .filter(id -> SUBSCRIPTION.matcher(id).matches())
-                        .orElse(settings.name());
+        String source = rules.source(notification);
         notification.subscriptionId().ifPresent(arrived);
         List<OutgoingRecord> records = new ArrayList<>();
         for (Entity entity : notification.entities()) {
-            if (!isExcluded(entity)) {
+            if (!rules.excludes(entity)) {
                 records.add(translate(entity, source, received));
             }
         }
@@ -115,8 +117,8 @@ final class NotificationTranslator {
         if (areTooLarge(records, received)) {
             return refused(
                     received,
-                    "the entities make records of more than " + settings.maxNotificationBytes()
-                            + " bytes together, and the journal never has room for them; raise "
+                    "the records of the entities have more than " + settings.maxNotificationBytes()
+                            + " bytes in total and can never fit into the journal; raise "
                             + JournalOptions.MAX_BYTES + ", or send fewer at a time");
         }
         count(notification, records);
@@ -144,36 +146,26 @@ final class NotificationTranslator {
         ledger.accepted.add(records.size() - dead);
     }
 
-    private boolean isExcluded(Entity entity) {
-        for (Pattern type : settings.excluded()) {
-            if (type.matcher(entity.type()).matches()) {
-                return true;
-            }
-        }
-        return false;
-    }
-
     private OutgoingRecord translate(Entity entity, String source, ReceivedNotification received) {
-        if (entity.isDeleted()) {
-            return deletion(entity, source, received);
-        }
-        EntityEvent event =
-                EntityEvent.of(entity, received.scope(), received.at(), settings.times(), Origin.NOTIFICATION);
+        EntityRecord translated = rules.record(entity, received.scope(), received.at(), source);
         OutgoingRecord record = new OutgoingRecord(
                 settings.topic(),
-                entity.id(),
-                entity.toBytes(),
-                event.time().time(),
-                event.headers(source),
+                translated.key(),
+                translated.value(),
+                translated.time(),
+                translated.headers(),
                 EntityVersion.of(entity));
+        if (entity.isDeleted()) {
+            return record;
+        }
         if (record.bytes() > settings.maxRecordBytes()) {
-            String message = "the entity makes a record of " + record.bytes() + " bytes, the limit is "
+            String message = "the record of the entity has " + record.bytes() + " bytes, the limit is "
                     + settings.maxRecordBytes();
             return deadLetter(record.value(), new Refusal(Reason.TOO_LARGE, message), received);
         }
-        if (event.time().basis() == EventTime.Basis.RECEIPT_FOR_FUTURE) {
+        if (translated.clockAhead()) {
             ledger.clockAhead.increment();
-            clocks.note(event);
+            clocks.note(received.scope().identity(entity.id()));
         }
         if (entity.value(Entity.MODIFIED).isEmpty()) {
             ledger.undated.increment();
@@ -182,19 +174,7 @@ final class NotificationTranslator {
         return record;
     }
 
-    private OutgoingRecord deletion(Entity entity, String source, ReceivedNotification received) {
-        EntityDeletion deletion = EntityDeletion.of(
-                entity, received.scope(), received.at(), settings.times().maxSkew(), Origin.NOTIFICATION);
-        return new OutgoingRecord(
-                settings.topic(),
-                entity.id(),
-                null,
-                deletion.time(),
-                deletion.headers(source),
-                EntityVersion.of(entity));
-    }
-
-    /** A request of which nothing can be used is the sender's fault; one good entity makes it a good request. */
+    /** A request without any usable entity is the sender's fault; one valid entity makes it a good request. */
     private static Optional<Refusal> refusalOf(Notification notification) {
         return notification.entities().isEmpty()
                 ? notification.rejected().stream()
@@ -219,6 +199,6 @@ final class NotificationTranslator {
     }
 
     private static String shortened(String text) {
-        return text.length() <= LONGEST_MESSAGE ? text : text.substring(0, LONGEST_MESSAGE) + "…";
+        return text.length() <= MAX_MESSAGE_LENGTH ? text : text.substring(0, MAX_MESSAGE_LENGTH) + "…";
     }
 }

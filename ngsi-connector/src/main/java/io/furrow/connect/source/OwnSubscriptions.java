@@ -15,11 +15,15 @@ import org.apache.kafka.connect.source.SourceRecord;
 
 import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.Caretaker;
-import io.furrow.connect.repair.Caretakers;
-import io.furrow.connect.repair.Caretakers.Commission;
-import io.furrow.connect.repair.EntityRecord;
 import io.furrow.connect.repair.LiveEvents;
+import io.furrow.connect.repair.ReconcileLoop;
+import io.furrow.connect.repair.ReconcileLoop.Assignment;
+import io.furrow.connect.repair.SubscriptionReconciler;
+import io.furrow.connect.repair.entity.EntityRecord;
+import io.furrow.connect.source.journal.JournalRecordLog;
+import io.furrow.connect.source.journal.RecordLog;
+import io.furrow.connect.source.journal.TrackedRecordLog;
+import io.furrow.connect.source.option.SubscriptionOptions;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Target;
 import io.furrow.connect.subscription.WantedSubscription;
@@ -28,15 +32,15 @@ import io.furrow.model.event.FiwareScope;
 import io.furrow.model.event.HeaderNames;
 
 /**
- * The subscriptions of one task, and the repair of what they miss, put together from the options. Where these name no context
- * broker, or want no subscription, it does nothing.
+ * Manages the subscriptions of one task and the repair of missed notifications as configured. Without a context broker
+ * or subscriptions in the configuration it does nothing.
  */
 final class OwnSubscriptions implements AutoCloseable {
     private final NgsiSourceConfig config;
     private final Ledger ledger;
     private final LiveEvents live;
     private final AtomicLong unseen;
-    private volatile Caretakers caretakers;
+    private volatile ReconcileLoop caretakers;
 
     private OwnSubscriptions(NgsiSourceConfig config, Ledger ledger) {
         this.config = config;
@@ -45,38 +49,38 @@ final class OwnSubscriptions implements AutoCloseable {
         this.unseen = new AtomicLong(config.subscription().enabled() ? ledger.recovered.sum() : 0);
     }
 
-    /** @param ledger that counts what the journal held at the start already */
+    /** @param ledger that already counts the records in the journal at the start */
     static OwnSubscriptions of(NgsiSourceConfig config, Ledger ledger) {
         return new OwnSubscriptions(config, ledger);
     }
 
-    /** The same intake, which lets the repair know what goes in. */
-    Intake watched(JournaledIntake intake) {
-        return config.subscription().enabled() ? new WatchedIntake(intake, live, new Watched()) : intake;
+    /** The same intake, which notifies the repair about appended records. */
+    RecordLog watched(JournalRecordLog intake) {
+        return config.subscription().enabled() ? new TrackedRecordLog(intake, live, new Watched()) : intake;
     }
 
-    private final class Watched implements WatchedIntake.Entities {
+    private final class Watched implements TrackedRecordLog.Entities {
         @Override
         public boolean covers(FiwareScope scope) {
-            Caretakers started = caretakers;
+            ReconcileLoop started = caretakers;
             return started == null || started.covers(scope);
         }
 
         @Override
         public void note(FiwareScope scope, String id, boolean gone) {
-            Caretakers started = caretakers;
+            ReconcileLoop started = caretakers;
             if (started != null) {
                 started.note(scope, id, gone);
             }
         }
     }
 
-    /** A notification of a subscription came. */
+    /** A notification of a subscription arrived. */
     void arrived(String subscription) {
         live.arrived(subscription);
     }
 
-    /** Records left the journal; the first ones may be of before the start, and are seen now. */
+    /** Records left the journal; the first ones may date from before the start, and the repair sees them now. */
     void handedOn(List<SourceRecord> records) {
         if (unseen.get() > 0) {
             unseen.addAndGet(-records.size());
@@ -108,31 +112,32 @@ final class OwnSubscriptions implements AutoCloseable {
     }
 
     /**
-     * Begins to keep the subscriptions, on another thread.
+     * Starts to manage the subscriptions on another thread.
      *
-     * @param port that the task listens on
-     * @param intake the one for what is repaired, not the watched one
+     * @param port of the task's listener
+     * @param intake the intake for repaired records, not the watched one
      */
-    void start(int port, JournaledIntake intake) {
+    void start(int port, JournalRecordLog intake) {
         if (!config.subscription().enabled()) {
             return;
         }
-        List<Commission> commissions = new ArrayList<>();
+        List<Assignment> commissions = new ArrayList<>();
         for (String tenant : config.subscription().tenants()) {
             for (String path : config.subscription().servicePaths()) {
-                commissions.add(new Commission(new FiwareScope(tenant, path), wanted(path, port)));
+                commissions.add(new Assignment(new FiwareScope(tenant, path), wanted(path, port)));
             }
         }
         Path folder = config.journal()
                 .repairFolder(config.name(), config.broker().url().orElseThrow());
         try {
-            caretakers = Caretakers.start(
+            caretakers = ReconcileLoop.start(
                     new BrokerClient(config.broker()
                             .settings()
                             .withMaxAnswerBytes(config.repair().pageMaxBytes()))::send,
                     commissions,
                     config.repair().settings(folder, config.entities()),
-                    new Caretaker.Means(live, new RepairedRecords(config.translation(), intake, ledger), ledger),
+                    new SubscriptionReconciler.SharedServices(
+                            live, new RepairedRecords(config.translation(), intake, ledger), ledger),
                     config.subscription().checkInterval());
         } catch (IOException e) {
             throw new ConnectException("cannot use " + folder + " (" + e + "); make it writable", e);
@@ -155,7 +160,7 @@ final class OwnSubscriptions implements AutoCloseable {
         return config.tls().isOn() ? "https" : "http";
     }
 
-    /** The one that counts; a previous one is only taken, not asked for. */
+    /** The current secret; a previous one is only accepted, never sent. */
     private Map<String, String> secret() {
         return config.security().secrets().stream()
                 .findFirst()
@@ -164,20 +169,20 @@ final class OwnSubscriptions implements AutoCloseable {
     }
 
     /**
-     * Asks nothing of the context broker while the source has no task: another worker may have it by now, and its
-     * subscriptions follow it there.
+     * Pauses requests to the context broker while the source has no task: another worker may own the connector now,
+     * together with its subscriptions.
      */
     void rest(boolean resting) {
-        Caretakers started = caretakers;
+        ReconcileLoop started = caretakers;
         if (started != null) {
             started.rest(resting);
         }
     }
 
-    /** Nothing is asked of the context broker any more; the subscriptions stay. */
+    /** Stops all requests to the context broker; the subscriptions stay. */
     @Override
     public void close() {
-        Caretakers started = caretakers;
+        ReconcileLoop started = caretakers;
         if (started != null) {
             started.close();
         }

@@ -6,12 +6,14 @@ import java.util.Map;
 
 import io.furrow.connect.journal.JournalRecord;
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.option.SizeOptions;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * Makes dead letters of records that are larger than their topic takes: the producer's failure at one of them would stop the task,
- * and stop it again after each restart. A dead letter that is too large itself is cut.
+ * Converts records that are larger than their topic accepts into dead letters: the producer's failure would stop the
+ * task, and stop it again after each restart. A dead letter that is itself too large is truncated.
  */
 final class RecordSizes {
     private static final int ROOM_FOR_SENTENCE = 100;
@@ -21,7 +23,7 @@ final class RecordSizes {
     private final String deadLetterTopic;
     private final Ledger ledger;
 
-    /** @param maxRecordBytes what the producer takes */
+    /** @param maxRecordBytes the producer's limit */
     RecordSizes(TopicLimits limits, int maxRecordBytes, String deadLetterTopic, Ledger ledger) {
         this.limits = limits;
         this.maxRecordBytes = maxRecordBytes;
@@ -29,11 +31,11 @@ final class RecordSizes {
         this.ledger = ledger;
     }
 
-    /** What goes to Kafka for a record of the journal. */
+    /** The record that is sent to Kafka for a journal record. */
     OutgoingRecord fitting(JournalRecord kept) {
-        OutgoingRecord record = RecordForm.read(kept.payload());
+        OutgoingRecord record = JournalRecordCodec.read(kept.payload());
         long limit = limit(record.topic());
-        // The journal's form is about as long, and measured already.
+        // The journal's format has about the same length and is already measured.
         if (kept.payload().length + SizeOptions.ROOM_FOR_TRANSFORMATIONS <= limit || record.bytes() <= limit) {
             return record;
         }
@@ -41,7 +43,7 @@ final class RecordSizes {
             return letter(record, new LinkedHashMap<>(record.headers()));
         }
         ledger.oversized.increment();
-        String message = "the record of %s has %d bytes, topic %s takes %d; raise its max.message.bytes, and %s"
+        String message = "the record of %s has %d bytes, topic %s accepts %d; raise its max.message.bytes, and %s"
                 .formatted(record.key(), record.bytes(), record.topic(), limit, SizeOptions.PRODUCER_LIMIT);
         Map<String, String> headers = new LinkedHashMap<>(record.headers());
         headers.putAll(
@@ -56,7 +58,7 @@ final class RecordSizes {
                 ofTopic == TopicLimits.UNKNOWN ? ofTopic : ofTopic - SizeOptions.ROOM_FOR_TRANSFORMATIONS);
     }
 
-    /** With as much of the value as the topic of dead letters takes. */
+    /** A dead letter with as much of the value as the dead-letter topic accepts. */
     private OutgoingRecord letter(OutgoingRecord record, Map<String, String> headers) {
         byte[] value = record.value();
         OutgoingRecord letter = new OutgoingRecord(deadLetterTopic, record.key(), value, record.time(), headers);

@@ -7,29 +7,31 @@ import java.util.Optional;
 import java.util.concurrent.CompletableFuture;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.Finding;
+import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
+import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.journal.JournalRecordLog;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EntityDeletion;
 import io.furrow.model.event.EntityEvent;
 import io.furrow.model.ngsi.Reason;
 
-/** Makes records of what the repair found, and hands them to the intake. */
+/** Creates records from the findings of the repair and appends them to the intake. */
 final class RepairedRecords implements RepairOutput {
     private final NotificationTranslator.Settings settings;
-    private final JournaledIntake intake;
+    private final JournalRecordLog intake;
     private final Ledger ledger;
 
     /** @param intake the same as that of notifications */
-    RepairedRecords(NotificationTranslator.Settings settings, JournaledIntake intake, Ledger ledger) {
+    RepairedRecords(NotificationTranslator.Settings settings, JournalRecordLog intake, Ledger ledger) {
         this.settings = settings;
         this.intake = intake;
         this.ledger = ledger;
     }
 
     @Override
-    public byte[] serialize(String subscription, Finding finding) {
-        return RecordForm.write(record("/ngsi/" + subscription, finding));
+    public byte[] serialize(String subscription, MissedChange finding) {
+        return JournalRecordCodec.write(record("/ngsi/" + subscription, finding));
     }
 
     @Override
@@ -37,17 +39,17 @@ final class RepairedRecords implements RepairOutput {
         return intake.append(records).map(durable -> durable.thenRun(() -> ledger.repaired.add(records.size())));
     }
 
-    private OutgoingRecord record(String source, Finding finding) {
-        if (finding instanceof Finding.Deleted deleted) {
+    private OutgoingRecord record(String source, MissedChange finding) {
+        if (finding instanceof MissedChange.Deleted deleted) {
             EntityDeletion gone = deleted.deletion();
             return new OutgoingRecord(settings.topic(), gone.entityId(), null, gone.time(), gone.headers(source));
         }
-        if (finding instanceof Finding.Unreadable unreadable) {
+        if (finding instanceof MissedChange.Unreadable unreadable) {
             String message = "the entity " + unreadable.entityId() + " cannot be read: " + unreadable.problem();
             DeadLetter letter = new DeadLetter(Reason.TOO_LARGE, message, NotificationTranslator.STAGE, source);
             return deadLetter(letter, unreadable.entityId(), unreadable.received());
         }
-        EntityEvent event = ((Finding.Changed) finding).event();
+        EntityEvent event = ((MissedChange.Changed) finding).event();
         OutgoingRecord record = new OutgoingRecord(
                 settings.topic(),
                 event.entity().id(),
@@ -57,9 +59,9 @@ final class RepairedRecords implements RepairOutput {
         return record.bytes() <= settings.maxRecordBytes() ? record : deadLetter(record, event, source);
     }
 
-    /** The entity stays where it was read from, so its id is enough to find it. */
+    /** The entity is still in the context broker, so its id is enough to find it. */
     private OutgoingRecord deadLetter(OutgoingRecord record, EntityEvent event, String source) {
-        String message = "the entity " + event.entity().id() + " makes a record of " + record.bytes()
+        String message = "the record of the entity " + event.entity().id() + " has " + record.bytes()
                 + " bytes, the limit is " + settings.maxRecordBytes();
         DeadLetter letter = new DeadLetter(Reason.TOO_LARGE, message, NotificationTranslator.STAGE, source);
         return deadLetter(letter, event.entity().id(), event.received());

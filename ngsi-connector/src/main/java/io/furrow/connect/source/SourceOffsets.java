@@ -7,7 +7,7 @@ import org.apache.kafka.connect.errors.ConnectException;
 import org.apache.kafka.connect.storage.OffsetStorageReader;
 
 /**
- * The source's partitions and offsets: {@code {"journal": id}} and {@code {"record": n}}, where n is the number of the first
+ * The source's partitions and offsets: {@code {"journal": id}} and {@code {"record": n}}. n is the number of the first
  * record that is not known to be in Kafka.
  */
 final class SourceOffsets {
@@ -23,7 +23,7 @@ final class SourceOffsets {
         return Map.of(JOURNAL, journal);
     }
 
-    /** The offset of a record: the next one's number. */
+    /** The offset of a record: the number of the next one. */
     static Map<String, Long> offsetOf(long sequence) {
         return Map.of(RECORD, sequence + 1);
     }
@@ -36,7 +36,7 @@ final class SourceOffsets {
         return ((Number) offset.get(RECORD)).longValue() - 1;
     }
 
-    /** What the offset store says of a journal; empty if it says nothing, for instance after a reset. */
+    /** The committed offset of a journal; empty if there is none, for instance after a reset. */
     static OptionalLong committed(OffsetStorageReader reader, String journal) {
         Map<String, Object> offset = reader.offset(partition(journal));
         if (offset == null) {
@@ -46,7 +46,7 @@ final class SourceOffsets {
         return OptionalLong.of(((Number) offset.get(RECORD)).longValue());
     }
 
-    /** @throws ConnectException saying what is wrong and what is expected */
+    /** @throws ConnectException describing the invalid part and the expected shape */
     static void require(Map<String, ?> partition, Map<String, ?> offset) {
         boolean named = partition != null
                 && partition.size() == 1

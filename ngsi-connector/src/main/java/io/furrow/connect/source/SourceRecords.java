@@ -11,14 +11,17 @@ import org.apache.kafka.connect.header.ConnectHeaders;
 import org.apache.kafka.connect.source.SourceRecord;
 
 import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.source.journal.TaskJournals;
+import io.furrow.connect.source.option.KeyMode;
+import io.furrow.connect.source.option.ValueMode;
 
-/** Journal records as the worker wants them. */
-record SourceRecords(KeyMode keys, ValueMode values) {
+/** Converts journal records into records for the worker. */
+public record SourceRecords(KeyMode keys, ValueMode values) {
     /**
-     * @param reading what goes to Kafka for a record of the journal
+     * @param reading the record that is sent to Kafka for a journal record
      * @throws ConnectException if a newer version of the plugin wrote one of them
      */
-    List<SourceRecord> of(TaskJournals.Turn turn, Function<JournalRecord, OutgoingRecord> reading) {
+    List<SourceRecord> of(TaskJournals.Batch turn, Function<JournalRecord, OutgoingRecord> reading) {
         Map<String, String> partition = SourceOffsets.partition(turn.journal());
         List<SourceRecord> records = new ArrayList<>(turn.records().size());
         for (JournalRecord kept : turn.records()) {

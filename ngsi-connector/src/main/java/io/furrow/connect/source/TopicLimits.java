@@ -20,9 +20,11 @@ import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.connect.source.option.SizeOptions;
+
 /**
- * Knows the {@code max.message.bytes} of topics, where it may ask Kafka: at the start, and every minute while records are sent. Not
- * knowing is no failure: what it was told last is true until it is told otherwise.
+ * Caches the {@code max.message.bytes} of topics: reads it from Kafka, if permitted, at the start and every minute
+ * while records are sent. An unknown limit is no failure: the last known limit stays valid.
  */
 final class TopicLimits implements AutoCloseable {
     static final long UNKNOWN = Long.MAX_VALUE;
@@ -45,10 +47,10 @@ final class TopicLimits implements AutoCloseable {
     }
 
     /**
-     * Asks for the first time, and waits some seconds for the answer.
+     * Reads the limits for the first time and waits some seconds for the answer.
      *
-     * @param settings of an admin client; without {@code bootstrap.servers} nobody is asked, and nothing known
-     * @param client name of it
+     * @param settings of an admin client; without {@code bootstrap.servers} all limits stay unknown
+     * @param client name of the client
      */
     static TopicLimits open(Map<String, Object> settings, String client, List<String> topics) {
         if (!settings.containsKey(AdminClientConfig.BOOTSTRAP_SERVERS_CONFIG)) {
@@ -61,12 +63,15 @@ final class TopicLimits implements AutoCloseable {
         return limits;
     }
 
-    /** Bytes of the largest batch of records that the topic takes; {@link #UNKNOWN} where it may not exist yet, or nobody was asked. */
+    /**
+     * Bytes of the largest batch of records that the topic accepts; {@link #UNKNOWN} if the topic may not exist yet, or
+     * the limits cannot be read.
+     */
     long of(String topic) {
         return limits.getOrDefault(topic, UNKNOWN);
     }
 
-    /** Asks again if the last time is long ago; waits for nothing. */
+    /** Reads the limits again if the last reading is too old; does not block. */
     void refresh() {
         if (admin.isPresent() && System.nanoTime() - asked > INTERVAL.toNanos()) {
             ask();
@@ -94,8 +99,8 @@ final class TopicLimits implements AutoCloseable {
         } else if (!reported) {
             reported = true;
             LOG.warn(
-                    "Kafka does not say how large a record topic {} takes: {}; a larger one would stop the task. Look at"
-                            + " {}*, and let its user describe the configuration of topics",
+                    "cannot read max.message.bytes of topic {}: {}; a larger record would stop the task. Check {}*, and"
+                            + " allow its user to describe the configuration of topics",
                     topic,
                     failure,
                     SizeOptions.ADMIN_PREFIX);
@@ -106,7 +111,7 @@ final class TopicLimits implements AutoCloseable {
         try {
             answers.get(FIRST_ANSWER.toMillis(), TimeUnit.MILLISECONDS);
         } catch (ExecutionException | TimeoutException e) {
-            LOG.debug("goes on without an answer, which may come later", e);
+            LOG.debug("continues without an answer, which may arrive later", e);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

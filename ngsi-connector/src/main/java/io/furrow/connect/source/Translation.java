@@ -6,12 +6,12 @@ import java.util.Optional;
 import io.furrow.model.ngsi.Reason;
 
 /**
- * What a notification becomes.
+ * The result of translating a notification.
  *
- * @param records entities and dead letters; all must be durable before the sender has its answer
- * @param refusal why the sender is told that its request is wrong; empty if anything in it could be used
+ * @param records entities and dead letters; all must be durable before the sender is answered
+ * @param refusal the reason for an error answer; empty if any part of the notification could be used
  */
-record Translation(List<OutgoingRecord> records, Optional<Refusal> refusal) {
-    /** Why a whole notification was set aside. */
-    record Refusal(Reason reason, String message) {}
+public record Translation(List<OutgoingRecord> records, Optional<Refusal> refusal) {
+    /** The reason why a whole notification was rejected. */
+    public record Refusal(Reason reason, String message) {}
 }

@@ -5,7 +5,7 @@ import java.util.concurrent.atomic.AtomicBoolean;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** Says once that notifications come without {@code dateModified}; any thread. */
+/** Logs once that notifications arrive without {@code dateModified}. Thread-safe. */
 final class UndatedReport {
     private static final Logger LOG = LoggerFactory.getLogger(UndatedReport.class);
 
@@ -15,9 +15,9 @@ final class UndatedReport {
     void note(String source) {
         if (!told.get() && told.compareAndSet(false, true)) {
             LOG.warn(
-                    "Notifications of {} carry no dateModified: a change back to an earlier value under the same time of the device"
-                            + " has the id of the earlier event, and readers drop it as a repeat. Name dateModified in the"
-                            + " notification's attrs, as in [\"*\", \"dateModified\"]",
+                    "Notifications of {} carry no dateModified: a change back to an earlier value under the same time"
+                            + " of the device has the id of the earlier event, and readers drop it as a duplicate. Add"
+                            + " dateModified to the notification's attrs, as in [\"*\", \"dateModified\"]",
                     source);
         }
     }

@@ -5,10 +5,11 @@ import java.util.List;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * What a notification carries.
+ * The content of a notification.
  *
  * @param attrs in this order, {@code *} and built-in ones among them
- * @param metadata of each attribute, {@code *} for all of its own and built-in ones among them; empty for all of its own
+ * @param metadata of each attribute, {@code *} for all of its own and built-in ones among them; empty for all of
+ *     its own
  * @param format {@code normalized}, {@code keyValues}, {@code simplifiedNormalized} or {@code simplifiedKeyValues}
  * @param onlyChanged only the attributes that changed
  */
@@ -23,7 +24,7 @@ public record Content(List<String> attrs, List<String> metadata, String format, 
         this(attrs, List.of(), format, onlyChanged);
     }
 
-    /** Whether a notification says which subscription it is of. */
+    /** Whether a notification names its subscription. */
     public boolean namesItsSubscription() {
         return !format.startsWith("simplified");
     }

@@ -6,11 +6,13 @@ import java.util.OptionalLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.model.time.Instants;
+
 /**
- * What the context broker says became of the notifications of a subscription.
+ * The delivery statistics of a subscription, as reported by the context broker.
  *
- * @param timesSent notifications begun, failed ones among them; 0 where it says nothing, empty where it is no number
- * @param failsInARow refused connections and answers that did not come in time, since the last success
+ * @param timesSent notifications begun, including failed ones; 0 if not reported, empty if not a number
+ * @param failsInARow refused connections and late answers since the last success
  * @param lastFailure to the second
  * @param lastSuccess to the second
  */
@@ -25,8 +27,8 @@ public record DeliveryReport(
         return new DeliveryReport(
                 count(notification.path("timesSent")),
                 notification.path("failsCounter").asLong(),
-                BrokerTime.parse(notification.path("lastFailure").asText()),
-                BrokerTime.parse(notification.path("lastSuccess").asText()));
+                Instants.ofText(notification.path("lastFailure").asText()),
+                Instants.ofText(notification.path("lastSuccess").asText()));
     }
 
     private static OptionalLong count(JsonNode number) {

@@ -1,16 +1,16 @@
 package io.furrow.connect.subscription;
 
 /**
- * The part of all entity ids that one of several tasks is notified of: those that end in certain letters and digits; the last
- * part also takes the ids that end in any other sign. The parts are disjoint and cover every id, so each entity has one task,
- * which keeps its order.
+ * The part of all entity ids of which one of several tasks is notified: the ids that end in certain letters and digits;
+ * the last part also includes the ids that end in any other character. The parts are disjoint and cover every id, so
+ * each entity has one task, which preserves its order.
  *
  * @param index from 0
- * @param count at most {@value #MOST}
+ * @param count at most {@value #MAX}
  */
 public record IdShare(int index, int count) {
     /** There are no more letters and digits to divide. */
-    public static final int MOST = 36;
+    public static final int MAX = 36;
 
     /** Every id. */
     public static final IdShare ALL = new IdShare(0, 1);
@@ -19,7 +19,7 @@ public record IdShare(int index, int count) {
     private static final String SIGNS = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
     public IdShare {
-        if (count < 1 || count > MOST || index < 0 || index >= count) {
+        if (count < 1 || count > MAX || index < 0 || index >= count) {
             throw new IllegalArgumentException("no part of ids: " + index + " of " + count);
         }
     }

@@ -9,16 +9,16 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * Which changes of which entities are wanted.
+ * Selects the entities and changes of a subscription.
  *
  * @param idPattern a regular expression that is found in the id
  * @param types exact types; empty for any, or for those of the pattern
  * @param typePattern a regular expression that is found in the type; only without types
- * @param alterationTypes as Orion has them since 3.7; empty for its default, entityCreate and entityChange
+ * @param alterationTypes as in Orion since 3.7; empty for its default, entityCreate and entityChange
  */
 public record Subject(
         String idPattern, List<String> types, Optional<String> typePattern, List<String> alterationTypes) {
-    /** Everything that Orion tells of by itself. */
+    /** All changes that Orion notifies by default. */
     public static final Subject ANY = new Subject(".*", List.of(), Optional.empty(), List.of());
 
     public Subject {
@@ -29,7 +29,7 @@ public record Subject(
         }
     }
 
-    /** Whether an entity is one of these, as far as id and type tell. */
+    /** Whether an entity is selected, by id and type. */
     public boolean covers(String id, String type) {
         boolean ofType = types.isEmpty()
                 ? typePattern.map(pattern -> found(pattern, type)).orElse(true)

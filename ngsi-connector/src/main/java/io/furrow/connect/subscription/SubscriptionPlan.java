@@ -16,15 +16,16 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * What has to be done so that the context broker has exactly the wanted subscription.
+ * The steps after which the context broker has exactly the desired subscription.
  *
- * <p>Ours is the one with our description; of several the one with our address, else the first. The others with our description
- * are removed: each would deliver every change once more. Subscriptions of an earlier number of tasks are removed by the first
- * task, once those of all tasks are there.
+ * <p>The own subscription is the one with our description; of several the one with our address, else the first. The
+ * others with our description are removed: each would deliver every change once more. Subscriptions of an earlier
+ * number of tasks are removed by the first task, once those of all tasks exist.
  *
- * @param current ours as the context broker shows it; empty where it has to be made
- * @param steps in this order; empty where all is well
- * @param leftovers subscriptions of an earlier number of tasks, which may have been notified of what is ours now
+ * @param current the own subscription in the context broker; empty if it has to be created
+ * @param steps in this order; empty if nothing has to be changed
+ * @param leftovers subscriptions of an earlier number of tasks, which may have been notified of changes that are
+ *     ours now
  */
 record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonNode> leftovers) {
     /** One request. */
@@ -32,10 +33,10 @@ record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonN
         /** {@code POST} of a new subscription. */
         record Create(ObjectNode json) implements Step {}
 
-        /** {@code PATCH} of ours; {@code members} says what differs, for people. */
+        /** {@code PATCH} of the own subscription; {@code members} names the differences, for messages. */
         record Change(String id, ObjectNode json, Set<String> members) implements Step {}
 
-        /** {@code DELETE} of one too many. */
+        /** {@code DELETE} of a superfluous subscription. */
         record Remove(String id, String description) implements Step {}
     }
 
@@ -112,7 +113,7 @@ record SubscriptionPlan(Optional<JsonNode> current, List<Step> steps, List<JsonN
         return names;
     }
 
-    /** Defaults filled in, so that what a context broker adds when it shows a subscription makes no difference. */
+    /** Defaults filled in, so that members that a context broker adds make no difference. */
     private static Map<String, Object> subject(JsonNode subscription) {
         JsonNode subject = subscription.path("subject");
         Set<Map<String, String>> entities = new java.util.HashSet<>();

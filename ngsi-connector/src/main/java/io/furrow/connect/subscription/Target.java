@@ -8,11 +8,11 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * Where notifications are sent.
+ * The receiver of notifications.
  *
- * @param url of the source, as the context broker reaches it
- * @param headers sent besides the usual ones, a secret among them
- * @param maxFails failures in a row after which the context broker gives up; empty for never
+ * @param url of the source, as reached by the context broker
+ * @param headers sent besides the usual ones, including a secret
+ * @param maxFails failures in a row after which the context broker stops; empty for never
  */
 public record Target(String url, Map<String, String> headers, Optional<Integer> maxFails) {
     public Target {

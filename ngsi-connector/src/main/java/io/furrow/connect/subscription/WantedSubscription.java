@@ -9,11 +9,13 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.time.Instants;
+
 /**
- * A subscription as it should be.
+ * The desired state of a subscription.
  *
- * @param name what it is found again by; all tasks of a connector share its {@code base}
- * @param pace how often it tells, and how long it lives
+ * @param name by which it is found again; all tasks of a connector share its {@code base}
+ * @param pace how often it notifies, and when it expires
  */
 public record WantedSubscription(Name name, Subject subject, Content content, Target target, Pace pace) {
     /**
@@ -24,7 +26,7 @@ public record WantedSubscription(Name name, Subject subject, Content content, Ta
     public record Name(String base, IdShare share, String servicePath) {
         private static final String EVERYWHERE = "/#";
 
-        /** The text that is kept in the context broker. */
+        /** The description that is stored in the context broker. */
         public String text() {
             return text(share.label());
         }
@@ -33,7 +35,7 @@ public record WantedSubscription(Name name, Subject subject, Content content, Ta
             return base + " " + label + (servicePath.equals(EVERYWHERE) ? "" : " " + servicePath);
         }
 
-        /** Whether a description is one of ours for the same number of tasks. */
+        /** Whether a description belongs to this connector with the same number of tasks. */
         boolean isSibling(String description) {
             for (int i = 0; i < share.count(); i++) {
                 if (description.equals(text(new IdShare(i, share.count()).label()))) {
@@ -43,7 +45,7 @@ public record WantedSubscription(Name name, Subject subject, Content content, Ta
             return false;
         }
 
-        /** Whether a description is one of ours for another number of tasks. */
+        /** Whether a description belongs to this connector with another number of tasks. */
         boolean isLeftover(String description) {
             String tail = servicePath.equals(EVERYWHERE) ? "" : " " + servicePath;
             if (!description.startsWith(base + " ") || !description.endsWith(tail)) {
@@ -56,15 +58,16 @@ public record WantedSubscription(Name name, Subject subject, Content content, Ta
     }
 
     /**
-     * @param throttling least time between two notifications, whole seconds; what changes meanwhile is not told at all
-     * @param expiry how long the subscription lives; empty for ever
+     * @param throttling minimum time between two notifications, whole seconds; changes in between are never
+     *     notified
+     * @param expiry lifetime of the subscription; empty for unlimited
      */
     public record Pace(Duration throttling, Optional<Duration> expiry) {
-        /** Every change, for ever. */
+        /** Every change, without expiry. */
         public static final Pace EVERY_CHANGE = new Pace(Duration.ZERO, Optional.empty());
     }
 
-    /** The body of a request that makes it. */
+    /** The body of a request that creates it. */
     ObjectNode json(Instant now) {
         ObjectNode json = JsonNodeFactory.instance.objectNode().put("description", name.text());
         json.set("subject", subject.json());
@@ -82,9 +85,9 @@ public record WantedSubscription(Name name, Subject subject, Content content, Ta
         return now.plus(life).truncatedTo(ChronoUnit.SECONDS).toString();
     }
 
-    /** Whether the end of a subscription as the context broker shows it is neither near nor further than wanted. */
+    /** Whether the expiry of a subscription in the context broker is neither near nor later than desired. */
     boolean lastsLongEnough(JsonNode shown, Instant now) {
-        Optional<Instant> end = BrokerTime.parse(shown.path("expires").asText(""));
+        Optional<Instant> end = Instants.ofText(shown.path("expires").asText(""));
         if (pace.expiry().isEmpty() || end.isEmpty()) {
             return pace.expiry().isEmpty() && end.isEmpty();
         }

@@ -1,2 +1,2 @@
-/** Keeps the source's own subscriptions in a context broker as they should be. Knows nothing of Connect. */
+/** Maintains the source's own subscriptions in a context broker. Independent of Connect. */
 package io.furrow.connect.subscription;

@@ -62,7 +62,7 @@ class BrokerOptionsTest {
         "context.broker.auth.header, Host",
         "context.broker.auth.header, two words",
         "context.broker.auth.token, ä",
-        "context.broker.truststore.location, /nowhere/store.p12"
+        "context.broker.ssl.truststore.location, /nowhere/store.p12"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {
         assertThatThrownBy(
@@ -105,8 +105,10 @@ class BrokerOptionsTest {
                             Map.of(
                                     BrokerOptions.TRUSTSTORE,
                                     trust.toString(),
-                                    BrokerOptions.TRUSTSTORE_PASSWORD,
-                                    "secret")))
+                                    trust.equals(pem)
+                                            ? BrokerOptions.TRUSTSTORE_TYPE
+                                            : BrokerOptions.TRUSTSTORE_PASSWORD,
+                                    trust.equals(pem) ? "PEM" : "secret")))
                     .isInstanceOf(Outcome.Done.class);
         } finally {
             server.stop(0);

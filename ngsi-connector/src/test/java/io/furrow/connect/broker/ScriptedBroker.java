@@ -29,7 +29,7 @@ import javax.net.ssl.SSLSession;
 
 /** A context broker without a network: it gives the answers of a script in their order, and then one that ends all asking. */
 public final class ScriptedBroker extends HttpClient {
-    private static final int MOST_REQUESTS = 10_000;
+    private static final int MAX_REQUESTS = 10_000;
 
     /** What was asked, with its body, and answered. */
     public record Exchange(String method, String path, byte[] body, Script.Reply reply) {
@@ -90,7 +90,7 @@ public final class ScriptedBroker extends HttpClient {
 
     @Override
     public <T> CompletableFuture<HttpResponse<T>> sendAsync(HttpRequest request, BodyHandler<T> handler) {
-        if (exchanges.size() == MOST_REQUESTS) {
+        if (exchanges.size() == MAX_REQUESTS) {
             throw new IllegalStateException("asks for ever");
         }
         String path = request.uri().getRawPath()

@@ -73,7 +73,7 @@ class ForeignBytesTest {
         try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
             assertThat(JournalTest.read(journal.reader(0))).containsExactly("0 aaaa", "3 dddd");
             assertThat(journal.lostRecords()).isEqualTo(2);
-            assertThat(journal.damages()).extracting(Damage::kind).contains(Damage.Kind.MISSING);
+            assertThat(journal.damages()).extracting(Corruption::kind).contains(Corruption.Kind.MISSING);
         }
     }
 

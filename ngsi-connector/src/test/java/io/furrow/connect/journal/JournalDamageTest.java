@@ -81,8 +81,8 @@ class JournalDamageTest {
                         .isEqualTo(expected(0, RECORDS - 1));
                 assertThat(journal.damages())
                         .as("cut at %d", length)
-                        .extracting(Damage::kind)
-                        .contains(Damage.Kind.TRUNCATED);
+                        .extracting(Corruption::kind)
+                        .contains(Corruption.Kind.TRUNCATED);
             }
         }
     }
@@ -178,7 +178,7 @@ class JournalDamageTest {
             assertThat(reader.lost()).isEqualTo(RECORDS - found.size()).isBetween(3L, 30L);
             assertThat(journal.lostRecords()).isEqualTo(reader.lost());
             assertThat(journal.lostBytes()).isGreaterThanOrEqualTo(1500);
-            assertThat(journal.damages()).extracting(Damage::kind).containsExactly(Damage.Kind.CORRUPT);
+            assertThat(journal.damages()).extracting(Corruption::kind).containsExactly(Corruption.Kind.CORRUPT);
         }
     }
 
@@ -195,7 +195,7 @@ class JournalDamageTest {
             all.addAll(expected((int) to, RECORDS));
             assertThat(JournalTest.read(journal.reader(0))).isEqualTo(all);
             assertThat(journal.damages()).singleElement().satisfies(damage -> {
-                assertThat(damage.kind()).isEqualTo(Damage.Kind.MISSING);
+                assertThat(damage.kind()).isEqualTo(Corruption.Kind.MISSING);
                 assertThat(damage.sequence()).isEqualTo(from);
                 assertThat(damage.records()).isEqualTo(to - from);
             });
@@ -212,7 +212,7 @@ class JournalDamageTest {
             JournalReader reader = journal.reader(0);
             List<String> found = JournalTest.read(reader);
             assertThat(reader.lost()).isEqualTo(RECORDS - found.size()).isPositive();
-            assertThat(journal.damages()).extracting(Damage::kind).contains(Damage.Kind.TRUNCATED);
+            assertThat(journal.damages()).extracting(Corruption::kind).contains(Corruption.Kind.TRUNCATED);
         }
     }
 
@@ -224,8 +224,8 @@ class JournalDamageTest {
         try (Journal journal = Journal.open(folder, SMALL).orElseThrow()) {
             assertThat(JournalTest.read(journal.reader(0))).isEqualTo(expected(0, RECORDS));
             assertThat(journal.damages())
-                    .extracting(Damage::kind, Damage::records)
-                    .contains(tuple(Damage.Kind.CORRUPT, 0L));
+                    .extracting(Corruption::kind, Corruption::records)
+                    .contains(tuple(Corruption.Kind.CORRUPT, 0L));
         }
     }
 

@@ -23,7 +23,7 @@ class LedgerTest {
         ledger.gauge("pending", "Records that wait", () -> 7);
         ledger.detail("journal", () -> JsonNodeFactory.instance.textNode("j1"));
 
-        assertThat(LedgerJson.of(ledger).toString())
+        assertThat(ledger.toJson().toString())
                 .contains("\"received\":3", "\"turnedAway\":0", "\"pending\":7", "\"journal\":\"j1\"");
     }
 
@@ -40,7 +40,7 @@ class LedgerTest {
                 .contains("furrow_ngsi_source_turned_away_total{connector=\"a \\\"b\\\"\",task=\"2\"} 3.0\n")
                 .contains("furrow_ngsi_source_pending_bytes{connector=\"a \\\"b\\\"\",task=\"2\"} 7.0\n");
         assertThat(page.lines().filter(line -> line.startsWith("# TYPE")))
-                .hasSize(ledger.counters().size() + 1);
+                .hasSize(ledger.all().size());
     }
 
     @Test
@@ -49,12 +49,12 @@ class LedgerTest {
         ledger.gauge("pendingBytes", "Bytes that wait", () -> 7);
         ObjectName name = new ObjectName("furrow.connect:type=ngsi-source,connector=farm,task=1");
 
-        try (LedgerBean shown = LedgerBean.show(ledger, "farm", 1)) {
+        try (LedgerBean shown = LedgerBean.show(ledger, "ngsi-source", "farm", 1)) {
             assertThat(shown).isNotNull();
             assertThat(beans.getAttribute(name, "turned-away-total")).isEqualTo(3L);
             assertThat(beans.getAttribute(name, "pending-bytes")).isEqualTo(7L);
             assertThat(beans.getMBeanInfo(name).getAttributes())
-                    .hasSize(ledger.counters().size() + 1);
+                    .hasSize(ledger.all().size());
             assertThatThrownBy(() -> beans.getAttribute(name, "nothing"))
                     .isInstanceOf(AttributeNotFoundException.class);
         }
@@ -69,8 +69,8 @@ class LedgerTest {
         ObjectName name = new ObjectName("furrow.connect:type=ngsi-source,connector=\"x,y=z\",task=0");
         ledger.received.add(9);
 
-        LedgerBean old = LedgerBean.show(left, "x,y=z", 0);
-        LedgerBean shown = LedgerBean.show(ledger, "x,y=z", 0);
+        LedgerBean old = LedgerBean.show(left, "ngsi-source", "x,y=z", 0);
+        LedgerBean shown = LedgerBean.show(ledger, "ngsi-source", "x,y=z", 0);
 
         assertThat(beans.getAttribute(name, "received-total")).isEqualTo(9L);
         old.close();

@@ -8,9 +8,9 @@ import java.net.http.HttpResponse;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.simulators.fiware.FiwareSettings;
-import io.furrow.simulators.fiware.FiwareStandIn;
 
 /** The context broker of the simulators, and a client of it for one tenant. */
 public final class Broker implements AutoCloseable {

@@ -9,8 +9,8 @@ import org.junit.jupiter.api.Test;
 import io.furrow.connect.repair.DeliveryBalance.Arrived;
 import io.furrow.connect.repair.DeliveryBalance.Verdict;
 import io.furrow.connect.subscription.DeliveryReport;
-import io.furrow.connect.subscription.Kept;
-import io.furrow.connect.subscription.Kept.State;
+import io.furrow.connect.subscription.SubscriptionStatus;
+import io.furrow.connect.subscription.SubscriptionStatus.State;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -47,7 +47,7 @@ class DeliveryBalanceTest {
     @Test
     void missesOneAmongManyThatGoOnComing() {
         look(sent(0, T), 0);
-        for (int i = 1; i < DeliveryBalance.MOST_UNBALANCED; i++) {
+        for (int i = 1; i < DeliveryBalance.MAX_UNBALANCED; i++) {
             assertThat(look(sent(100 * i, T.plusSeconds(10L * i)), 100 * i - 1)).isInstanceOf(Verdict.Open.class);
         }
 
@@ -116,12 +116,12 @@ class DeliveryBalanceTest {
         look(sent(5, T), 0);
 
         assertThat(look(kept(State.RESUMED, sent(5, T).report()), 0))
-                .isEqualTo(missing("the subscription did not tell us"));
+                .isEqualTo(missing("the subscription did not notify this source"));
         assertThat(look(kept(State.CREATED, DeliveryReport.NOTHING_SENT), 0))
-                .isEqualTo(missing("the subscription was gone"));
+                .isEqualTo(missing("the subscription was removed"));
     }
 
-    private Verdict look(Kept kept, long arrived) {
+    private Verdict look(SubscriptionStatus kept, long arrived) {
         return balance.look(kept, new Arrived(arrived, arrived));
     }
 
@@ -129,16 +129,17 @@ class DeliveryBalanceTest {
         return new Verdict.Missing(reason);
     }
 
-    private static Kept sent(long times, Instant at) {
+    private static SubscriptionStatus sent(long times, Instant at) {
         DeliveryReport report = new DeliveryReport(OptionalLong.of(times), 0, Optional.empty(), Optional.empty());
-        return new Kept("s", State.AT_WORK, report, at, Optional.empty());
+        return new SubscriptionStatus("s", State.AT_WORK, report, at, Optional.empty());
     }
 
-    private static Kept report(long times, long fails, Optional<Instant> lastFailure, Optional<Instant> lastSuccess) {
+    private static SubscriptionStatus report(
+            long times, long fails, Optional<Instant> lastFailure, Optional<Instant> lastSuccess) {
         return kept(State.AT_WORK, new DeliveryReport(OptionalLong.of(times), fails, lastFailure, lastSuccess));
     }
 
-    private static Kept kept(State state, DeliveryReport report) {
-        return new Kept("s", state, report, T.plusSeconds(10), Optional.empty());
+    private static SubscriptionStatus kept(State state, DeliveryReport report) {
+        return new SubscriptionStatus("s", state, report, T.plusSeconds(10), Optional.empty());
     }
 }

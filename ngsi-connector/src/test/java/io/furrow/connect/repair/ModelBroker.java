@@ -55,7 +55,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
         }
     }
 
-    /** What the subscription tells of one change. */
+    /** What the subscription reports one change. */
     record Told(String subscription, Stored entity, boolean gone) {}
 
     private static final long HOUR = 3_600_000;
@@ -87,7 +87,7 @@ final class ModelBroker implements Function<BrokerRequest, Outcome> {
     void put(String id, String type, String value) {
         Stored before = entities.get(id + " " + type);
         if (before == null) {
-            clock++; // what is deleted and made again within a millisecond cannot be told from what is not
+            clock++; // what is deleted and made again within a millisecond cannot be reported from what is not
         }
         Stored after = new Stored(id, type, value, before == null ? clock : before.created(), clock);
         entities.put(after.key(), after);

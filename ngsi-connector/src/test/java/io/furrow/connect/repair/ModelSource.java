@@ -17,6 +17,8 @@ import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.RepairSettings.Deletions;
 import io.furrow.connect.repair.RepairSettings.Reading;
+import io.furrow.connect.repair.entity.EntityRecord;
+import io.furrow.connect.repair.entity.EntityVersion;
 import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Subject;
@@ -70,8 +72,8 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     private final Topic topic;
     private final Ledger ledger = new Ledger();
     private final LiveEvents live;
-    private final Caretaker caretaker;
-    private Finding[] last = new Finding[0];
+    private final SubscriptionReconciler caretaker;
+    private MissedChange[] last = new MissedChange[0];
 
     ModelSource(Function<BrokerRequest, Outcome> broker, Path folder, Bounds bounds, Topic topic) throws IOException {
         this.topic = topic;
@@ -82,9 +84,10 @@ final class ModelSource implements RepairOutput, AutoCloseable {
                 RepairSettings.Mode.INITIAL,
                 new Reading(bounds.page(), bounds.pageBytes(), TIMES, List.of()),
                 new Deletions(1 << 20, bounds.deletions()));
-        Caretaker.Charge charge =
-                Caretaker.Charge.of(broker, new FiwareScope("agri", "/#"), WANTED, bounds.pageBytes());
-        caretaker = Caretaker.open(charge, settings, new Caretaker.Means(live, this, ledger));
+        SubscriptionReconciler.Target charge =
+                SubscriptionReconciler.Target.of(broker, new FiwareScope("agri", "/#"), WANTED, bounds.pageBytes());
+        caretaker = SubscriptionReconciler.open(
+                charge, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
         live.onStale(this::markStale);
     }
 
@@ -144,7 +147,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     }
 
     @Override
-    public byte[] serialize(String subscription, Finding finding) {
+    public byte[] serialize(String subscription, MissedChange finding) {
         last = java.util.Arrays.copyOf(last, last.length + 1);
         last[last.length - 1] = finding;
         return java.nio.ByteBuffer.allocate(4).putInt(last.length - 1).array();
@@ -153,12 +156,12 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     @Override
     public Optional<CompletableFuture<Void>> append(List<byte[]> records) {
         for (byte[] record : records) {
-            Finding finding = last[java.nio.ByteBuffer.wrap(record).getInt()];
-            if (finding instanceof Finding.Changed changed) {
+            MissedChange finding = last[java.nio.ByteBuffer.wrap(record).getInt()];
+            if (finding instanceof MissedChange.Changed changed) {
                 topic.changed(changed.event().entity());
-            } else if (finding instanceof Finding.Deleted deleted) {
+            } else if (finding instanceof MissedChange.Deleted deleted) {
                 topic.deleted(deleted.deletion().entityId());
-            } else if (finding instanceof Finding.Unreadable unreadable) {
+            } else if (finding instanceof MissedChange.Unreadable unreadable) {
                 topic.unreadable()
                         .put(
                                 unreadable.entityId() + " "

@@ -25,6 +25,7 @@ import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.RepairSettings.Deletions;
 import io.furrow.connect.repair.RepairSettings.Mode;
 import io.furrow.connect.repair.RepairSettings.Reading;
+import io.furrow.connect.repair.entity.EntityRecord;
 import io.furrow.connect.subscription.Content;
 import io.furrow.connect.subscription.IdShare;
 import io.furrow.connect.subscription.Subject;
@@ -59,8 +60,8 @@ final class PressedRepair {
         int[] counts = new int[2];
         RepairOutput output = new RepairOutput() {
             @Override
-            public byte[] serialize(String subscription, Finding finding) {
-                return finding instanceof Finding.Changed changed
+            public byte[] serialize(String subscription, MissedChange finding) {
+                return finding instanceof MissedChange.Changed changed
                         ? changed.event().entity().toBytes()
                         : new byte[1];
             }
@@ -83,10 +84,10 @@ final class PressedRepair {
                 Mode.INITIAL,
                 new Reading(500, 16L * MIB, EventTimeRule.within(Duration.ofDays(10_000)), List.of()),
                 new Deletions(BOUND, Duration.ofHours(1)));
-        try (Caretaker caretaker = Caretaker.open(
-                Caretaker.Charge.of(client::send, EVERYWHERE, wanted, 16L * MIB),
+        try (SubscriptionReconciler caretaker = SubscriptionReconciler.open(
+                SubscriptionReconciler.Target.of(client::send, EVERYWHERE, wanted, 16L * MIB),
                 settings,
-                new Caretaker.Means(live, output, new Ledger()))) {
+                new SubscriptionReconciler.SharedServices(live, output, new Ledger()))) {
             caretaker.look();
             System.out.printf("repaired %d dead %d%n", counts[0], counts[1]);
             for (int i = 0; i < 400_000; i++) {
@@ -100,7 +101,7 @@ final class PressedRepair {
         server.stop(0);
     }
 
-    private static void note(LiveEvents live, Caretaker caretaker, String id) throws IOException {
+    private static void note(LiveEvents live, SubscriptionReconciler caretaker, String id) throws IOException {
         FiwareScope place = new FiwareScope("agri", "/");
         live.append(
                 "s",

@@ -92,7 +92,7 @@ class RepairModelTest {
         if (!tellsDeletions) {
             restartSource();
         }
-        for (int looks = DeliveryBalance.MOST_UNBALANCED + 5; looks > 0; looks--) {
+        for (int looks = DeliveryBalance.MAX_UNBALANCED + 5; looks > 0; looks--) {
             broker.pass(1000);
             source.look();
         }

@@ -53,7 +53,7 @@ class KeylessTopicTest {
         assertThat(warnings.sentences)
                 .singleElement()
                 .asString()
-                .contains("Topic bare", "no key", "known.max.age.ms", "tasks.max=1");
+                .contains("Topic bare", "without key", "known.max.age.ms", "tasks.max=1");
     }
 
     @Test

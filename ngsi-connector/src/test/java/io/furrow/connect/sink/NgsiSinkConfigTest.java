@@ -49,7 +49,7 @@ class NgsiSinkConfigTest {
         "known.max.age.ms, -1",
         "retry.isolate.after, -1",
         "retry.refuse.after, -1",
-        "context.broker.truststore.location, /nowhere"
+        "context.broker.ssl.truststore.location, /nowhere"
     })
     void namesTheOptionThatCannotBeUsed(String option, String value) {
         Map<String, String> options = new HashMap<>(Map.of("context.broker.url", "http://orion:1026"));

@@ -17,11 +17,11 @@ import io.furrow.connect.broker.BrokerClient;
 import io.furrow.connect.broker.BrokerRequest;
 import io.furrow.connect.broker.BrokerSettings;
 import io.furrow.connect.broker.Outcome;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.simulators.fiware.FiwareSettings;
-import io.furrow.simulators.fiware.FiwareStandIn;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

@@ -106,7 +106,7 @@ class AccessTest {
 
     private static String ask(ReceptionRig rig, String head, String body) throws IOException {
         try (Socket socket = new Socket(InetAddress.getLoopbackAddress(), rig.port())) {
-            socket.setSoTimeout((int) ReceptionRig.PATIENCE.toMillis());
+            socket.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
             socket.getOutputStream()
                     .write((head + "Connection: close\r\n\r\n" + body).getBytes(StandardCharsets.UTF_8));
             socket.getOutputStream().flush();

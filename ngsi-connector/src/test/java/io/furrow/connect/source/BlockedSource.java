@@ -4,7 +4,7 @@ import java.util.HashMap;
 import java.util.Map;
 
 /**
- * A program: a source whose worker asks for nothing, as while Kafka is away, with a small journal that is soon full. It prints
+ * A program: a source whose worker asks for nothing, as while Kafka is unavailable, with a small journal that is soon full. It prints
  * its port and runs until its input ends. Arguments: the journal's folder, and options as {@code name=value}.
  */
 public final class BlockedSource {

@@ -7,6 +7,9 @@ import java.util.List;
 import java.util.Map;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.source.http.Answer;
+import io.furrow.connect.source.http.ReceivedNotification;
+import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
@@ -54,7 +57,7 @@ public final class FuzzBodies {
     }
 
     private static void check(OutgoingRecord record) throws UnreadableException {
-        OutgoingRecord kept = RecordForm.read(RecordForm.write(record));
+        OutgoingRecord kept = JournalRecordCodec.read(JournalRecordCodec.write(record));
         require(Arrays.equals(kept.value(), record.value()), "the value changed in the journal");
         require(java.util.Objects.equals(kept.key(), record.key()), "the key changed in the journal");
         require(kept.headers().equals(record.headers()), "the headers changed in the journal");

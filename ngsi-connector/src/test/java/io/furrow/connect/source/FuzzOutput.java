@@ -9,8 +9,9 @@ import java.util.Set;
 import java.util.concurrent.CompletableFuture;
 
 import io.furrow.connect.ledger.Ledger;
-import io.furrow.connect.repair.Finding;
+import io.furrow.connect.repair.MissedChange;
 import io.furrow.connect.repair.RepairOutput;
+import io.furrow.connect.source.journal.JournalRecordCodec;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -27,13 +28,13 @@ public final class FuzzOutput implements RepairOutput {
     private final RepairedRecords records = new RepairedRecords(SETTINGS, null, new Ledger());
 
     @Override
-    public byte[] serialize(String subscription, Finding finding) {
+    public byte[] serialize(String subscription, MissedChange finding) {
         return records.serialize(subscription, finding);
     }
 
     @Override
     public Optional<CompletableFuture<Void>> append(List<byte[]> serialized) {
-        serialized.forEach(bytes -> note(RecordForm.read(bytes)));
+        serialized.forEach(bytes -> note(JournalRecordCodec.read(bytes)));
         return Optional.of(CompletableFuture.completedFuture(null));
     }
 

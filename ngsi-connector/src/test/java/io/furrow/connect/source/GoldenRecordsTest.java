@@ -19,6 +19,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.source.http.ReceivedNotification;
 
 import static org.assertj.core.api.Assertions.assertThat;
 

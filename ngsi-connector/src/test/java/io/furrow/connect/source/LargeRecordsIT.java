@@ -26,6 +26,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
+import io.furrow.embedded.FreePort;
 import io.furrow.model.event.DeadLetter;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -55,8 +56,8 @@ class LargeRecordsIT {
 
     @Test
     void becomeDeadLettersWhereTheTopicTakesLessThanTheProducer() throws Exception {
-        make(admin, "narrow", MIB);
-        make(admin, "narrow.dead", MIB);
+        make(rig, "narrow", MIB);
+        make(rig, "narrow.dead", MIB);
         SourceOnConnect source = create(rig, "narrow", "ngsi-source-subscribing", Map.of("context.broker.url", ""));
 
         post(source, "large", LARGE);
@@ -70,10 +71,9 @@ class LargeRecordsIT {
     @Test
     void becomeDeadLettersExactlyOnceToo() throws Exception {
         Map<String, String> exactlyOnce = Map.of("exactly.once.source.support", "enabled");
-        try (ConnectRig other = ConnectRig.start(directory.resolve("once"), exactlyOnce);
-                Admin topics = Admin.create(Map.of("bootstrap.servers", other.bootstrapServers()))) {
-            make(topics, "once", MIB);
-            make(topics, "once.dead", MIB);
+        try (ConnectRig other = ConnectRig.start(directory.resolve("once"), exactlyOnce)) {
+            make(other, "once", MIB);
+            make(other, "once.dead", MIB);
             SourceOnConnect source = create(other, "once", "ngsi-source-exactly-once", Map.of("tasks.max", "1"));
 
             post(source, "large", LARGE);
@@ -85,8 +85,8 @@ class LargeRecordsIT {
 
     @Test
     void becomeDeadLettersWhereTheLimitWasLoweredWhileTheyWaited() throws Exception {
-        make(admin, "lowered", "16777216");
-        make(admin, "lowered.dead", "16777216");
+        make(rig, "lowered", "16777216");
+        make(rig, "lowered.dead", "16777216");
         SourceOnConnect source = create(rig, "lowered", "ngsi-source-subscribing", Map.of("context.broker.url", ""));
         rig.pause("lowered");
         post(source, "large", LARGE);
@@ -101,7 +101,7 @@ class LargeRecordsIT {
 
     @Test
     void becomeDeadLettersWhereNothingIsKnownOfTheTopic() throws Exception {
-        make(admin, "default", MIB);
+        make(rig, "default", MIB);
         SourceOnConnect source =
                 create(rig, "default", "ngsi-source", Map.of("producer.override.max.request.size", "16777216"));
 
@@ -123,7 +123,7 @@ class LargeRecordsIT {
     }
 
     private static SourceOnConnect create(ConnectRig rig, String topic, String example, Map<String, String> options) {
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         Map<String, String> all = new HashMap<>(Map.of("topic", topic, "listen.port", Integer.toString(port)));
         all.putAll(options);
         rig.create(topic, example, all);
@@ -155,11 +155,9 @@ class LargeRecordsIT {
                 .isEqualTo(200);
     }
 
-    private static void make(Admin admin, String topic, String maxBytes) throws Exception {
+    private static void make(ConnectRig rig, String topic, String maxBytes) {
         NewTopic wanted = new NewTopic(topic, Optional.of(1), Optional.empty());
-        admin.createTopics(List.of(wanted.configs(Map.of("max.message.bytes", maxBytes))))
-                .all()
-                .get(60, TimeUnit.SECONDS);
+        rig.createTopic(wanted.configs(Map.of("max.message.bytes", maxBytes)));
     }
 
     private static void lower(String topic) throws Exception {

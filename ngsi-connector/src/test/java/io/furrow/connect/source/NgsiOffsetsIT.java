@@ -25,6 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
+import io.furrow.embedded.FreePort;
 import io.furrow.model.event.HeaderNames;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -221,7 +222,7 @@ class NgsiOffsetsIT {
     }
 
     private static SourceOnConnect create(String name) {
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         rig.create(name, "ngsi-source-exactly-once", options(name, port));
         SourceOnConnect source = new SourceOnConnect(port);
         source.awaitListening();
@@ -233,7 +234,7 @@ class NgsiOffsetsIT {
     }
 
     private static int twoFreePorts() {
-        return Stream.generate(ConnectRig::freePort)
+        return Stream.generate(() -> FreePort.orFree(0))
                 .filter(port -> ConnectRig.isFree(port + 1))
                 .findFirst()
                 .orElseThrow();

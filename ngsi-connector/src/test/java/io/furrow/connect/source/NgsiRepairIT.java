@@ -20,22 +20,23 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
 import io.furrow.connect.repair.Broker;
+import io.furrow.embedded.FreePort;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareSettings.Connections;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.simulators.fiware.FiwareSettings;
-import io.furrow.simulators.fiware.FiwareSettings.Connections;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
-/** A real worker beside the context broker of the simulators, which connects anew for each notification. */
+/** A real worker beside the context broker of the simulators, which connects again for each notification. */
 class NgsiRepairIT {
     private static final String NAME = "ngsi-source";
     private static final int ENTITIES = 500;
     private static final int UPDATES = 20_000;
     private static final int BATCH = 100;
     private static final int DELETED = 10;
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     @TempDir
     static Path directory;
@@ -61,15 +62,15 @@ class NgsiRepairIT {
 
     @Test
     void bringsTheLatestStateOfAllEntitiesThatChangedWhileItWasDown() {
-        source("repaired", ConnectRig.freePort());
+        source("repaired", FreePort.orFree(0));
         Map<String, Integer> state = new HashMap<>();
         List<Integer> all =
                 java.util.stream.IntStream.range(0, ENTITIES).boxed().toList();
         update(all.subList(0, ENTITIES / 2), 0, state);
         update(all.subList(ENTITIES / 2, ENTITIES), 0, state);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "repaired")) {
-            await().atMost(PATIENCE).until(() -> latest(reader.atLeast(1)).equals(state));
-            await().atMost(PATIENCE).until(() -> broker.standIn().counters().notificationsQueued() == 0);
+            await().atMost(TIMEOUT).until(() -> latest(reader.atLeast(1)).equals(state));
+            await().atMost(TIMEOUT).until(() -> broker.standIn().counters().notificationsQueued() == 0);
             rig.stop(NAME);
             long seed = changeWhileDown(state);
             assertThat(subscription().path("status").asText()).isEqualTo("inactive");
@@ -77,7 +78,7 @@ class NgsiRepairIT {
             rig.resume(NAME);
 
             List<ConsumerRecord<String, byte[]>> seen = new ArrayList<>();
-            await().atMost(PATIENCE).untilAsserted(() -> {
+            await().atMost(TIMEOUT).untilAsserted(() -> {
                 seen.clear();
                 seen.addAll(reader.atLeast(1));
                 assertThat(latest(seen)).as("changes of seed %d", seed).isEqualTo(state);
@@ -96,7 +97,7 @@ class NgsiRepairIT {
             await().until(() -> subscription().path("status").asText().equals("active"));
 
             broker.put("/", "e77", "Probe", -1);
-            await().atMost(PATIENCE)
+            await().atMost(TIMEOUT)
                     .until(() -> reader.atLeast(1).stream()
                             .anyMatch(record -> record.key().equals("e77") && value(record) == -1));
         }
@@ -104,15 +105,15 @@ class NgsiRepairIT {
 
     @Test
     void hasOneSubscriptionThroughRestartsAndMovesAndMakesItAgainWhenItIsRemoved() {
-        source("kept", ConnectRig.freePort());
+        source("kept", FreePort.orFree(0));
         await().until(() -> broker.subscriptions().size() == 1);
         String id = subscription().path("id").asText();
 
         rig.restart(NAME);
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         source("kept", port);
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .until(() -> subscription()
                         .at("/notification/httpCustom/url")
                         .asText()
@@ -120,7 +121,7 @@ class NgsiRepairIT {
         assertThat(subscription().path("id").asText()).isEqualTo(id);
         broker.send("DELETE", "/v2/subscriptions/" + id, "/#", "");
         broker.put("/", "unnoticed", "Probe", 1);
-        await().atMost(PATIENCE).until(() -> broker.subscriptions().size() == 1);
+        await().atMost(TIMEOUT).until(() -> broker.subscriptions().size() == 1);
         try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "kept")) {
             assertThat(reader.atLeast(1))
                     .anySatisfy(record -> assertThat(record.key()).isEqualTo("unnoticed"));
@@ -142,7 +143,7 @@ class NgsiRepairIT {
                         "subscription.alteration.types", "entityCreate,entityChange,entityDelete",
                         "subscription.max.fails", "5",
                         "subscription.check.interval.ms", "3000"));
-        await().atMost(PATIENCE).until(() -> !broker.subscriptions().isEmpty());
+        await().atMost(TIMEOUT).until(() -> !broker.subscriptions().isEmpty());
     }
 
     /** Answers the seed of the changes. */

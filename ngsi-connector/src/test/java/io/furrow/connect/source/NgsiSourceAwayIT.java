@@ -16,12 +16,13 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
+import io.furrow.embedded.FreePort;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 class NgsiSourceAwayIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(90);
+    private static final Duration TIMEOUT = Duration.ofSeconds(90);
     private static final int NO_ANSWER = 0;
 
     private final HttpClient client =
@@ -30,20 +31,20 @@ class NgsiSourceAwayIT {
     @Test
     void takesNotificationsWhileKafkaIsAwayAndWritesThemWhenItIsBack(@TempDir Path directory)
             throws InterruptedException {
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         URI source = URI.create("http://127.0.0.1:" + port + "/notify");
         try (ConnectRig rig = ConnectRig.start(directory)) {
             rig.create("ngsi-source", Map.of("listen.port", Integer.toString(port)));
-            await().atMost(PATIENCE).until(() -> post(source, "before") == 200);
+            await().atMost(TIMEOUT).until(() -> post(source, "before") == 200);
 
             rig.stopKafka();
             int whileAway = post(source, "meanwhile");
             rig.startKafka();
 
             assertThat(whileAway).isEqualTo(200);
-            await().atMost(PATIENCE).until(() -> post(source, "after") == 200);
+            await().atMost(TIMEOUT).until(() -> post(source, "after") == 200);
             try (TopicReader reader = new TopicReader(rig.bootstrapServers(), "data.raw")) {
-                await().atMost(PATIENCE)
+                await().atMost(TIMEOUT)
                         .untilAsserted(() -> assertThat(reader.atLeast(3))
                                 .extracting(ConsumerRecord::key)
                                 .contains("before", "meanwhile", "after"));

@@ -14,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
+import io.furrow.embedded.FreePort;
 import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -39,7 +40,7 @@ class NgsiSourceConvertersIT {
 
     @Test
     void writesTransformedStructsAsJson() throws Exception {
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         Map<String, String> options = new HashMap<>(Map.of(
                 "topic", "structs",
                 "listen.port", Integer.toString(port),

@@ -25,6 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
 import io.furrow.connect.TopicReader;
+import io.furrow.embedded.FreePort;
 import io.furrow.model.event.DeadLetter;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -166,7 +167,7 @@ class NgsiSourceIT {
     }
 
     private void listen(String topic) {
-        int port = ConnectRig.freePort();
+        int port = FreePort.orFree(0);
         rig.create(
                 "ngsi-source",
                 Map.of(

@@ -10,11 +10,12 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.connect.ConnectRig;
+import io.furrow.embedded.FreePort;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 class NgsiSourceTaskTest {
-    private final int port = ConnectRig.freePort();
+    private final int port = FreePort.orFree(0);
     private final SourceOnConnect source = new SourceOnConnect(port);
     private final Offsets offsets = new Offsets();
 

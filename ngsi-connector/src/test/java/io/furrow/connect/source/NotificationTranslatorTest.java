@@ -10,6 +10,7 @@ import java.util.regex.Pattern;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.source.http.ReceivedNotification;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.EventTimeRule;
 import io.furrow.model.event.FiwareScope;

@@ -14,6 +14,8 @@ import java.util.concurrent.CompletableFuture;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.connect.source.journal.RecordLog;
+
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
@@ -45,7 +47,7 @@ class OverloadTest {
 
             assertThat(rig.ledger.late.sum()).isEqualTo(1);
             assertThat(rig.ledger.turnedAway.sum()).isZero();
-            durable.completeExceptionally(new Intake.ClosedException());
+            durable.completeExceptionally(new RecordLog.ClosedException());
             assertThat(rig.ledger.turnedAway.sum()).isEqualTo(1);
         }
     }
@@ -54,7 +56,7 @@ class OverloadTest {
     void countsTheHoldFromTheEndOfTheBody() throws IOException {
         try (ReceptionRig rig = new ReceptionRig("overload.hold.ms", "2000");
                 Socket slow = new Socket("127.0.0.1", rig.port())) {
-            slow.setSoTimeout((int) ReceptionRig.PATIENCE.toMillis());
+            slow.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
             slow.getOutputStream()
                     .write("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 11\r\n\r\n{".getBytes());
             // The rest takes longer than the sender may be held, and the records then take a moment.
@@ -89,7 +91,7 @@ class OverloadTest {
     @Test
     void answersUnavailableWhenTheSourceStops() {
         try (ReceptionRig rig = new ReceptionRig("overload.answer", "503")) {
-            rig.intake.answer = Optional.of(CompletableFuture.failedFuture(new Intake.ClosedException()));
+            rig.intake.answer = Optional.of(CompletableFuture.failedFuture(new RecordLog.ClosedException()));
 
             assertThat(rig.post(ENTITY).join().statusCode()).isEqualTo(503);
         }

@@ -15,14 +15,16 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
-import io.furrow.connect.ConnectRig;
 import io.furrow.connect.journal.Journal;
 import io.furrow.connect.journal.JournalReader;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.Broker;
+import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.journal.JournalRecordLog;
+import io.furrow.embedded.FreePort;
+import io.furrow.fiware.FiwareSettings;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.simulators.fiware.FiwareSettings;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -62,12 +64,12 @@ class OwnSubscriptionsTest {
 
     @Test
     void areLeftToOthersWhileTheSourceHasNoTask() {
-        NgsiSourceConfig config = config(Map.of(
-                "listen.port", Integer.toString(ConnectRig.freePort()), "subscription.check.interval.ms", "200"));
-        RunningSource source = RunningSource.open(config, journal -> OptionalLong.empty());
+        NgsiSourceConfig config = config(
+                Map.of("listen.port", Integer.toString(FreePort.orFree(0)), "subscription.check.interval.ms", "200"));
+        SourceRuntime source = SourceRuntime.open(config, journal -> OptionalLong.empty());
         await().until(() -> broker.subscriptions().size() == 1);
 
-        Standby.enter(config, source);
+        source.detach();
         await().until(() -> {
             removeAll();
             return broker.subscriptions().isEmpty();
@@ -79,7 +81,7 @@ class OwnSubscriptionsTest {
             return none;
         });
 
-        RunningSource resumed = Standby.leave(config).orElseThrow();
+        SourceRuntime resumed = SourceRuntime.attach(config).orElseThrow();
         try {
             await().until(() -> broker.subscriptions().size() == 1);
         } finally {
@@ -98,14 +100,14 @@ class OwnSubscriptionsTest {
                                 Files.createDirectory(directory.resolve("own")), config.journalSettings())
                         .orElseThrow();
                 OwnSubscriptions own = OwnSubscriptions.of(config, ledger)) {
-            own.start(rig.port(), new JournaledIntake(journal, ledger));
+            own.start(rig.port(), new JournalRecordLog(journal, ledger));
             await().until(() -> ledger.repaired.sum() == 1);
             create("after");
             await().until(() -> !rig.intake.taken.isEmpty());
 
             try (JournalReader reader = journal.reader(0)) {
                 byte[] repaired = reader.read(1, 1 << 20, Duration.ZERO).get(0).payload();
-                assertThat(metadata(RecordForm.read(repaired))).containsExactly("TimeInstant", "dateModified");
+                assertThat(metadata(JournalRecordCodec.read(repaired))).containsExactly("TimeInstant", "dateModified");
             }
             assertThat(metadata(rig.intake.taken.remove().get(0))).containsExactly("TimeInstant", "dateModified");
         }
@@ -136,7 +138,7 @@ class OwnSubscriptionsTest {
         try (Journal journal = Journal.open(Files.createDirectory(directory.resolve("own")), config.journalSettings())
                         .orElseThrow();
                 OwnSubscriptions own = OwnSubscriptions.of(config, ledger)) {
-            own.start(8091, new JournaledIntake(journal, ledger));
+            own.start(8091, new JournalRecordLog(journal, ledger));
             await().until(() -> broker.subscriptions().size() == 1);
         }
         return broker.subscriptions().get(0).at("/notification/httpCustom");

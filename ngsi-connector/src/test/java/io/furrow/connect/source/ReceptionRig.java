@@ -17,15 +17,16 @@ import java.util.concurrent.CompletableFuture;
 import java.util.concurrent.LinkedBlockingQueue;
 
 import io.furrow.connect.ledger.Ledger;
+import io.furrow.connect.source.journal.RecordLog;
 
 /** A reception on a free port, whose intake does what the test says. */
-final class ReceptionRig implements AutoCloseable {
-    static final Duration PATIENCE = Duration.ofSeconds(60);
+public final class ReceptionRig implements AutoCloseable {
+    static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     /** Keeps what it is given; what it says of its durability is the test's. */
-    static final class FakeIntake implements Intake {
-        final BlockingQueue<List<OutgoingRecord>> taken = new LinkedBlockingQueue<>();
-        volatile Optional<CompletableFuture<Void>> answer = Optional.of(CompletableFuture.completedFuture(null));
+    public static final class FakeIntake implements RecordLog {
+        public final BlockingQueue<List<OutgoingRecord>> taken = new LinkedBlockingQueue<>();
+        public volatile Optional<CompletableFuture<Void>> answer = Optional.of(CompletableFuture.completedFuture(null));
 
         @Override
         public Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
@@ -37,37 +38,37 @@ final class ReceptionRig implements AutoCloseable {
         }
     }
 
-    final FakeIntake intake = new FakeIntake();
+    public final FakeIntake intake = new FakeIntake();
     final Ledger ledger = new Ledger();
     final HttpClient client = HttpClient.newHttpClient();
-    private Reception reception;
+    private NotificationEndpoint reception;
 
     /** Starts with options; given as name, value, name, value. */
-    ReceptionRig(String... options) {
+    public ReceptionRig(String... options) {
         reception = open(0, options);
     }
 
-    Reception open(int port, String... options) {
-        return open(port, PATIENCE, options);
+    public NotificationEndpoint open(int port, String... options) {
+        return open(port, TIMEOUT, options);
     }
 
-    Reception open(int port, Duration patience, String... options) {
+    public NotificationEndpoint open(int port, Duration timeout, String... options) {
         Map<String, String> all =
                 new HashMap<>(Map.of("listen.port", Integer.toString(port), "journal.dir", "/tmp/journal"));
         for (int i = 0; i < options.length; i += 2) {
             all.put(options[i], options[i + 1]);
         }
-        return Reception.open(new NgsiSourceConfig(all), intake, ledger, patience);
+        return NotificationEndpoint.open(new NgsiSourceConfig(all), intake, ledger, timeout);
     }
 
     /** Another one in its place, on the same port. */
-    void replace(String... options) {
+    public void replace(String... options) {
         int port = port();
         reception.close();
         reception = open(port, options);
     }
 
-    int port() {
+    public int port() {
         return reception.port();
     }
 
@@ -75,26 +76,26 @@ final class ReceptionRig implements AutoCloseable {
         return reception.healthPort().orElseThrow();
     }
 
-    URI uri(String path) {
+    public URI uri(String path) {
         return URI.create("http://127.0.0.1:" + port() + path);
     }
 
-    CompletableFuture<HttpResponse<String>> post(String body) {
+    public CompletableFuture<HttpResponse<String>> post(String body) {
         return post("/v2/notify", BodyPublishers.ofString(body));
     }
 
-    CompletableFuture<HttpResponse<String>> post(String path, BodyPublisher body, String... headers) {
+    public CompletableFuture<HttpResponse<String>> post(String path, BodyPublisher body, String... headers) {
         HttpRequest.Builder request =
-                HttpRequest.newBuilder(uri(path)).timeout(PATIENCE).POST(body);
+                HttpRequest.newBuilder(uri(path)).timeout(TIMEOUT).POST(body);
         return send(
                 headers.length == 0 ? request.build() : request.headers(headers).build());
     }
 
-    CompletableFuture<HttpResponse<String>> get(String path) {
+    public CompletableFuture<HttpResponse<String>> get(String path) {
         return send(HttpRequest.newBuilder(uri(path)).build());
     }
 
-    CompletableFuture<HttpResponse<String>> send(HttpRequest request) {
+    public CompletableFuture<HttpResponse<String>> send(HttpRequest request) {
         return client.sendAsync(request, BodyHandlers.ofString());
     }
 

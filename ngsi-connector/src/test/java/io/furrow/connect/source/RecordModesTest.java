@@ -16,6 +16,8 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.connect.journal.JournalRecord;
+import io.furrow.connect.source.journal.JournalRecordCodec;
+import io.furrow.connect.source.journal.TaskJournals;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
@@ -121,8 +123,8 @@ class RecordModesTest {
                         Map.of("journal.dir", "/tmp/journal", "key.mode", keyMode, "value.mode", valueMode))
                 .records()
                 .records();
-        JournalRecord kept = new JournalRecord(3, RecordForm.write(record));
-        return records.of(new TaskJournals.Turn("j", List.of(kept)), each -> RecordForm.read(each.payload()))
+        JournalRecord kept = new JournalRecord(3, JournalRecordCodec.write(record));
+        return records.of(new TaskJournals.Batch("j", List.of(kept)), each -> JournalRecordCodec.read(each.payload()))
                 .get(0);
     }
 

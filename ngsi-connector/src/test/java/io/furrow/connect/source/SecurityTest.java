@@ -51,7 +51,7 @@ class SecurityTest {
     void refusesOnceTheBodyIsThereAndKeepsTheConnection() throws IOException {
         try (ReceptionRig rig = new ReceptionRig("secret", NEW);
                 Socket socket = new Socket("127.0.0.1", rig.port())) {
-            socket.setSoTimeout((int) ReceptionRig.PATIENCE.toMillis());
+            socket.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
             String head = "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 11\r\n";
             write(socket, head + "\r\n");
             await().during(Duration.ofMillis(300))

@@ -20,7 +20,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The listener of one task of a source that runs on a worker: what a context broker sees of it, and its ledger. */
-record SourceOnConnect(int port, HttpClient client) {
+public record SourceOnConnect(int port, HttpClient client) {
     static final int NO_ANSWER = 0;
 
     SourceOnConnect(int port) {
@@ -82,7 +82,7 @@ record SourceOnConnect(int port, HttpClient client) {
     }
 
     /** Patient also with a listener that is being made. */
-    static ConditionFactory await() {
+    public static ConditionFactory await() {
         return Awaitility.await()
                 .atMost(Duration.ofSeconds(60))
                 .pollInterval(Duration.ofMillis(50))

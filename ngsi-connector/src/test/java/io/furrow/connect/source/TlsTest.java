@@ -22,7 +22,7 @@ import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
-import io.furrow.connect.ledger.Gauge;
+import io.furrow.connect.ledger.Metric;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -159,13 +159,13 @@ class TlsTest {
                 .toInstant()
                 .getEpochSecond();
         try (ReceptionRig rig = new ReceptionRig(withKeys("server.p12"))) {
-            assertThat(rig.ledger.gauges())
+            assertThat(rig.ledger.all())
                     .filteredOn(gauge -> gauge.name().equals("certificateExpirySeconds"))
                     .singleElement()
-                    .satisfies(gauge -> assertThat(gauge.now().getAsLong()).isEqualTo(expiry));
+                    .satisfies(gauge -> assertThat(gauge.now()).isEqualTo(expiry));
         }
         try (ReceptionRig rig = new ReceptionRig()) {
-            assertThat(rig.ledger.gauges()).extracting(Gauge::name).doesNotContain("certificateExpirySeconds");
+            assertThat(rig.ledger.all()).extracting(Metric::name).doesNotContain("certificateExpirySeconds");
         }
     }
 
@@ -223,7 +223,7 @@ class TlsTest {
     private static HttpResponse<String> post(ReceptionRig rig, HttpClient client) throws Exception {
         URI uri = URI.create("https://127.0.0.1:" + rig.port() + "/v2/notify");
         HttpRequest request = HttpRequest.newBuilder(uri)
-                .timeout(ReceptionRig.PATIENCE)
+                .timeout(ReceptionRig.TIMEOUT)
                 .POST(BodyPublishers.ofString("{\"id\": \"a\"}"))
                 .build();
         return client.send(request, HttpResponse.BodyHandlers.ofString());

@@ -86,7 +86,7 @@ class TranslationMemoryTest {
 
     private static CompletableFuture<Integer> post(URI uri, String body) {
         HttpRequest request = HttpRequest.newBuilder(uri)
-                .timeout(ReceptionRig.PATIENCE)
+                .timeout(ReceptionRig.TIMEOUT)
                 .POST(BodyPublishers.ofString(body, StandardCharsets.US_ASCII))
                 .build();
         return CLIENT.sendAsync(request, BodyHandlers.discarding())

@@ -13,7 +13,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class IdShareTest {
     @ParameterizedTest
-    @ValueSource(ints = {1, 2, 3, 7, 10, 16, IdShare.MOST})
+    @ValueSource(ints = {1, 2, 3, 7, 10, 16, IdShare.MAX})
     void givesEachIdToExactlyOneTask(int count) {
         long seed = System.nanoTime();
         Random random = new Random(seed);
@@ -42,7 +42,7 @@ class IdShareTest {
 
     @Test
     void refusesMorePartsThanThereAreSigns() {
-        assertThatThrownBy(() -> new IdShare(0, IdShare.MOST + 1))
+        assertThatThrownBy(() -> new IdShare(0, IdShare.MAX + 1))
                 .isInstanceOf(IllegalArgumentException.class)
                 .hasMessageContaining("0 of 37");
     }

@@ -2,7 +2,7 @@ package io.furrow.replay.playback;
 
 import io.furrow.mission.Cursor;
 
-/** What a playback has to know of its recording before it can go on. */
+/** What a playback has to know of its recording before it can continue. */
 public sealed interface Fetch {
     /** The epoch for which it is; an answer for another epoch comes too late. */
     long epoch();
@@ -15,10 +15,18 @@ public sealed interface Fetch {
      *
      * @param point epoch ms
      * @param first where the page begins
-     * @param primed whether states are wanted: nothing is known before the recording's first event
+     * @param primed whether states are requested: nothing is known before the recording's first event
      */
     record Begin(long epoch, long point, Cursor first, boolean primed) implements Fetch {}
 
     /** The page after the cursor. */
     record Next(long epoch, Cursor after) implements Fetch {}
+
+    /**
+     * The event so many before the cursor.
+     *
+     * @param first where the replay begins, which is the answer where there are fewer
+     * @param count of the events that are requested of the recording
+     */
+    record Back(long epoch, Cursor from, Cursor first, long count) implements Fetch {}
 }

@@ -3,6 +3,7 @@ package io.furrow.replay.playback;
 import java.util.List;
 import java.util.Optional;
 
+import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
@@ -11,13 +12,19 @@ import io.furrow.mission.StoredEvent;
 public sealed interface Fetched {
     long epoch();
 
-    /** @param span empty where the recording has no event */
+    /** @param span empty if the recording has no event */
     record Opened(long epoch, Optional<Span> span) implements Fetched {}
 
     /** @param primes the entities' last known states, in any order */
     record Begun(long epoch, List<StoredEvent> primes, Page first) implements Fetched {}
 
     record More(long epoch, Page page) implements Fetched {}
+
+    /**
+     * @param count as was asked for
+     * @param found just after the event; where the replay begins where there are fewer
+     */
+    record Back(long epoch, long count, Cursor found) implements Fetched {}
 
     /** It cannot be read now and is tried again; the answer is still to come. */
     record Waiting(long epoch, String reason) implements Fetched {}

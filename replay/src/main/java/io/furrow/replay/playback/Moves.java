@@ -1,117 +1,143 @@
 package io.furrow.replay.playback;
 
-import io.furrow.flink.Epochs;
+import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Span;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /** What a step makes of a {@link PlaybackState}: each is the state before it with a few members changed. */
 final class Moves {
-    private Moves() {}
+    private long sequence;
+    private Phase phase;
+    private String reason;
+    private long epoch;
+    private long number;
+    private long offset;
+    private long stamp;
+    private Long start;
+    private long point;
+    private Cursor cursor;
+    private long position;
+    private long first;
+    private long last;
+    private long steps;
+    private long events;
+    private long primes;
+    private long skipped;
+    private Cursor goal;
+
+    private Moves(PlaybackState s) {
+        sequence = s.sequence();
+        phase = s.phase();
+        reason = s.reason();
+        epoch = s.epoch();
+        number = s.number();
+        offset = s.offset();
+        stamp = s.stamp();
+        start = s.start();
+        point = s.point();
+        cursor = s.cursor();
+        position = s.position();
+        first = s.first();
+        last = s.last();
+        steps = s.steps();
+        events = s.events();
+        primes = s.primes();
+        skipped = s.skipped();
+        goal = s.goal();
+    }
+
+    private PlaybackState done() {
+        return new PlaybackState(
+                sequence, phase, reason, epoch, number, offset, stamp, start, point, cursor, position, first, last,
+                steps, events, primes, skipped, goal);
+    }
 
     static PlaybackState of(PlaybackState s, long sequence, Long start) {
-        return copy(s, sequence, s.phase(), s.reason(), start, s.position(), s.steps(), s.skipped());
+        Moves next = new Moves(s);
+        next.sequence = sequence;
+        next.start = start;
+        return next.done();
     }
 
     static PlaybackState over(PlaybackState s, Phase phase, String reason) {
-        return copy(s, s.sequence(), phase, reason, null, s.position(), s.steps(), s.skipped());
+        Moves next = new Moves(s);
+        next.phase = phase;
+        next.reason = reason;
+        next.start = null;
+        return next.done();
     }
 
     static PlaybackState playing(PlaybackState s) {
-        return copy(s, s.sequence(), Phase.PLAYING, null, null, s.position(), s.steps(), s.skipped());
+        Moves next = new Moves(s);
+        next.phase = Phase.PLAYING;
+        next.reason = null;
+        next.start = null;
+        return next.done();
     }
 
     static PlaybackState steps(PlaybackState s, long steps) {
-        return copy(s, s.sequence(), s.phase(), s.reason(), s.start(), s.position(), steps, s.skipped());
+        Moves next = new Moves(s);
+        next.steps = steps;
+        return next.done();
     }
 
     static PlaybackState skipped(PlaybackState s, long more) {
-        return copy(s, s.sequence(), s.phase(), s.reason(), s.start(), s.position(), s.steps(), s.skipped() + more);
+        Moves next = new Moves(s);
+        next.skipped += more;
+        return next.done();
     }
 
     static PlaybackState at(PlaybackState s, long position) {
-        return copy(s, s.sequence(), s.phase(), s.reason(), s.start(), position, s.steps(), s.skipped());
+        Moves next = new Moves(s);
+        next.position = position;
+        return next.done();
     }
 
-    private static PlaybackState copy(
-            PlaybackState s,
-            long sequence,
-            Phase phase,
-            String reason,
-            Long start,
-            long position,
-            long steps,
-            long skipped) {
-        return new PlaybackState(
-                sequence,
-                phase,
-                reason,
-                s.epoch(),
-                s.number(),
-                s.offset(),
-                s.stamp(),
-                start,
-                s.point(),
-                s.cursor(),
-                position,
-                s.first(),
-                s.last(),
-                steps,
-                s.events(),
-                s.primes(),
-                skipped);
+    /** @param goal null for none */
+    static PlaybackState towards(PlaybackState s, Cursor goal) {
+        Moves next = new Moves(s);
+        next.goal = goal;
+        return next.done();
     }
 
     /** @param start epoch ms; null for the replay's beginning */
     static PlaybackState nextEpoch(PlaybackState s, Long start) {
-        return new PlaybackState(
-                s.sequence(),
-                Phase.OPENING,
-                null,
-                s.epoch() + 1,
-                0,
-                s.offset(),
-                s.stamp(),
-                start,
-                s.point(),
-                Cursor.START,
-                s.position(),
-                s.first(),
-                s.last(),
-                s.steps(),
-                0,
-                0,
-                0);
+        Moves next = new Moves(s);
+        next.phase = Phase.OPENING;
+        next.reason = null;
+        next.epoch++;
+        next.number = 0;
+        next.start = start;
+        next.cursor = Cursor.START;
+        next.events = 0;
+        next.primes = 0;
+        next.skipped = 0;
+        next.goal = null;
+        return next.done();
     }
 
     /** The offset grows where timestamps would step back. */
     static PlaybackState opened(PlaybackState s, Span span, WantedReplay wanted) {
         long point = point(s.start(), span, wanted);
-        return new PlaybackState(
-                s.sequence(),
-                Phase.PRIMING,
-                null,
-                s.epoch(),
-                s.number(),
-                Math.max(s.offset(), s.stamp() - point),
-                s.stamp(),
-                null,
-                point,
-                point <= span.first() ? Cursor.START : Cursor.before(point),
-                point,
-                span.first(),
-                span.last(),
-                s.steps(),
-                s.events(),
-                s.primes(),
-                s.skipped());
+        Moves next = new Moves(s);
+        next.phase = Phase.PRIMING;
+        next.reason = null;
+        next.offset = Math.max(s.offset(), s.stamp() - point);
+        next.start = null;
+        next.point = point;
+        next.cursor = point <= span.first() ? Cursor.START : Cursor.before(point);
+        next.position = point;
+        next.first = span.first();
+        next.last = span.last();
+        return next.done();
     }
 
-    /** Where the epoch begins: as asked for, but within the recording and what is wanted of it. */
+    /** Where the epoch begins: as asked for, but within the recording and what is requested of it. */
     private static long point(Long start, Span span, WantedReplay wanted) {
-        long from = wanted.from() == null ? span.first() : Math.max(span.first(), wanted.from());
-        long to = wanted.to() == null ? span.last() + 1 : Math.min(span.last() + 1, wanted.to());
+        long from = wanted.from(span.first());
+        long to = Math.min(span.last() + 1, wanted.to());
         long least = within(0, from, Epochs.SPAN - 1);
         return start == null ? least : within(least, start, Math.max(least, Math.min(to, Epochs.SPAN - 1)));
     }
@@ -121,25 +147,17 @@ final class Moves {
     }
 
     static PlaybackState played(PlaybackState s, Played played) {
-        boolean event = played.kind() == Played.Kind.EVENT;
-        boolean prime = played.kind() == Played.Kind.PRIME;
-        return new PlaybackState(
-                s.sequence(),
-                s.phase(),
-                s.reason(),
-                s.epoch(),
-                s.number() + 1,
-                s.offset(),
-                Math.max(s.stamp(), played.stamp()),
-                s.start(),
-                s.point(),
-                event ? Cursor.after(played.event()) : s.cursor(),
-                played.time(),
-                s.first(),
-                s.last(),
-                s.steps(),
-                s.events() + (event ? 1 : 0),
-                s.primes() + (prime ? 1 : 0),
-                s.skipped());
+        Moves next = new Moves(s);
+        next.number++;
+        next.offset = played.offset();
+        next.stamp = Math.max(s.stamp(), played.stamp());
+        next.position = played.time();
+        if (played.kind() == Played.Kind.EVENT) {
+            next.cursor = Cursor.after(played.event());
+            next.events++;
+        } else if (played.kind() == Played.Kind.PRIME) {
+            next.primes++;
+        }
+        return next.done();
     }
 }

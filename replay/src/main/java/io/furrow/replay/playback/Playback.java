@@ -1,46 +1,66 @@
 package io.furrow.replay.playback;
 
+import java.time.Instant;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Optional;
 import java.util.Set;
+import java.util.function.LongUnaryOperator;
 
-import io.furrow.flink.Epochs;
+import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.PlaybackState.Phase;
 
 /**
- * Plays one recording as it is wanted. It is told the time, in ms of a clock that never steps back, and asks for what it has to know
- * by {@link #fetch}; every record that it returns is to be written at once. Each start, seek and pass of a loop is an epoch:
- * states known before its point, then events, then an end.
+ * Plays one recording as it is requested. It is given the time, in ms of a clock that never steps back, and asks for what it has to know
+ * by {@link #fetch}; every record that it returns is to be written at once. Each start, seek, step back and pass of a loop is an
+ * epoch: states known before its point, then events, then an end.
+ *
+ * <p>A replay of a group follows the group's clock: it neither waits for a recording that is slow nor ends before the group does.
  */
 public final class Playback {
     /** A pass of a loop takes at least as long, ms: epochs are numbered, and not without end. */
-    static final long SHORTEST_PASS = 1_000;
-    /** What stood still for longer goes on where it stood, instead of catching up, ms. */
+    static final long MIN_PASS = 1_000;
+    /** What stood still for longer continues where it stood, instead of catching up, ms. */
     static final long STALL = 1_000;
 
+    /** Events that are stepped back over at once. */
+    static final int MAX_BACK = 100_000;
+
+    private static final String NO_EPOCH_LEFT = "all " + (Epochs.LAST + 1) + " epochs are used; start another replay";
     private static final Comparator<StoredEvent> BY_ENTITY =
             Comparator.comparing(StoredEvent::entityId).thenComparing(StoredEvent::id);
 
+    private final LongUnaryOperator wall;
     private WantedReplay wanted;
     private PlaybackState at;
     private Timeline timeline;
+    /** The next event that has been looked at for what lies before it. */
+    private StoredEvent approached;
+
     private ReadAhead ahead;
     private List<StoredEvent> primes;
     private boolean fetching;
+    /** Whether it is in the pass of a loop that the group's clock comes to next. */
+    private boolean aheadOfClock;
+
     private String waiting;
     private long passBegan;
     private long lateness;
 
-    /** @param wanted what was applied last; of a fresh state what is wanted first */
-    public Playback(WantedReplay wanted, PlaybackState state, long now) {
+    /**
+     * @param wanted what was applied last; of a fresh state what is requested first
+     * @param wall epoch ms at a time of the clock
+     */
+    public Playback(WantedReplay wanted, PlaybackState state, long now, LongUnaryOperator wall) {
         this.wanted = wanted;
+        this.wall = wall;
         boolean fresh = state.sequence() < 0;
-        this.passBegan = fresh ? now : now - SHORTEST_PASS;
+        this.passBegan = fresh ? now : now - MIN_PASS;
         Long start = fresh && wanted.seek() != null ? Long.valueOf(wanted.seek().to()) : state.start();
         this.at = Moves.of(state, wanted.sequence(), start);
         if (fresh) {
@@ -48,16 +68,35 @@ public final class Playback {
         }
         if (fresh && isStopped()) {
             at = Moves.over(at, Phase.STOPPED, null);
+        } else if (at.epoch() > Epochs.LAST) {
+            at = Moves.over(at, Phase.FAILED, NO_EPOCH_LEFT);
         }
         startOver(now);
     }
 
     private void startOver(long now) {
-        timeline = new Timeline(now, at.position(), wanted.speed(), isHeld());
-        ahead = new ReadAhead(Set.copyOf(wanted.devices()), at.cursor());
+        anchor(now, at.position());
+        ahead = new ReadAhead(Set.copyOf(wanted.plan().devices()), at.cursor());
         primes = null;
         fetching = false;
         waiting = null;
+    }
+
+    /** From now on the position is played at this moment, or when the replay shall start; in a group when its clock says so. */
+    private void anchor(long now, long position) {
+        approached = null;
+        long today = wall.applyAsLong(now);
+        if (isOfGroup()) {
+            timeline = GroupTimeline.of(wanted, now, today, aheadOfClock);
+        } else {
+            Long startAt = wanted.plan().startAt();
+            long wait = startAt == null ? 0 : Math.max(0, startAt - today);
+            timeline = new Timeline(now + wait, position, wanted.speed(), isHeld());
+        }
+    }
+
+    private boolean isOfGroup() {
+        return wanted.clock() != null;
     }
 
     private boolean isHeld() {
@@ -68,24 +107,31 @@ public final class Playback {
         return wanted.wanted() == ReplayStatus.State.STOPPED;
     }
 
-    /** Takes what is wanted now, unless it is older than what was applied; a record that this ends the epoch with is returned. */
+    /** Takes what is requested now, unless it is older than what was applied; a record that this ends the epoch with is returned. */
     public Optional<Played> apply(WantedReplay next, long now) {
         if (next.sequence() <= at.sequence()) {
             return Optional.empty();
         }
         boolean seeks = next.seek() != null && next.seek().sequence() > at.sequence();
+        boolean plainAgain = at.phase() == Phase.BETWEEN && wanted.range() != null && next.range() == null;
         long position = position(now);
+        long rangeEnd = wanted.to();
+        aheadOfClock = isOfGroup() && at.phase() == Phase.PLAYING && GroupTimeline.isAPassAhead(timeline, next, now);
         wanted = next;
         at = Moves.of(at, next.sequence(), at.start());
         at = Moves.steps(at, obsoleteSteps());
-        timeline = new Timeline(now, position, next.speed(), isHeld());
+        at = isHeld() ? at : Moves.towards(at, null);
+        anchor(now, position);
         if (isStopped()) {
-            return over(Phase.STOPPED, null, "stopped");
+            return over(Phase.STOPPED, null, "stopped", now);
+        }
+        if (!seeks && plainAgain) { // plays on behind the range
+            begin(isOfGroup() ? wanted.clock().position(wall.applyAsLong(now), wanted.speed()) : rangeEnd, now);
         }
         if (!seeks) {
             return Optional.empty();
         }
-        Optional<Played> end = end("seek");
+        Optional<Played> end = end("seek", now);
         begin(next.seek().to(), now);
         return end;
     }
@@ -99,12 +145,12 @@ public final class Playback {
     }
 
     /** Ends it for good. */
-    public Optional<Played> fail(String reason) {
-        return over(Phase.FAILED, reason, reason);
+    public Optional<Played> fail(String reason, long now) {
+        return over(Phase.FAILED, reason, reason, now);
     }
 
-    private Optional<Played> over(Phase how, String reason, String said) {
-        Optional<Played> end = end(said);
+    private Optional<Played> over(Phase how, String reason, String said, long now) {
+        Optional<Played> end = end(said, now);
         at = Moves.over(at, how, reason);
         primes = null;
         waiting = null;
@@ -112,18 +158,22 @@ public final class Playback {
     }
 
     /** Of an epoch that has begun. */
-    private Optional<Played> end(String reason) {
-        boolean begun =
-                at.phase() == Phase.PLAYING || at.phase() == Phase.PRIMING && (primes != null || at.number() > 0);
-        return begun ? Optional.of(played(Played.Kind.END, null, reason, at.position())) : Optional.empty();
+    private Optional<Played> end(String reason, long now) {
+        return hasBegun() ? Optional.of(played(Played.Kind.END, null, reason, at.position(), now)) : Optional.empty();
+    }
+
+    /** Whether an epoch is under way, which ends with a record. */
+    public boolean hasBegun() {
+        return at.phase() == Phase.PLAYING || at.phase() == Phase.PRIMING && (primes != null || at.number() > 0);
     }
 
     private void begin(Long start, long now) {
-        if (at.epoch() == Epochs.LAST) {
-            at = Moves.over(at, Phase.FAILED, "all " + (Epochs.LAST + 1) + " epochs are used; start another replay");
+        if (at.epoch() >= Epochs.LAST) {
+            at = Moves.over(at, Phase.FAILED, NO_EPOCH_LEFT);
             return;
         }
         at = Moves.nextEpoch(at, start);
+        aheadOfClock = false;
         passBegan = now;
         startOver(now);
     }
@@ -139,7 +189,9 @@ public final class Playback {
         } else if (at.phase() == Phase.PRIMING && primes == null) {
             Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
             next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first());
-        } else if (at.phase() == Phase.PLAYING && ahead.wantsMore()) {
+        } else if (wantsBack()) {
+            next = new Fetch.Back(at.epoch(), at.cursor(), beginning(), stepsBack());
+        } else if (at.phase() == Phase.PLAYING && ahead.wantsMore(wanted.to())) {
             next = new Fetch.Next(at.epoch(), ahead.loaded());
         }
         fetching = next != null;
@@ -158,7 +210,7 @@ public final class Playback {
         fetching = false;
         waiting = null;
         if (fetched instanceof Fetched.Gone gone) {
-            return over(Phase.FAILED, gone.reason(), gone.reason());
+            return over(Phase.FAILED, gone.reason(), gone.reason(), now);
         } else if (fetched instanceof Fetched.Opened opened) {
             at = opened.span()
                     .map(span -> Moves.opened(at, span, wanted))
@@ -169,30 +221,65 @@ public final class Playback {
                     .filter(ahead::isWanted)
                     .sorted(BY_ENTITY)
                     .toList();
-            timeline = timeline.anchored(now, at.point());
+            anchor(now, at.point());
             at = Moves.skipped(at, ahead.add(begun.first()));
         } else if (fetched instanceof Fetched.More more) {
             boolean stood = ahead.peek() == null;
             at = Moves.skipped(at, ahead.add(more.page()));
             resumeAfterStall(stood, now);
+        } else if (fetched instanceof Fetched.Back back) {
+            return goBack(back, now);
         }
         return Optional.empty();
     }
 
     private void resumeAfterStall(boolean stood, long now) {
-        StoredEvent next = ahead.peek();
-        if (stood && next != null && !timeline.held() && now - timeline.due(next.time()) > STALL) {
-            timeline = timeline.anchored(now, next.time());
+        StoredEvent next = next();
+        if (stood && next != null && !isOfGroup() && !isHeld() && now - timeline.due(next.time()) > STALL) {
+            anchor(now, next.time());
         }
+    }
+
+    /** Unless something else has been asked for meanwhile. */
+    private Optional<Played> goBack(Fetched.Back back, long now) {
+        if (!wantsBack() || back.count() > stepsBack()) {
+            return Optional.empty();
+        }
+        boolean within = !back.found().equals(beginning());
+        at = Moves.steps(at, within ? at.steps() - back.count() : wanted.step().total());
+        Optional<Played> end = end("step", now);
+        begin(within ? Long.valueOf(back.found().time()) : null, now);
+        if (within && !isOver()) {
+            at = Moves.towards(at, back.found());
+        }
+        return end;
+    }
+
+    private Cursor beginning() {
+        return Cursor.before(wanted.from(at.first()));
+    }
+
+    /** The next event; null if it is not known. What lies before it is shortened to the longest gap. */
+    private StoredEvent next() {
+        StoredEvent next = ahead.peek();
+        Long longest = wanted.plan().maxGap();
+        if (next != null && next != approached && longest != null && !isHeld() && !isOfGroup()) {
+            approached = next;
+            long gap = next.time() - Math.max(at.position(), timeline.origin());
+            if (gap > longest) {
+                timeline = timeline.skipping(gap - longest);
+            }
+        }
+        return next;
     }
 
     /** The next record, if it is due. */
     public Optional<Played> poll(long now) {
-        if (at.phase() == Phase.BETWEEN && now >= passBegan + SHORTEST_PASS) {
+        if (at.phase() == Phase.BETWEEN && now >= passBegan + MIN_PASS) {
             begin(null, now);
-        } else if (at.phase() == Phase.PRIMING && primes != null) {
+        } else if (at.phase() == Phase.PRIMING && primes != null && now >= timeline.anchor()) {
             if (at.primes() < primes.size()) {
-                return Optional.of(played(Played.Kind.PRIME, primes.get((int) at.primes()), null, at.point()));
+                return Optional.of(played(Played.Kind.PRIME, primes.get((int) at.primes()), null, at.point(), now));
             }
             at = Moves.playing(at);
         }
@@ -200,37 +287,91 @@ public final class Playback {
     }
 
     private Optional<Played> play(long now) {
-        StoredEvent next = ahead.peek();
-        if (isAtEnd()) {
-            Played end = played(Played.Kind.END, null, wanted.loop() ? "loop" : "ended", at.position());
-            at = Moves.over(at, wanted.loop() ? Phase.BETWEEN : Phase.ENDED, null);
+        if (isAtEnd() && now >= endDue()) {
+            boolean again = wanted.loops() && (isOfGroup() || hasSomethingToRepeat());
+            Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
+            String reason = wanted.loops() && !again ? "there is no event to play over and over" : null;
+            at = Moves.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
             return Optional.of(end);
         }
-        if (next == null || !mayStep() && now < timeline.due(next.time())) {
+        StoredEvent next = isAtEnd() ? null : next();
+        dropWhatCannotBeStepped(next);
+        if (next == null || !mayStep(next) && now < timeline.due(next.time())) {
             return Optional.empty();
         }
         if (isHeld()) {
-            at = Moves.steps(at, at.steps() + 1);
-            timeline = timeline.anchored(now, next.time());
-            lateness = 0;
+            step(next, now);
         } else {
             lateness = Double.isInfinite(wanted.speed()) ? 0 : now - timeline.due(next.time());
         }
         ahead.remove();
-        return Optional.of(played(Played.Kind.EVENT, next, null, next.time()));
+        return Optional.of(played(Played.Kind.EVENT, next, null, next.time(), now));
     }
 
-    private boolean mayStep() {
-        return isHeld() && wanted.step() != null && wanted.step().total() > at.steps();
+    /** A goal that lies behind what is played next or at all, and steps forward at the end. */
+    private void dropWhatCannotBeStepped(StoredEvent next) {
+        boolean passed = next != null && at.goal() != null && Cursor.after(next).compareTo(at.goal()) > 0;
+        if (passed || isAtEnd()) {
+            at = Moves.towards(at, null);
+        }
+        if (isAtEnd() && wanted.step() != null && wanted.step().total() > at.steps()) {
+            at = Moves.steps(at, wanted.step().total());
+        }
+    }
+
+    private void step(StoredEvent next, long now) {
+        if (at.goal() == null) {
+            at = Moves.steps(at, at.steps() + 1);
+        } else if (Cursor.after(next).compareTo(at.goal()) >= 0) {
+            at = Moves.towards(at, null);
+        }
+        anchor(now, next.time());
+        lateness = 0;
+    }
+
+    /** Whether a replay that is held plays the event. */
+    private boolean mayStep(StoredEvent next) {
+        boolean repeats = at.goal() != null && Cursor.after(next).compareTo(at.goal()) <= 0;
+        boolean steps = wanted.step() != null && wanted.step().total() > at.steps();
+        return isHeld() && !isOfGroup() && (repeats || steps);
+    }
+
+    private boolean wantsBack() {
+        return at.phase() == Phase.PLAYING
+                && at.goal() == null
+                && isHeld()
+                && !isOfGroup()
+                && wanted.step() != null
+                && wanted.step().total() < at.steps();
+    }
+
+    /** Whether this pass, if it was a whole one, had an event. */
+    private boolean hasSomethingToRepeat() {
+        return at.events() > 0 || at.point() > wanted.from(at.first());
+    }
+
+    /** As many as are found at once. */
+    private long stepsBack() {
+        return Math.min(at.steps() - wanted.step().total(), MAX_BACK);
     }
 
     private boolean isAtEnd() {
-        StoredEvent next = ahead.peek();
-        return ahead.isOver() || next != null && wanted.to() != null && next.time() >= wanted.to();
+        return ahead.isOver(wanted.to());
     }
 
-    private Played played(Played.Kind kind, StoredEvent event, String reason, long time) {
-        Played played = new Played(kind, event, reason, at.epoch(), at.number(), time, at.offset());
+    /** When an epoch ends that has no more events: at once, or with the group; not while it is held, so that one can go back. */
+    private long endDue() {
+        if (isHeld()) {
+            return Timeline.NEVER;
+        }
+        return isOfGroup() ? timeline.due(wanted.to()) : Long.MIN_VALUE;
+    }
+
+    private Played played(Played.Kind kind, StoredEvent event, String reason, long time, long now) {
+        boolean rebased = wanted.plan().stamps() == ReplayPlan.Stamps.NOW;
+        long today = Math.max(time, wall.applyAsLong(now)); // no offset is negative
+        long offset = rebased ? Math.max(at.stamp(), today) - time : at.offset();
+        Played played = new Played(kind, event, reason, at.epoch(), at.number(), time, offset);
         at = Moves.played(at, played);
         return played;
     }
@@ -238,14 +379,14 @@ public final class Playback {
     /** When {@link #poll} should be called again, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
     public long due() {
         return switch (at.phase()) {
-            case BETWEEN -> passBegan + SHORTEST_PASS;
-            case PRIMING -> primes == null ? Timeline.NEVER : 0;
+            case BETWEEN -> passBegan + MIN_PASS;
+            case PRIMING -> primes == null ? Timeline.NEVER : timeline.anchor();
             case PLAYING -> {
                 if (isAtEnd()) {
-                    yield 0;
+                    yield endDue();
                 }
-                StoredEvent next = ahead.peek();
-                yield next == null ? Timeline.NEVER : mayStep() ? 0 : timeline.due(next.time());
+                StoredEvent next = next();
+                yield next == null ? Timeline.NEVER : mayStep(next) ? Long.MIN_VALUE : timeline.due(next.time());
             }
             default -> Timeline.NEVER;
         };
@@ -256,12 +397,12 @@ public final class Playback {
         if (at.phase() != Phase.PLAYING) {
             return at.position();
         }
-        StoredEvent next = ahead.peek();
+        StoredEvent next = next();
         long most = next == null ? at.position() : next.time(); // of what is not read yet nobody knows when it was
         return timeline.at(now, at.position(), Math.max(at.position(), most));
     }
 
-    /** With which it goes on after a restart. */
+    /** With which it continues after a restart. */
     public PlaybackState snapshot(long now) {
         return Moves.at(at, position(now));
     }
@@ -292,6 +433,14 @@ public final class Playback {
     public ReplayStatus status(long now, long worst, double rate) {
         long position = waiting == null ? position(now) : at.position();
         return new ReplayStatus(
-                at.sequence(), state(), at.reason(), false, at.progress(position, worst, rate, waiting));
+                at.sequence(), state(), at.reason(), false, at.progress(position, worst, rate, awaited(now)));
+    }
+
+    /** What it waits for; null if it waits for nothing. */
+    private String awaited(long now) {
+        boolean early = !at.phase().isOver() && !isHeld() && now < timeline.anchor();
+        return waiting == null && early
+                ? "begins at " + Instant.ofEpochMilli(wall.applyAsLong(now) + timeline.anchor() - now)
+                : waiting;
     }
 }

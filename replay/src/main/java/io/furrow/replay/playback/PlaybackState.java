@@ -1,18 +1,18 @@
 package io.furrow.replay.playback;
 
 import io.furrow.mission.Cursor;
-import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus;
 
 /**
- * Where a replay is; with it a playback goes on at the next record.
+ * Where a replay is; with it a playback continues at the next record.
  *
- * @param sequence of the wanted replay that was applied last
+ * @param sequence of the desired replay that was applied last
  * @param phase what is to be done next
- * @param reason why it is over; null where that needs no reason
+ * @param reason why it is over; null if that needs no reason
  * @param epoch of the next record
  * @param number sequence of the next record in its epoch
  * @param offset ms that timestamps are ahead of event times
- * @param stamp of the newest record; 0 where there is none
+ * @param stamp of the newest record; 0 if there is none
  * @param start epoch ms at which the epoch shall begin; null for the replay's beginning
  * @param point epoch ms at which the epoch begins, and from which on its event time counts
  * @param cursor after the last event that was played or left out
@@ -23,6 +23,7 @@ import io.furrow.model.control.ReplayStatus;
  * @param events played in this epoch
  * @param primes played in this epoch
  * @param skipped stored documents of this epoch that hold no event
+ * @param goal after the event up to which a step back has to play, though the replay is held; null if none has
  */
 public record PlaybackState(
         long sequence,
@@ -41,7 +42,8 @@ public record PlaybackState(
         long steps,
         long events,
         long primes,
-        long skipped) {
+        long skipped,
+        Cursor goal) {
     /** What a playback is about. The order of constants is stored. */
     public enum Phase {
         /** Learns what the recording spans. */
@@ -88,6 +90,6 @@ public record PlaybackState(
      */
     public static PlaybackState before(long epoch, long stamp) {
         return new PlaybackState(
-                -1, Phase.OPENING, null, epoch, 0, 0, stamp, null, 0, Cursor.START, 0, 0, 0, 0, 0, 0, 0);
+                -1, Phase.OPENING, null, epoch, 0, 0, stamp, null, 0, Cursor.START, 0, 0, 0, 0, 0, 0, 0, null);
     }
 }

@@ -4,7 +4,7 @@ import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.Set;
 
-import io.furrow.flink.Epochs;
+import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Skipped;
@@ -48,16 +48,20 @@ final class ReadAhead {
         return devices.isEmpty() || devices.contains(event.entityId());
     }
 
-    /** Whether the following page should be read. */
-    boolean wantsMore() {
-        return !complete && events.size() <= newest;
+    /**
+     * Whether the following page should be read.
+     *
+     * @param to epoch ms, after the last event that is requested
+     */
+    boolean wantsMore(long to) {
+        return !complete && loaded.time() < to && events.size() <= newest;
     }
 
     Cursor loaded() {
         return loaded;
     }
 
-    /** The next event; null where it is not known. */
+    /** The next event; null if it is not known. */
     StoredEvent peek() {
         return events.peek();
     }
@@ -66,8 +70,10 @@ final class ReadAhead {
         events.remove();
     }
 
-    /** Whether nothing comes any more. */
-    boolean isOver() {
-        return complete && events.isEmpty();
+    /** Whether nothing comes any more before this event time, epoch ms. */
+    boolean isOver(long to) {
+        return events.isEmpty()
+                ? complete || loaded.time() >= to
+                : events.peek().time() >= to;
     }
 }

@@ -19,14 +19,20 @@ record Timeline(long anchor, long origin, double speed, boolean held) {
 
     /** The event time that is played at a time of the clock, between these two. */
     long at(long now, long least, long most) {
-        if (held) {
-            return origin;
+        double reached = origin;
+        if (!held && now > anchor) {
+            reached = speed == ReplayCommand.MAX ? most : origin + Math.floor((now - anchor) * speed);
         }
-        double reached = speed == ReplayCommand.MAX ? most : origin + Math.floor((now - anchor) * speed);
         return (long) Math.max(least, Math.min(most, reached));
     }
 
-    Timeline anchored(long now, long time) {
-        return new Timeline(now, time, speed, held);
+    /** The event time that is played at a time of the clock, wherever that is. */
+    long unbounded(long now) {
+        return held || now <= anchor ? origin : origin + (long) Math.floor((now - anchor) * speed);
+    }
+
+    /** The same, ahead by a stretch of event time, ms. */
+    Timeline skipping(long stretch) {
+        return new Timeline(anchor, origin + stretch, speed, held);
     }
 }

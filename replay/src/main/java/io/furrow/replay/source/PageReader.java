@@ -1,8 +1,10 @@
 package io.furrow.replay.source;
 
-import java.util.ArrayList;
+import java.io.IOException;
 import java.util.List;
 import java.util.Optional;
+import java.util.Set;
+import java.util.concurrent.Future;
 import java.util.concurrent.ScheduledThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Consumer;
@@ -10,13 +12,16 @@ import java.util.function.Consumer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.mission.Cursor;
 import io.furrow.mission.LatestState;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.RecordingGoneException;
-import io.furrow.mission.Recordings;
+import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
 
@@ -27,25 +32,45 @@ import io.furrow.replay.playback.Fetched;
 final class PageReader implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(PageReader.class);
     private static final long FIRST_RETRY_MILLIS = 1_000;
-    private static final long LONGEST_RETRY_MILLIS = 30_000;
+    private static final long MAX_RETRY_MILLIS = 30_000;
     private static final long IDLE_SECONDS = 10;
 
-    private final String mission;
-    private final Recordings recordings;
+    private final WantedReplay replay;
+    private final Preparation preparation;
+    private final RecordingSources recordings;
     private final PageLimits limits;
     private final Consumer<Fetched> out;
     private final ScheduledThreadPoolExecutor thread;
     private volatile Fetch newest;
+    /** Under way, or to be tried again. */
+    private Future<?> reading;
+
+    private boolean prepared;
+    /** Of the last beginning, which the next pass of a loop may share; null if there was none. */
+    private List<StoredEvent> primes;
+
+    private long primesPoint;
     private Recording recording;
 
+    /** What has to be done before the first page is read. */
+    interface Preparation {
+        void run() throws IOException, InterruptedException;
+    }
+
     /** @param out takes the answers, in the reading thread */
-    PageReader(String mission, Recordings recordings, PageLimits limits, Consumer<Fetched> out) {
-        this.mission = mission;
+    PageReader(
+            WantedReplay replay,
+            Preparation preparation,
+            RecordingSources recordings,
+            PageLimits limits,
+            Consumer<Fetched> out) {
+        this.replay = replay;
+        this.preparation = preparation;
         this.recordings = recordings;
         this.limits = limits;
         this.out = out;
         thread = new ScheduledThreadPoolExecutor(1, task -> {
-            Thread reader = new Thread(task, "replay-pages-" + mission);
+            Thread reader = new Thread(task, "replay-pages-" + replay.replay());
             reader.setDaemon(true);
             return reader;
         });
@@ -53,10 +78,36 @@ final class PageReader implements AutoCloseable {
         thread.allowCoreThreadTimeOut(true);
     }
 
-    /** Reads in place of what it was still asked for. */
-    void read(Fetch fetch) {
+    /** Reads in place of what it was still asked for, which is interrupted. */
+    synchronized void read(Fetch fetch) {
         newest = fetch;
-        thread.execute(() -> attempt(fetch, FIRST_RETRY_MILLIS));
+        interrupt();
+        reading = thread.submit(() -> attempt(fetch, FIRST_RETRY_MILLIS));
+    }
+
+    private void interrupt() {
+        if (reading != null) {
+            reading.cancel(true);
+        }
+    }
+
+    /** Does what has to be done before the first page, also where none is read. */
+    void prepareSoon() {
+        thread.execute(() -> prepareOr(FIRST_RETRY_MILLIS));
+    }
+
+    private void prepareOr(long retryMillis) {
+        try {
+            prepare();
+        } catch (IOException e) {
+            LOG.info("Replay {} waits", replay.replay(), e);
+            if (!thread.isShutdown()) {
+                long longer = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
+                thread.schedule(() -> prepareOr(longer), retryMillis, TimeUnit.MILLISECONDS);
+            }
+        } catch (InterruptedException e) {
+            LOG.debug("Replay {} is closed", replay.replay(), e);
+        }
     }
 
     private void attempt(Fetch fetch, long retryMillis) {
@@ -64,62 +115,105 @@ final class PageReader implements AutoCloseable {
             return;
         }
         try {
+            prepare();
             out.accept(answer(fetch));
+        } catch (InterruptedException | RecordingInterruptedException e) { // the recording can still be read
+            LOG.debug("Nobody waits for {} of replay {} any more", fetch, replay.replay(), e);
         } catch (RecordingGoneException e) {
             release();
             out.accept(new Fetched.Gone(fetch.epoch(), e.getMessage()));
-        } catch (RecordingException e) {
+        } catch (IOException e) { // of the recording or the topic
             release();
-            LOG.info("Recording of mission {} is awaited", mission, e);
+            LOG.info("Replay {} waits", replay.replay(), e);
             out.accept(new Fetched.Waiting(fetch.epoch(), e.getMessage()));
-            long longer = Math.min(2 * retryMillis, LONGEST_RETRY_MILLIS);
-            thread.schedule(() -> attempt(fetch, longer), retryMillis, TimeUnit.MILLISECONDS);
+            long longer = Math.min(2 * retryMillis, MAX_RETRY_MILLIS);
+            retry(fetch, longer, retryMillis);
         } catch (RuntimeException | Error e) { // a fault of the reader is this replay's end, and nobody else's
             release();
-            LOG.error("Recording of mission {} cannot be read", mission, e);
+            LOG.error("Recording of replay {} cannot be read", replay.replay(), e);
             out.accept(new Fetched.Gone(fetch.epoch(), "the recording cannot be read: " + e));
+        }
+    }
+
+    private synchronized void retry(Fetch fetch, long longer, long afterMillis) {
+        if (fetch == newest) {
+            reading = thread.schedule(() -> attempt(fetch, longer), afterMillis, TimeUnit.MILLISECONDS);
+        }
+    }
+
+    private void prepare() throws IOException, InterruptedException {
+        if (!prepared) {
+            preparation.run();
+            prepared = true;
         }
     }
 
     private Fetched answer(Fetch fetch) throws RecordingException {
         if (recording == null) {
-            Optional<Recording> opened = recordings.open(mission);
+            Optional<Recording> opened = recordings.open(replay);
             if (opened.isEmpty()) {
-                return new Fetched.Gone(fetch.epoch(), "there is no mission '" + mission + "'");
+                return new Fetched.Gone(fetch.epoch(), missing());
             }
             recording = opened.get();
         }
         if (fetch instanceof Fetch.Begin begin) {
-            List<StoredEvent> primes =
-                    begin.primed() ? new ArrayList<>(LatestState.before(recording, begin.point(), limits)) : List.of();
+            if (!begin.primed() || primes == null || primesPoint != begin.point()) {
+                primes = begin.primed() ? List.copyOf(LatestState.before(recording, begin.point(), limits)) : List.of();
+                primesPoint = begin.point();
+            }
             return new Fetched.Begun(begin.epoch(), primes, recording.read(begin.first(), limits));
         } else if (fetch instanceof Fetch.Next next) {
             return new Fetched.More(next.epoch(), recording.read(next.after(), limits));
+        } else if (fetch instanceof Fetch.Back back) {
+            return new Fetched.Back(back.epoch(), back.count(), back(back));
         }
         return new Fetched.Opened(fetch.epoch(), recording.span());
+    }
+
+    private String missing() {
+        ReplayPlan.Source source = replay.plan().source();
+        if (source == null) {
+            return "there is no mission '" + replay.mission() + "'";
+        }
+        return source.topic() == null
+                ? "there is no file '" + source.file() + "' in the folder of --recordings"
+                : "there is no topic '" + source.topic() + "'";
+    }
+
+    private Cursor back(Fetch.Back back) throws RecordingException {
+        Set<String> devices = Set.copyOf(replay.plan().devices());
+        return recording.back(
+                back.from(),
+                back.first(),
+                back.count(),
+                event -> devices.isEmpty() || devices.contains(event.entityId()),
+                limits);
     }
 
     private void release() {
         Recording released = recording;
         recording = null;
+        primes = null;
         if (released != null) {
             try {
                 released.close();
             } catch (RuntimeException e) {
-                LOG.warn("Recording of mission {} was not closed", mission, e);
+                LOG.warn("Recording of replay {} was not closed", replay.replay(), e);
             }
         }
     }
 
     /** Asks no more for what it was asked for, and holds no connection until it is asked again. */
-    void rest() {
+    synchronized void rest() {
         newest = null;
+        interrupt();
         thread.execute(this::release);
     }
 
     @Override
-    public void close() {
+    public synchronized void close() {
         newest = null;
+        interrupt();
         thread.getQueue().clear();
         thread.execute(this::release);
         thread.shutdown();

@@ -16,15 +16,15 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.playback.PlaybackState;
 
 /**
- * Gives each wanted replay to the reader that has the fewest, and tells that reader what is wanted of it. Begins when all readers are
- * there and all wishes are known: readers report the replays that a checkpoint gave them, and whatever nobody wants any more is
- * removed.
+ * Assigns each desired replay to the reader that has the fewest, and sends that reader its changes. Begins when all
+ * readers are there and all wishes are known: readers report the replays that a checkpoint gave them, and whatever
+ * nobody wants any more is removed.
  */
 final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedReplays> {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayEnumerator.class);
@@ -98,6 +98,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
         if (wish.wanted() == null) {
             wanted.remove(wish.replay());
+            told.remove(wish.replay());
         } else {
             wanted.put(wish.replay(), wish.wanted());
         }
@@ -107,7 +108,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
     }
 
-    /** What is wanted of it by now. */
+    /** What is requested of it by now. */
     private void tell(int reader, String replay) {
         if (context.registeredReaders().containsKey(reader)) {
             context.sendEventToSourceReader(reader, new WantedEvent(replay, wanted.get(replay)));
@@ -140,7 +141,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
     }
 
-    /** Whether it was told for good that what is wanted is done: the control plane is about to forget it. */
+    /** Whether it was reported for good that the desired state is reached: the control plane is about to forget it. */
     private boolean wasOver(String replay, byte[] value) {
         ReplayStatus status = told.get(replay);
         if (status == null || !status.state().isOver() || !status.settled()) {
@@ -153,7 +154,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
         }
     }
 
-    /** One that no checkpoint knows; of what was told of it before, epochs and timestamps go on. */
+    /** One that no checkpoint knows; of what was reported of it before, epochs and timestamps continue. */
     private void fresh(String replay, byte[] value) {
         ReplayStatus status = told.remove(replay);
         PlaybackState state = PlaybackState.fresh();
@@ -176,7 +177,7 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
 
     /**
      * The replays that it had are those that it reports, or come back by {@link #addSplitsBack}. Of those of a checkpoint another
-     * reader may have some since, which goes on with them.
+     * reader may have some since, which continues with them.
      */
     @Override
     public void addReader(int reader) {

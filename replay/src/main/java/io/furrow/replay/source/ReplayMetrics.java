@@ -7,7 +7,11 @@ import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.runtime.metrics.groups.AbstractMetricGroup;
 
-/** Gauges of a reader: {@code replaysRunning}, and of each replay its {@code lateness} in ms and {@code eventsPerSecond}. */
+/**
+ * Gauges of a reader: {@code replaysRunning}, and of each replay, as its newest status says, {@code state} (0 running, 1 paused, 2
+ * ended, 3 stopped, 4 failed; −1 before the first), {@code position} in epoch ms of event time, {@code lateness} in ms and {@code
+ * eventsPerSecond}.
+ */
 final class ReplayMetrics {
     private final MetricGroup reader;
     private final Map<String, MetricGroup> groups = new HashMap<>();
@@ -26,8 +30,12 @@ final class ReplayMetrics {
 
     void add(RunningReplay replay) {
         MetricGroup group = reader.addGroup("replay", replay.name());
+        Gauge<Integer> state = replay.reports()::state;
+        Gauge<Long> position = replay.reports()::position;
         Gauge<Long> lateness = replay.reports()::lateness;
         Gauge<Double> rate = replay.reports()::rate;
+        group.gauge("state", state);
+        group.gauge("position", position);
         group.gauge("lateness", lateness);
         group.gauge("eventsPerSecond", rate);
         groups.put(replay.name(), group);

@@ -19,9 +19,9 @@ import org.apache.flink.api.connector.source.SourceReaderContext;
 import org.apache.flink.core.io.InputStatus;
 import org.apache.flink.runtime.execution.SuppressRestartsException;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
-import io.furrow.mission.Recordings;
 
 /**
  * Plays its replays, each when it is due, and rests in between: a timer or the answer of a {@link PageReader} wakes it up. Nothing in
@@ -40,14 +40,21 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     private ScheduledFuture<?> alarm;
     private boolean noMoreSplits;
 
-    ReplayReader(SourceReaderContext context, Recordings recordings, PageLimits limits) {
-        this.reading = new RunningReplay.Reading(recordings, limits, this::wakeUp);
+    ReplayReader(
+            SourceReaderContext context, RecordingSources recordings, PageLimits limits, ReplayTopics.Writing topics) {
+        DeadCounters dead = new DeadCounters(context.metricGroup());
+        this.reading = new RunningReplay.Reading(recordings, limits, topics, dead, this::wakeUp);
         this.metrics = new ReplayMetrics(context.metricGroup());
     }
 
     /** Milliseconds of a clock that never steps. */
     private static long now() {
         return TimeUnit.NANOSECONDS.toMillis(System.nanoTime());
+    }
+
+    /** Epoch ms at a time of that clock. */
+    static long wall(long time) {
+        return System.currentTimeMillis() - (now() - time);
     }
 
     @Override
@@ -166,5 +173,6 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         if (timer != null) {
             timer.shutdownNow();
         }
+        reading.topics().close();
     }
 }

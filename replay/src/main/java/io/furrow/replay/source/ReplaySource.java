@@ -11,27 +11,28 @@ import org.apache.flink.api.connector.source.SplitEnumeratorContext;
 import org.apache.flink.api.connector.source.SupportsSplitReassignmentOnRecovery;
 import org.apache.flink.core.io.SimpleVersionedSerializer;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
-import io.furrow.mission.Recordings;
 
 /**
- * Plays all replays that are wanted; its records name their topics, {@code service.replays.status} among them. Replays are divided
- * among the readers anew after each restart.
+ * Plays all replays that are requested; its records name their topics, {@code service.replays.status} among them. Replays are divided
+ * among the readers again after each restart.
  */
 public final class ReplaySource
         implements Source<TopicRecord, ReplaySplit, UnassignedReplays>, SupportsSplitReassignmentOnRecovery {
     private static final long serialVersionUID = 1L;
 
     private final WantedReplays wanted;
-    private final Recordings recordings;
+    private final RecordingSources recordings;
     private final PageLimits limits;
+    private final ReplayTopics topics;
 
     /** @param wanted where it is said which replays shall be played */
-    public ReplaySource(WantedReplays wanted, Recordings recordings, PageLimits limits) {
+    public ReplaySource(WantedReplays wanted, RecordingSources recordings, PageLimits limits, ReplayTopics topics) {
         this.wanted = wanted;
         this.recordings = recordings;
         this.limits = limits;
+        this.topics = topics;
     }
 
     @Override
@@ -53,7 +54,7 @@ public final class ReplaySource
 
     @Override
     public SourceReader<TopicRecord, ReplaySplit> createReader(SourceReaderContext context) {
-        return new ReplayReader(context, recordings, limits);
+        return new ReplayReader(context, recordings, limits, topics.open());
     }
 
     @Override

@@ -15,12 +15,14 @@ import io.furrow.replay.playback.PlaybackState.Phase;
 final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySplit> {
     /** Name, wanted record, members of {@link PlaybackState} in their order, phase by number. */
     private static final int VERSION_1 = 1;
+    /** The same, then time and id of the goal. */
+    private static final int VERSION_2 = 2;
 
     private static final int NOTHING = -1;
 
     @Override
     public int getVersion() {
-        return VERSION_1;
+        return VERSION_2;
     }
 
     @Override
@@ -53,23 +55,26 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
         out.writeLong(state.events());
         out.writeLong(state.primes());
         out.writeLong(state.skipped());
+        Cursor goal = state.goal() == null ? Cursor.START : state.goal();
+        out.writeLong(goal.time());
+        writeText(goal.id(), out);
     }
 
     @Override
     public ReplaySplit deserialize(int version, byte[] bytes) throws IOException {
-        if (version != VERSION_1) {
+        if (version != VERSION_1 && version != VERSION_2) {
             throw new IOException("a replay's state of version " + version
                     + " was written by a later release; start that release, or without the savepoint");
         }
         DataInputDeserializer in = new DataInputDeserializer(bytes);
-        ReplaySplit split = readV1(in);
+        ReplaySplit split = read(version, in);
         if (in.available() > 0) {
             throw new IOException(in.available() + " bytes follow the state of replay " + split.replay());
         }
         return split;
     }
 
-    private static ReplaySplit readV1(DataInputDeserializer in) throws IOException {
+    private static ReplaySplit read(int version, DataInputDeserializer in) throws IOException {
         String replay = readText(in);
         byte[] wanted = readBytes(in);
         long sequence = in.readLong();
@@ -101,7 +106,13 @@ final class ReplaySplitSerializer implements SimpleVersionedSerializer<ReplaySpl
                         in.readLong(),
                         in.readLong(),
                         in.readLong(),
-                        in.readLong()));
+                        in.readLong(),
+                        version == VERSION_1 ? null : goal(in)));
+    }
+
+    private static Cursor goal(DataInputDeserializer in) throws IOException {
+        Cursor goal = new Cursor(in.readLong(), readText(in));
+        return goal.equals(Cursor.START) ? null : goal;
     }
 
     private static void writeText(String text, DataOutputSerializer out) throws IOException {

@@ -5,26 +5,20 @@ import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
-import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.locks.LockSupport;
 
-import org.apache.kafka.clients.consumer.CloseOptions;
 import org.apache.kafka.clients.consumer.ConsumerConfig;
-import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.common.PartitionInfo;
-import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.errors.WakeupException;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.flink.JobOptions;
-import io.furrow.flink.KafkaTopicAtStart;
-import io.furrow.flink.TopicAtStart;
-import io.furrow.flink.TopicRecord;
-import io.furrow.model.control.ReplayStatus;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.kafka.KafkaTopicSnapshot;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -35,17 +29,12 @@ public final class ReplaysTopic implements WantedReplays {
     private static final Duration POLL = Duration.ofMillis(500);
 
     private final Properties client;
-    private final TopicAtStart statuses;
+    private final TopicSnapshot statuses;
 
     public ReplaysTopic(JobOptions options) {
         client = options.kafkaProperties();
         client.setProperty(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
-        client.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
-        client.setProperty(ConsumerConfig.AUTO_OFFSET_RESET_CONFIG, "earliest");
-        client.setProperty(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, "false");
-        client.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
-        client.remove(ConsumerConfig.GROUP_ID_CONFIG);
-        statuses = new KafkaTopicAtStart(options, Topics.REPLAYS_STATUS);
+        statuses = new KafkaTopicSnapshot(options, Topics.REPLAYS_STATUS);
     }
 
     @Override
@@ -55,8 +44,7 @@ public final class ReplaysTopic implements WantedReplays {
 
     @Override
     public Reading open() {
-        return new FromKafka(
-                new KafkaConsumer<>(client, new ByteArrayDeserializer(), new ByteArrayDeserializer()), statuses);
+        return new FromKafka(CommittedReader.unassigned(client), statuses);
     }
 
     private static String text(byte[] key) {
@@ -64,13 +52,13 @@ public final class ReplaysTopic implements WantedReplays {
     }
 
     private static final class FromKafka implements Reading {
-        private final KafkaConsumer<byte[], byte[]> consumer;
-        private final TopicAtStart statuses;
-        private Map<TopicPartition, Long> ends;
+        private final CommittedReader<String> reader;
+        private final TopicSnapshot statuses;
+        private boolean assigned;
         private volatile boolean closed;
 
-        FromKafka(KafkaConsumer<byte[], byte[]> consumer, TopicAtStart statuses) {
-            this.consumer = consumer;
+        FromKafka(CommittedReader<String> reader, TopicSnapshot statuses) {
+            this.reader = reader;
             this.statuses = statuses;
         }
 
@@ -93,10 +81,8 @@ public final class ReplaysTopic implements WantedReplays {
         public synchronized List<Wish> poll() {
             List<Wish> wishes = new ArrayList<>();
             try {
-                if (!closed && (ends != null || isThere())) {
-                    for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
-                        wishes.add(new Wish(text(record.key()), record.value()));
-                    }
+                if (!closed && (assigned || assign())) {
+                    reader.poll(POLL).forEach(record -> wishes.add(new Wish(record.key(), record.value())));
                 }
             } catch (WakeupException e) { // it is being closed
                 return List.of();
@@ -104,33 +90,25 @@ public final class ReplaysTopic implements WantedReplays {
             return wishes;
         }
 
-        private boolean isThere() {
-            List<PartitionInfo> partitions = consumer.partitionsFor(Topics.REPLAYS);
-            if (partitions == null || partitions.isEmpty()) {
+        private boolean assign() {
+            assigned = reader.assign(List.of(Topics.REPLAYS));
+            if (!assigned) {
                 LockSupport.parkNanos(POLL.toNanos());
-                return false;
             }
-            consumer.assign(partitions.stream()
-                    .map(partition -> new TopicPartition(partition.topic(), partition.partition()))
-                    .toList());
-            consumer.seekToBeginning(consumer.assignment());
-            ends = consumer.endOffsets(consumer.assignment());
-            return true;
+            return assigned;
         }
 
         @Override
         public synchronized boolean isCaughtUp() {
-            return !closed
-                    && ends != null
-                    && ends.entrySet().stream().allMatch(end -> consumer.position(end.getKey()) >= end.getValue());
+            return !closed && assigned && reader.isCaughtUp();
         }
 
         @Override
         public void close() {
             closed = true;
-            consumer.wakeup();
+            reader.wakeup();
             synchronized (this) {
-                consumer.close(CloseOptions.timeout(Duration.ofSeconds(1)));
+                reader.close();
             }
         }
     }

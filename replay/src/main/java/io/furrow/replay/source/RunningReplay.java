@@ -1,16 +1,21 @@
 package io.furrow.replay.source;
 
+import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.util.ArrayDeque;
 import java.util.Optional;
 import java.util.Queue;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.function.Consumer;
 
-import io.furrow.flink.TopicRecord;
+import org.apache.flink.util.FlinkRuntimeException;
+
+import io.furrow.flink.record.DeadCounters;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
-import io.furrow.mission.Recordings;
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.replay.ReplayRecords;
 import io.furrow.replay.playback.Fetched;
@@ -19,7 +24,7 @@ import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.playback.Played;
 
 /**
- * A replay in the hands of a reader, and its playback as long as what is wanted of it can be read. Used by the task's thread; only
+ * A replay assigned to a reader, and its playback while its desired state is readable. Used by the task's thread; only
  * answers of its {@link PageReader} come in from another.
  */
 final class RunningReplay {
@@ -39,9 +44,20 @@ final class RunningReplay {
     private boolean removed;
     /** Whether it is over and nothing is read for it. */
     private boolean rests;
+    /** Of its topic; 0 until that is known. */
+    private volatile int partitions;
 
-    /** @param wakeUp lets the reader come again, from any thread */
-    record Reading(Recordings recordings, PageLimits limits, Runnable wakeUp) {}
+    /**
+     * What replays share.
+     *
+     * @param wakeUp lets the reader come again, from any thread
+     */
+    record Reading(
+            RecordingSources recordings,
+            PageLimits limits,
+            ReplayTopics.Writing topics,
+            DeadCounters dead,
+            Runnable wakeUp) {}
 
     RunningReplay(ReplaySplit split, Reading reading, long now) {
         this.name = split.replay();
@@ -56,7 +72,7 @@ final class RunningReplay {
         return name;
     }
 
-    /** @param next value of the newest record of {@code service.replays}; null where it was removed */
+    /** @param next value of the newest record of {@code service.replays}; null if it was removed */
     void wish(byte[] next) {
         wishes.add(next == null ? REMOVED : next);
     }
@@ -70,16 +86,29 @@ final class RunningReplay {
             if (playback != null) {
                 return playback.apply(replay, now);
             }
-            playback = new Playback(replay, refusedAt, now);
-            pages = new PageReader(replay.mission(), reading.recordings(), reading.limits(), answer -> {
+            playback = new Playback(replay, refusedAt, now, ReplayReader::wall);
+            pages = new PageReader(replay, () -> prepare(replay), reading.recordings(), reading.limits(), answer -> {
                 answers.add(answer);
                 reading.wakeUp().run();
             });
+            if (playback.hasBegun()) { // before a restart; perhaps no page is read any more
+                pages.prepareSoon();
+            }
             return Optional.empty();
         } catch (UnreadableException e) {
             refusal = "the record of service.replays cannot be read: " + e.getMessage();
-            return playback == null ? Optional.empty() : playback.fail(refusal);
+            return playback == null ? Optional.empty() : playback.fail(refusal, now);
         }
+    }
+
+    private void prepare(WantedReplay replay) throws IOException, InterruptedException {
+        partitions = reading.topics().prepare(replay.topic());
+        reading.wakeUp().run();
+    }
+
+    /** Whether a wish can be taken: what ends an epoch that began before a restart goes to every partition. */
+    private boolean canTakeWishes() {
+        return playback == null || partitions > 0 || !playback.hasBegun();
     }
 
     /**
@@ -89,9 +118,10 @@ final class RunningReplay {
      * @return when it wants to be called again; not after now where more is to be done
      */
     long run(long now, int most, Consumer<TopicRecord> out) {
-        for (byte[] wish = wishes.poll(); wish != null && !removed; wish = wishes.poll()) {
+        while (!wishes.isEmpty() && canTakeWishes()) {
+            byte[] wish = wishes.remove();
             if (wish == REMOVED) {
-                remove(out);
+                remove(now, out);
                 return Long.MAX_VALUE;
             }
             take(wish, now).ifPresent(played -> write(played, out));
@@ -121,14 +151,37 @@ final class RunningReplay {
         return Math.min(playback.due(), reports.due(playback));
     }
 
+    /** An end goes to every partition: event time of a reader follows the slowest, so each one has to hear of it. */
     private void write(Played played, Consumer<TopicRecord> out) {
         reports.count(played, playback.lateness());
-        out.accept(ReplayRecords.of(played, playback.wanted()));
+        TopicRecord record = ReplayRecords.of(played, playback.wanted());
+        if (played.kind() == Played.Kind.END) {
+            for (int partition = 0; partition < partitions; partition++) {
+                out.accept(record.toPartition(partition));
+            }
+        } else {
+            out.accept(writable(record));
+        }
     }
 
-    private void remove(Consumer<TopicRecord> out) {
+    private TopicRecord writable(TopicRecord record) {
+        try {
+            TopicRecord taken = reading.topics().writable(record);
+            if (!taken.topic().equals(record.topic())) {
+                reading.dead().count(Reason.TOO_LARGE);
+            }
+            return taken;
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new FlinkRuntimeException("Interrupted while the size of a record was checked", e);
+        }
+    }
+
+    private void remove(long now, Consumer<TopicRecord> out) {
         if (playback != null) {
-            playback.fail("nobody wants it any more").ifPresent(played -> write(played, out));
+            playback.fail("nobody wants it any more", now).ifPresent(played -> write(played, out));
         }
         removed = true;
     }
@@ -142,7 +195,7 @@ final class RunningReplay {
         return playback == null || playback.isOver();
     }
 
-    /** Why it failed; empty where it did not. */
+    /** Why it failed; empty if it did not. */
     Optional<String> failure() {
         if (playback == null) {
             return Optional.of(refusal);

@@ -4,15 +4,15 @@ import java.util.Map;
 import java.util.Objects;
 import java.util.function.Consumer;
 
-import io.furrow.flink.TopicRecord;
-import io.furrow.model.control.ReplayStatus;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.Played;
 
 /**
- * Tells how it is with a replay: twice a second while it runs, and on each change. A replay that is over is told again, as settled,
- * when a checkpoint holds that it is over: whoever forgets it then will not see it come back.
+ * Reports the status of a replay: twice a second while it runs, and on each change. A replay that is over is reported
+ * again, as settled, when a checkpoint holds that it is over: whoever forgets it then will not see it come back.
  */
 final class StatusReports {
     private static final long INTERVAL_MILLIS = 500;
@@ -20,7 +20,9 @@ final class StatusReports {
     private static final double MILLIS = 1_000;
 
     private final String replay;
-    private ReplayStatus told;
+    /** Read by metrics, too. */
+    private volatile ReplayStatus told;
+
     private long toldAt;
     private long events;
     private long worst;
@@ -29,7 +31,7 @@ final class StatusReports {
     private long storedIn = NONE;
     private boolean settled;
 
-    /** @param settled whether the state from which it goes on is that of a replay that is over */
+    /** @param settled whether the state from which it continues is that of a replay that is over */
     StatusReports(String replay, boolean settled) {
         this.replay = replay;
         this.settled = settled;
@@ -40,6 +42,18 @@ final class StatusReports {
             events++;
             worst = Math.max(worst, late);
         }
+    }
+
+    /** Number of the state that was reported last; −1 where none was. */
+    int state() {
+        ReplayStatus last = told;
+        return last == null ? -1 : last.state().ordinal();
+    }
+
+    /** Event time that was reported last, epoch ms; 0 where none was. */
+    long position() {
+        ReplayStatus last = told;
+        return last == null || last.progress() == null ? 0 : last.progress().position();
     }
 
     /** By how much the latest event since the last report was behind its schedule, ms. */
@@ -88,7 +102,7 @@ final class StatusReports {
                 || !Objects.equals(told.progress().waiting(), status.progress().waiting());
     }
 
-    /** Of a replay of which it cannot be read what is wanted. */
+    /** Of a replay of which it cannot be read what is requested. */
     void reportRefused(long sequence, String reason, long now, Consumer<TopicRecord> out) {
         if (told == null || told.settled() != settled || !reason.equals(told.reason())) {
             write(new ReplayStatus(sequence, ReplayStatus.State.FAILED, reason, false, null), now, out);

@@ -6,9 +6,9 @@ import java.time.Duration;
 import java.util.List;
 import java.util.concurrent.locks.LockSupport;
 
-import io.furrow.model.control.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus;
 
-/** Where it is said which replays shall be played. Serializable, so that a job can carry it. */
+/** Source of the desired replays. Serializable, so that a job can carry it. */
 public interface WantedReplays extends Serializable {
     /** Whether all that will ever be wanted is known at once. */
     boolean isBounded();
@@ -17,14 +17,14 @@ public interface WantedReplays extends Serializable {
     Reading open() throws IOException;
 
     /**
-     * What is wanted of a replay.
+     * What is requested of a replay.
      *
-     * @param wanted value of its record; null where it was removed
+     * @param wanted value of its record; null if it was removed
      */
     record Wish(String replay, byte[] wanted) {}
 
     /**
-     * What was told of a replay before.
+     * What was reported of a replay before.
      *
      * @param replay its name
      */
@@ -32,7 +32,7 @@ public interface WantedReplays extends Serializable {
 
     /** Used by one thread at a time. */
     interface Reading extends AutoCloseable {
-        /** What has been told of replays until now; called once. */
+        /** What has been notified of replays until now; called once. */
         List<Told> told() throws IOException;
 
         /** What came since the last call; waits a moment where nothing did. */

@@ -64,13 +64,23 @@ final class Missions {
         return new Fetched.Opened(fetch.epoch(), span(recording));
     }
 
+    /** What is asked, of these devices or of all. */
+    static Fetched back(Fetch.Back back, List<StoredEvent> recording, List<String> devices) {
+        List<Cursor> before = recording.stream()
+                .filter(event -> devices.isEmpty() || devices.contains(event.entityId()))
+                .map(Cursor::after)
+                .filter(cursor -> cursor.compareTo(back.first()) > 0 && cursor.compareTo(back.from()) <= 0)
+                .toList();
+        int left = before.size() - (int) back.count();
+        return new Fetched.Back(back.epoch(), back.count(), left <= 0 ? back.first() : before.get(left - 1));
+    }
+
     private static Optional<Span> span(List<StoredEvent> recording) {
         return recording.isEmpty()
                 ? Optional.empty()
                 : Optional.of(new Span(
                         recording.get(0).time(),
-                        recording.get(recording.size() - 1).time(),
-                        recording.size()));
+                        recording.get(recording.size() - 1).time()));
     }
 
     private static Page page(List<StoredEvent> recording, Cursor after, Random random) {

@@ -11,11 +11,11 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.replay.ReplayRecords;
 
@@ -52,7 +52,8 @@ class PlaybackModelTest {
             all.addAll(SimpleReplay.lines(mission, Wishes.random(random, mission)));
         }
 
-        for (String kind : List.of("event", "prime", "end stopped", "end seek", "end loop", "end ended", "epoch 4")) {
+        for (String kind :
+                List.of("event", "prime", "end stopped", "end seek", "end loop", "end ended", "end step", "epoch 4")) {
             assertThat(all).as(kind).filteredOn(line -> line.contains(kind)).hasSizeGreaterThan(20);
         }
     }
@@ -71,13 +72,13 @@ class PlaybackModelTest {
         List<String> whole = untimed(played(mission, List.of(new Wishes.Wish(0, wanted)), random));
 
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
         for (long now = 0; !playback.isOver(); now++) {
-            read(playback, mission, random, now);
+            read(playback, mission, random, now, lines);
             Optional<Played> played = playback.poll(now);
             played.ifPresent(one -> lines.add(line(0, one, wanted)));
             if (random.nextInt(10) == 0) {
-                playback = new Playback(wanted, playback.snapshot(now), now + 5);
+                playback = new Playback(wanted, playback.snapshot(now), now + 5, Wishes::wall);
             }
         }
 
@@ -90,15 +91,17 @@ class PlaybackModelTest {
 
     private static List<String> played(List<StoredEvent> mission, List<Wishes.Wish> wishes, Random random) {
         List<String> lines = new ArrayList<>();
-        Playback playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0);
+        Playback playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0, Wishes::wall);
         int next = 1;
         long now = 0;
         while (now != Long.MAX_VALUE) {
-            read(playback, mission, random, now);
+            boolean read = read(playback, mission, random, now, lines);
             Optional<Played> played = playback.poll(now);
             if (played.isPresent()) {
                 lines.add(line(now, played.get(), playback.wanted()));
-            } else if (!read(playback, mission, random, now) && (playback.due() > now || playback.isOver())) {
+            } else if (!read
+                    && !read(playback, mission, random, now, lines)
+                    && (playback.due() > now || playback.isOver())) {
                 long due = Math.max(playback.due(), now);
                 if (next < wishes.size()
                         && wishes.get(next).at() <= due
@@ -117,11 +120,14 @@ class PlaybackModelTest {
     }
 
     /** Whether there was something to be read. */
-    private static boolean read(Playback playback, List<StoredEvent> mission, Random random, long now) {
+    private static boolean read(
+            Playback playback, List<StoredEvent> mission, Random random, long now, List<String> lines) {
         boolean any = false;
         for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
-            assertThat(playback.take(Missions.answer(fetch.get(), mission, random), now))
-                    .isEmpty();
+            Fetched answer = fetch.get() instanceof Fetch.Back back
+                    ? Missions.back(back, mission, playback.wanted().plan().devices())
+                    : Missions.answer(fetch.get(), mission, random);
+            playback.take(answer, now).ifPresent(end -> lines.add(line(now, end, playback.wanted())));
             any = true;
         }
         return any;

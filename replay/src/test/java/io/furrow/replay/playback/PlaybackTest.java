@@ -5,13 +5,16 @@ import java.util.Optional;
 
 import org.junit.jupiter.api.Test;
 
+import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -23,9 +26,9 @@ class PlaybackTest {
     @Test
     void standsWhereItIsWhileItDoesNotKnowWhatComesNext() {
         WantedReplay wanted = Wishes.start(ReplayCommand.MAX);
-        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
         playback.fetch();
-        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time(), 2))), 0);
+        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
         playback.take(new Fetched.Begun(0, List.of(), page(FIRST, false)), 0);
         assertThat(playback.poll(0)).map(Played::event).contains(FIRST);
@@ -39,6 +42,30 @@ class PlaybackTest {
 
         assertThat(playback.poll(1_199)).as("a second after it went on").isEmpty();
         assertThat(playback.poll(1_200)).map(Played::event).contains(NEXT);
+    }
+
+    @Test
+    void readsNothingBehindItsEnd() {
+        ReplayPlan plan = new ReplayPlan(
+                null, null, NEXT.time(), false, List.of("urn:d0"), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
+        WantedReplay wanted = WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, ReplayCommand.MAX, 0, 1);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        playback.fetch();
+        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time() + 9_000))), 0);
+        playback.fetch();
+        playback.take(new Fetched.Begun(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), false)), 0);
+
+        assertThat(playback.poll(0)).map(Played::reason).contains("ended");
+        assertThat(playback.fetch()).isEmpty();
+    }
+
+    @Test
+    void beginsNoEpochThatHasNoNumber() {
+        PlaybackState spent = PlaybackState.before(Epochs.LAST + 1, 5);
+
+        assertThat(new Playback(Wishes.start(1), spent, 0, Wishes::wall).status(0, 0, 0))
+                .extracting(ReplayStatus::state, ReplayStatus::reason)
+                .containsExactly(State.FAILED, "all 262144 epochs are used; start another replay");
     }
 
     private static Page page(StoredEvent event, boolean last) {

@@ -4,9 +4,11 @@ import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 
+import io.furrow.mission.Cursor;
 import io.furrow.mission.StoredEvent;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.EventId;
 
 /**
@@ -17,6 +19,7 @@ final class SimpleReplay {
     private final List<StoredEvent> recording;
     private final List<String> lines = new ArrayList<>();
     private WantedReplay wanted;
+    private List<StoredEvent> primes;
     private List<StoredEvent> pass;
     private boolean open;
     private boolean between;
@@ -25,10 +28,18 @@ final class SimpleReplay {
     private long offset;
     private long newestStamp;
     private long stepsDone;
+    /** The event up to which a step back repeats. */
+    private Cursor repeated;
+
+    private boolean played;
+    private long beginning;
+    private Cursor done;
     private long began;
     private long clock;
     private long origin;
     private long reached;
+    /** Whether the gap before the next event has been shortened. */
+    private boolean approached;
 
     private SimpleReplay(List<StoredEvent> recording) {
         this.recording = recording;
@@ -48,60 +59,96 @@ final class SimpleReplay {
     private void change(WantedReplay next, long now) {
         boolean first = wanted == null;
         long position = first ? 0 : position(now);
+        boolean onBehindRange = between && wanted.range() != null && next.range() == null;
+        long rangeEnd = first ? 0 : wanted.to();
         boolean jump = next.seek() != null && (first || next.seek().sequence() > wanted.sequence());
         wanted = next;
-        clock = now;
-        origin = position;
-        if (next.step() != null && (jump || next.wanted() != State.PAUSED)) {
+        anchor(now, position);
+        if (next.step() != null && (jump || !isPaused())) {
             stepsDone = next.step().total();
         }
+        repeated = isPaused() ? repeated : null;
         if (next.wanted() == State.STOPPED) {
             end("stopped", now);
             between = false;
         } else if (jump) {
             end("seek", now);
             begin(next.seek().to(), now);
+        } else if (onBehindRange) {
+            begin(rangeEnd, now);
         } else if (first) {
             begin(null, now);
         }
     }
 
+    private boolean isPaused() {
+        return wanted.wanted() == State.PAUSED;
+    }
+
+    private void anchor(long now, long position) {
+        Long startAt = wanted.plan().startAt();
+        clock = startAt == null ? now : Math.max(now, startAt - Wishes.wall(0));
+        origin = position;
+        approached = false;
+    }
+
     private long position(long now) {
-        if (!open || wanted.wanted() == State.PAUSED) {
-            return open ? origin : reached;
+        if (!open || !primes.isEmpty()) {
+            return reached;
         }
-        double at = origin + Math.floor((now - clock) * wanted.speed());
+        if (isPaused() || pass.isEmpty()) {
+            return origin;
+        }
+        approach();
+        double at = now <= clock ? origin : origin + Math.floor((now - clock) * wanted.speed());
         return (long) Math.max(reached, Math.min(at, pass.get(0).time()));
+    }
+
+    /** Skips of what lies before the next event all but the longest gap. */
+    private void approach() {
+        Long longest = wanted.plan().maxGap();
+        if (!approached && longest != null) {
+            long gap = pass.get(0).time() - Math.max(reached, origin);
+            origin += Math.max(0, gap - longest);
+        }
+        approached = true;
     }
 
     private void begin(Long to, long now) {
         long first = recording.get(0).time();
         long last = recording.get(recording.size() - 1).time();
-        long least = wanted.from() == null || wanted.from() < first ? first : wanted.from();
-        long most = wanted.to() == null || wanted.to() > last + 1 ? last + 1 : wanted.to();
+        long least = from(first);
+        long most = Math.min(last + 1, wanted.to());
         long point = to == null || to < least ? least : to > most ? Math.max(least, most) : to;
         epoch++;
         number = 0;
+        played = false;
+        beginning = point;
         open = true;
         between = false;
         began = now;
-        clock = now;
-        origin = point;
+        anchor(now, point);
         reached = point;
+        done = Cursor.before(point);
+        repeated = null;
         offset = Math.max(offset, newestStamp - point);
         pass = new ArrayList<>(recording.stream()
                 .filter(this::isChosen)
-                .filter(event -> event.time() >= point && (wanted.to() == null || event.time() < wanted.to()))
+                .filter(event -> event.time() >= point)
                 .toList());
-        if (point > first) {
-            Missions.known(recording, point).stream()
-                    .filter(this::isChosen)
-                    .forEach(event -> line(now, "prime", event, point));
-        }
+        primes = new ArrayList<>(point > first ? Missions.known(recording, point) : List.of());
+        primes.removeIf(event -> !isChosen(event));
+    }
+
+    private long from(long first) {
+        long from = wanted.plan().from() == null || wanted.plan().from() < first
+                ? first
+                : wanted.plan().from();
+        return wanted.range() == null ? from : Math.max(from, wanted.range().from());
     }
 
     private boolean isChosen(StoredEvent event) {
-        return wanted.devices().isEmpty() || wanted.devices().contains(event.entityId());
+        return wanted.plan().devices().isEmpty() || wanted.plan().devices().contains(event.entityId());
     }
 
     private void goOn(long from, long until) {
@@ -114,29 +161,77 @@ final class SimpleReplay {
                 }
                 now = next;
                 begin(null, now);
-            } else if (pass.isEmpty()) {
-                end(wanted.loop() ? "loop" : "ended", now);
-                between = wanted.loop();
-            } else {
-                StoredEvent event = pass.get(0);
-                boolean paused = wanted.wanted() == State.PAUSED;
-                if (paused && (wanted.step() == null || wanted.step().total() <= stepsDone)) {
+            } else if (clock > now) {
+                if (clock > until) {
                     return;
                 }
-                long due = paused ? now : clock + (long) Math.ceil((event.time() - origin) / wanted.speed());
+                now = clock;
+            } else if (!primes.isEmpty()) {
+                line(now, "prime", primes.remove(0), reached);
+            } else if (isPaused() && repeated == null && total() < stepsDone) {
+                back(now);
+            } else if (pass.isEmpty() || pass.get(0).time() >= wanted.to()) {
+                repeated = null;
+                stepsDone = Math.max(stepsDone, total());
+                if (isPaused()) {
+                    return;
+                }
+                boolean again = wanted.loops()
+                        && (played || beginning > from(recording.get(0).time()));
+                end(again ? "loop" : "ended", now);
+                between = again;
+            } else if (isPaused()) {
+                if (repeated == null && total() <= stepsDone) {
+                    return;
+                }
+                step(now);
+            } else {
+                approach();
+                StoredEvent event = pass.get(0);
+                long due = clock + (long) Math.ceil((event.time() - origin) / wanted.speed());
                 if (due > until) {
                     return;
                 }
                 now = Math.max(now, due);
-                if (paused) {
-                    stepsDone++;
-                    origin = event.time();
-                }
-                pass.remove(0);
-                line(now, "event", event, event.time());
-                reached = event.time();
+                play(now);
             }
         }
+    }
+
+    private long total() {
+        return wanted.step() == null ? stepsDone : wanted.step().total();
+    }
+
+    private void step(long now) {
+        if (repeated == null) {
+            stepsDone++;
+        } else if (Cursor.after(pass.get(0)).equals(repeated)) {
+            repeated = null;
+        }
+        anchor(now, pass.get(0).time());
+        play(now);
+    }
+
+    private void play(long now) {
+        StoredEvent event = pass.remove(0);
+        line(now, "event", event, event.time());
+        played = true;
+        reached = event.time();
+        done = Cursor.after(event);
+        approached = false;
+    }
+
+    private void back(long now) {
+        long from = from(recording.get(0).time());
+        List<StoredEvent> before = recording.stream()
+                .filter(this::isChosen)
+                .filter(event -> event.time() >= from && Cursor.after(event).compareTo(done) <= 0)
+                .toList();
+        int left = before.size() - (int) (stepsDone - total());
+        stepsDone = total();
+        end("step", now);
+        begin(left <= 0 ? null : Long.valueOf(before.get(left - 1).time()), now);
+        repeated = left <= 0 ? null : Cursor.after(before.get(left - 1));
     }
 
     private void end(String reason, long now) {
@@ -147,6 +242,9 @@ final class SimpleReplay {
     }
 
     private void line(long now, String kind, StoredEvent event, long time) {
+        if (wanted.plan().stamps() == ReplayPlan.Stamps.NOW) {
+            offset = Math.max(newestStamp, Wishes.wall(now)) - time;
+        }
         newestStamp = time + offset;
         lines.add(String.join(
                 " ",

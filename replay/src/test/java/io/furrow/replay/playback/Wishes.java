@@ -6,71 +6,55 @@ import java.util.Random;
 
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 
-/** What is wanted of a replay, as the control plane would write it. */
+/** What is requested of a replay, as the control plane would write it. */
 final class Wishes {
     private static final double[] SPEEDS = {0.1, 0.7, 1, 2.5, 10, 333, 1000, ReplayCommand.MAX};
 
+    private static final long WALL = 1_790_000_000_000L;
+
     private Wishes() {}
+
+    /** Epoch ms at a time of the clock. */
+    static long wall(long now) {
+        return WALL + now;
+    }
 
     /** @param at ms of the clock */
     record Wish(long at, WantedReplay wanted) {}
 
     static WantedReplay start(double speed) {
-        return new WantedReplay(
-                "m.0a1b2c3d",
-                "m",
-                "data.m.replay.0a1b2c3d",
-                null,
-                null,
-                speed,
-                false,
-                List.of(),
-                State.RUNNING,
-                null,
-                null,
-                1);
+        return WantedReplay.started("m", "data.m.replay.0a1b2c3d", ReplayPlan.PLAIN, speed, 0, 1);
     }
 
     static WantedReplay with(WantedReplay w, State wanted, double speed, Long seek, int steps) {
         long sequence = w.sequence() + 1;
-        long total = (w.step() == null ? 0 : w.step().total()) + steps;
-        return new WantedReplay(
-                w.replay(),
-                w.mission(),
-                w.topic(),
-                w.from(),
-                w.to(),
-                speed,
-                w.loop(),
-                w.devices(),
-                wanted,
-                seek == null ? w.seek() : new WantedReplay.Seek(seek, sequence),
-                steps == 0 ? w.step() : new WantedReplay.Step(total, sequence),
-                sequence);
+        WantedReplay next = w.wanted(wanted, sequence).at(speed, sequence);
+        next = seek == null ? next : next.seeking(seek, sequence);
+        return steps == 0 ? next : next.stepping(steps, sequence);
     }
 
     /** Any start and any commands, the last of which ends it. */
     static List<Wish> random(Random random, List<StoredEvent> recording) {
         long first = recording.get(0).time();
         long length = recording.get(recording.size() - 1).time() - first + 1;
-        WantedReplay plain = start(speed(random));
+        double speed = speed(random);
         long from = first - 1000 + random.nextLong(length + 2000);
-        WantedReplay wanted = new WantedReplay(
-                plain.replay(),
-                plain.mission(),
-                plain.topic(),
+        ReplayPlan plan = new ReplayPlan(
+                null,
                 random.nextInt(3) == 0 ? from : null,
                 random.nextInt(3) == 0 ? Long.valueOf(from + 1 + random.nextLong(length)) : null,
-                plain.speed(),
                 random.nextInt(3) == 0,
                 random.nextInt(3) == 0 ? List.of("urn:d0", "urn:d1", "urn:d2") : List.of(),
-                random.nextInt(5) == 0 ? State.PAUSED : State.RUNNING,
-                null,
-                null,
-                1);
+                random.nextInt(3) == 0 ? Long.valueOf(1 + random.nextInt(20_000)) : null,
+                ReplayPlan.Stamps.values()[random.nextInt(5) == 0 ? 1 : 0],
+                random.nextInt(5) == 0 ? Long.valueOf(WALL - 5_000 + random.nextInt(50_000)) : null,
+                List.of());
+        WantedReplay wanted = WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, speed, 0, 1)
+                .wanted(random.nextInt(5) == 0 ? State.PAUSED : State.RUNNING, 1);
         List<Wish> wishes = new ArrayList<>(List.of(new Wish(0, wanted)));
         long at = 0;
         for (int i = random.nextInt(15); i > 0; i--) {
@@ -83,15 +67,24 @@ final class Wishes {
     }
 
     private static WantedReplay next(WantedReplay w, Random random, long first, long length) {
-        return switch (random.nextInt(5)) {
+        return switch (random.nextInt(6)) {
             case 0 -> with(w, w.wanted() == State.PAUSED ? State.RUNNING : State.PAUSED, w.speed(), null, 0);
             case 1, 2 -> with(w, w.wanted(), w.speed(), first - 5_000 + random.nextLong(length + 10_000), 0);
             case 3 -> with(w, w.wanted(), speed(random), null, 0);
+            case 4 -> w.within(range(random, first, length), w.sequence() + 1);
             default ->
                 w.wanted() == State.PAUSED
-                        ? with(w, w.wanted(), w.speed(), null, 1 + random.nextInt(20))
+                        ? with(w, w.wanted(), w.speed(), null, random.nextInt(20) + (random.nextBoolean() ? 1 : -20))
                         : with(w, State.PAUSED, w.speed(), null, 0);
         };
+    }
+
+    /** Null now and then. */
+    private static WantedReplay.Range range(Random random, long first, long length) {
+        long from = first - 1_000 + random.nextLong(length + 1_000);
+        return random.nextInt(3) == 0
+                ? null
+                : new WantedReplay.Range(from, from + 1 + random.nextLong(random.nextBoolean() ? 5_000 : length));
     }
 
     private static double speed(Random random) {

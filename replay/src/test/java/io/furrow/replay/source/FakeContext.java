@@ -9,16 +9,24 @@ import org.apache.flink.api.connector.source.SourceOutput;
 import org.apache.flink.api.connector.source.SourceReaderContext;
 import org.apache.flink.configuration.Configuration;
 import org.apache.flink.metrics.groups.SourceReaderMetricGroup;
-import org.apache.flink.metrics.groups.UnregisteredMetricsGroup;
+import org.apache.flink.metrics.testutils.MetricListener;
+import org.apache.flink.runtime.metrics.groups.InternalSourceReaderMetricGroup;
 import org.apache.flink.util.UserCodeClassLoader;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 
 /** What a reader has around it. */
 final class FakeContext implements SourceReaderContext {
+    private final MetricListener metrics = new MetricListener();
+
     @Override
     public SourceReaderMetricGroup metricGroup() {
-        return UnregisteredMetricsGroup.createSourceReaderMetricGroup();
+        return InternalSourceReaderMetricGroup.mock(metrics.getMetricGroup());
+    }
+
+    /** The gauge of a replay. */
+    Object gauge(String replay, String name) {
+        return metrics.getGauge("replay", replay, name).orElseThrow().getValue();
     }
 
     @Override

@@ -73,7 +73,7 @@ final class MemoryRecordings implements Recordings {
             return events.isEmpty()
                     ? Optional.empty()
                     : Optional.of(new Span(
-                            events.get(0).time(), events.get(events.size() - 1).time(), events.size()));
+                            events.get(0).time(), events.get(events.size() - 1).time()));
         }
 
         @Override

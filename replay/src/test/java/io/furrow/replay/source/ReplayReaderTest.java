@@ -12,12 +12,13 @@ import org.apache.flink.runtime.execution.SuppressRestartsException;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
-import io.furrow.flink.TopicRecord;
+import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
 import io.furrow.model.control.ReplayCommand;
-import io.furrow.model.control.ReplayStatus;
-import io.furrow.model.control.ReplayStatus.State;
-import io.furrow.model.control.WantedReplay;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;
@@ -28,13 +29,15 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 class ReplayReaderTest {
     private static final long TIME = 1_700_000_000_000L;
 
+    private final FakeContext context = new FakeContext();
     private final MemoryRecordings missions = new MemoryRecordings();
     private final List<TopicRecord> records = new ArrayList<>();
     private final List<Long> times = new ArrayList<>();
     private ReplayReader reader = newReader();
 
     private ReplayReader newReader() {
-        ReplayReader fresh = new ReplayReader(new FakeContext(), missions, new PageLimits(2, 1_000));
+        ReplayReader fresh =
+                new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), new OnePartition());
         fresh.start();
         return fresh;
     }
@@ -45,20 +48,8 @@ class ReplayReaderTest {
     }
 
     static WantedReplay wanted(String mission, double speed, State state, long sequence) {
-        String id8 = "0a1b2c3d";
-        return new WantedReplay(
-                mission + "." + id8,
-                mission,
-                Topics.replay(mission, id8),
-                null,
-                null,
-                speed,
-                false,
-                List.of(),
-                state,
-                null,
-                null,
-                sequence);
+        return WantedReplay.started(mission, Topics.replay(mission, "0a1b2c3d"), ReplayPlan.PLAIN, speed, 0, sequence)
+                .wanted(state, sequence);
     }
 
     private void start(WantedReplay wanted) {
@@ -162,6 +153,17 @@ class ReplayReaderTest {
     }
 
     @Test
+    void measuresWhatItTells() throws Exception {
+        missions.with("m", TIME, TIME + 20);
+        start(wanted("m", 1, State.RUNNING, 1));
+
+        playUntil(() -> status("m") != null && status("m").state() == State.ENDED);
+
+        assertThat(context.gauge("m.0a1b2c3d", "state")).isEqualTo(State.ENDED.ordinal());
+        assertThat(context.gauge("m.0a1b2c3d", "position")).isEqualTo(TIME + 20);
+    }
+
+    @Test
     void endsAnEmptyMissionWithAReason() throws Exception {
         missions.with("m");
         start(wanted("m", 1, State.RUNNING, 1));
@@ -195,6 +197,17 @@ class ReplayReaderTest {
         start(wanted("m", 1, State.RUNNING, 1));
         play("m", "event", 3);
 
+        restart();
+        wish(wanted("m", ReplayCommand.MAX, State.RUNNING, 2));
+        play("m", "end", 1);
+
+        assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20, TIME + 100_000);
+        assertThat(played("m", "event"))
+                .extracting(record -> record.headers().get(HeaderNames.REPLAY_SEQUENCE))
+                .containsExactly("0", "1", "2", "3");
+    }
+
+    private void restart() throws Exception {
         List<ReplaySplit> splits = new ArrayList<>();
         ReplaySplitSerializer serializer = new ReplaySplitSerializer();
         for (ReplaySplit split : reader.snapshotState(1)) {
@@ -203,13 +216,22 @@ class ReplayReaderTest {
         reader.close();
         reader = newReader();
         reader.addSplits(splits);
-        wish(wanted("m", ReplayCommand.MAX, State.RUNNING, 2));
-        play("m", "end", 1);
+    }
 
-        assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20, TIME + 100_000);
-        assertThat(played("m", "event"))
-                .extracting(record -> record.headers().get(HeaderNames.REPLAY_SEQUENCE))
-                .containsExactly("0", "1", "2", "3");
+    @Test
+    void obeysWhereACheckpointLeftItBehindItsEnd() throws Exception {
+        missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
+        WantedReplay paused = wanted("m", 1, State.PAUSED, 1).stepping(3, 1);
+        start(paused);
+        play("m", "event", 3);
+        wish(paused.within(new WantedReplay.Range(TIME, TIME + 15), 2));
+        playUntil(() -> status("m").sequence() == 2);
+
+        restart();
+        wish(paused.wanted(State.STOPPED, 3));
+        playUntil(() -> status("m").state() == State.STOPPED);
+
+        assertThat(played("m", "end")).hasSize(1);
     }
 
     @Test

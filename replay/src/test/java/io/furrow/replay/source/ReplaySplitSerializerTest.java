@@ -19,17 +19,21 @@ class ReplaySplitSerializerTest {
     private final ReplaySplitSerializer serializer = new ReplaySplitSerializer();
 
     private static ReplaySplit split(PlaybackState.Phase phase, String reason, Long start) {
+        return split(phase, reason, start, new Cursor(15, "g"));
+    }
+
+    private static ReplaySplit split(PlaybackState.Phase phase, String reason, Long start, Cursor goal) {
         return new ReplaySplit(
                 "m.0a1b2c3d",
                 new byte[] {1, 2},
                 new PlaybackState(
-                        1, phase, reason, 2, 3, 4, 5, start, 6, new Cursor(7, "ñ"), 8, 9, 10, 11, 12, 13, 14));
+                        1, phase, reason, 2, 3, 4, 5, start, 6, new Cursor(7, "ñ"), 8, 9, 10, 11, 12, 13, 14, goal));
     }
 
     @ParameterizedTest
     @EnumSource(PlaybackState.Phase.class)
     void givesBackWhatItWrote(PlaybackState.Phase phase) throws Exception {
-        for (ReplaySplit split : List.of(split(phase, null, -1L), split(phase, "why", null))) {
+        for (ReplaySplit split : List.of(split(phase, null, -1L, null), split(phase, "why", null))) {
             assertThat(serializer.deserialize(serializer.getVersion(), serializer.serialize(split)))
                     .usingRecursiveComparison()
                     .isEqualTo(split);
@@ -48,17 +52,17 @@ class ReplaySplitSerializerTest {
 
         assertThat(serializer.deserialize(1, stored))
                 .usingRecursiveComparison()
-                .isEqualTo(split(PlaybackState.Phase.PLAYING, "why", -1L));
+                .isEqualTo(split(PlaybackState.Phase.PLAYING, "why", -1L, null));
     }
 
     @Test
     void refusesOtherVersionsAndWhatFollows() throws Exception {
         byte[] bytes = serializer.serialize(split(PlaybackState.Phase.PLAYING, null, null));
 
-        assertThatThrownBy(() -> serializer.deserialize(2, bytes))
+        assertThatThrownBy(() -> serializer.deserialize(3, bytes))
                 .isInstanceOf(IOException.class)
-                .hasMessageContaining("version 2");
-        assertThatThrownBy(() -> serializer.deserialize(1, Arrays.copyOf(bytes, bytes.length + 1)))
+                .hasMessageContaining("version 3");
+        assertThatThrownBy(() -> serializer.deserialize(2, Arrays.copyOf(bytes, bytes.length + 1)))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("1 bytes follow");
     }
@@ -74,7 +78,7 @@ class ReplaySplitSerializerTest {
         assertThat(all.deserialize(all.getVersion(), bytes))
                 .usingRecursiveComparison()
                 .isEqualTo(replays);
-        assertThatThrownBy(() -> all.deserialize(1, Arrays.copyOf(bytes, bytes.length + 1)))
+        assertThatThrownBy(() -> all.deserialize(all.getVersion(), Arrays.copyOf(bytes, bytes.length + 1)))
                 .isInstanceOf(IOException.class);
     }
 }

@@ -5,22 +5,12 @@ import java.awt.image.BufferedImage;
 import java.io.ByteArrayOutputStream;
 import java.io.IOException;
 import java.io.UncheckedIOException;
-import java.time.ZoneOffset;
-import java.time.format.DateTimeFormatter;
-import java.util.ArrayList;
-import java.util.Collections;
-import java.util.List;
-import java.util.Locale;
-import java.util.stream.Collectors;
-import java.util.stream.Stream;
 import javax.imageio.ImageIO;
 import javax.imageio.stream.MemoryCacheImageOutputStream;
 
-import io.furrow.model.ngsi.Position;
-
 /**
- * Draws what a camera sees: sky, a sun that crosses it once a minute, crop rows, what is in sight, and a caption. Set pixel by pixel: neither
- * fonts nor a display are needed, which a bare JDK may lack.
+ * Draws what a camera sees: sky, a sun that crosses it once a minute, crop rows and robots in sight. Set pixel by pixel, because a
+ * bare JDK may lack fonts and a display.
  */
 public final class FieldPicture {
     static final int WIDTH = 320;
@@ -31,15 +21,9 @@ public final class FieldPicture {
     private static final int SUN = 0xF7C948;
     private static final int SOIL = 0x7A5A3A;
     private static final int CROP = 0x3E8E41;
-    private static final int CAPTION = 0x1B1B1B;
-    private static final int LETTERS = 0xFFFFFF;
+    private static final int WHEEL = 0x1B1B1B;
     private static final int HULL = 0xC0392B;
-    static final int LEFT = 2;
-    static final int LINE = 13;
-    static final int CAPTION_TOP = HEIGHT - 42;
     private static final int ROW_METERS = 24;
-    private static final DateTimeFormatter SECOND =
-            DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm:ss", Locale.ROOT).withZone(ZoneOffset.UTC);
 
     private FieldPicture() {}
 
@@ -53,28 +37,7 @@ public final class FieldPicture {
             }
         }
         view.sightings().forEach(seen -> draw(image, seen));
-        fill(image, new Rectangle(0, CAPTION_TOP, WIDTH, HEIGHT - CAPTION_TOP), CAPTION);
-        caption(image, view);
         return encode(image);
-    }
-
-    /** Which camera, when and where, and what is in sight, the nearest first. */
-    private static void caption(BufferedImage image, View view) {
-        Position place = view.place();
-        List<View.Sighting> seen = new ArrayList<>(view.sightings());
-        Collections.reverse(seen);
-        String what = Stream.concat(
-                        Stream.of(view.where()),
-                        seen.stream()
-                                .map(thing -> String.format(Locale.ROOT, "%s %.0fM", thing.name(), thing.meters())))
-                .filter(part -> !part.isBlank())
-                .collect(Collectors.joining(" / "));
-        String where = String.format(Locale.ROOT, "%.5f %.5f", place.latitude(), place.longitude());
-        List<String> lines = List.of(view.camera(), SECOND.format(view.time()) + " " + where, what);
-        for (int line = 0; line < lines.size(); line++) {
-            PixelFont.write(
-                    image, lines.get(line).toUpperCase(Locale.ROOT), LEFT, CAPTION_TOP + 3 + line * LINE, LETTERS);
-        }
     }
 
     /** A block with two wheels, the larger the nearer. */
@@ -85,8 +48,8 @@ public final class FieldPicture {
         int left = middle - size / 2;
         int wheel = Math.max(1, size / 4);
         fill(image, new Rectangle(left, ground - size, size, size), HULL);
-        fill(image, new Rectangle(left, ground - wheel, wheel, wheel), CAPTION);
-        fill(image, new Rectangle(left + size - wheel, ground - wheel, wheel, wheel), CAPTION);
+        fill(image, new Rectangle(left, ground - wheel, wheel, wheel), WHEEL);
+        fill(image, new Rectangle(left + size - wheel, ground - wheel, wheel, wheel), WHEEL);
     }
 
     private static void fill(BufferedImage image, Rectangle area, int rgb) {

@@ -1,2 +1,2 @@
-/** The pictures that simulated cameras take: drawn by the program, without fonts or a display. */
+/** The pictures of simulated cameras, drawn without fonts or a display. */
 package io.furrow.simulators.camera;

@@ -12,13 +12,13 @@ import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.ngsi.NgsiJson;
 
-/** JSON over HTTP in the tenant and service path of the settings; one attempt, at most ten seconds. */
+/** Posts JSON over HTTP in the tenant and service path of the settings; one attempt, at most ten seconds. */
 public final class FiwareHttp {
-    private static final Duration PATIENCE = Duration.ofSeconds(10);
+    private static final Duration TIMEOUT = Duration.ofSeconds(10);
 
     private final HttpClient client = HttpClient.newBuilder()
             .version(HttpClient.Version.HTTP_1_1)
-            .connectTimeout(PATIENCE)
+            .connectTimeout(TIMEOUT)
             .build();
     private final FleetSettings settings;
 
@@ -26,7 +26,7 @@ public final class FiwareHttp {
         this.settings = settings;
     }
 
-    /** @throws IOException if nobody answers; the message names the address */
+    /** @throws IOException if the server does not answer; names the address */
     HttpResponse<String> post(URI base, String path, JsonNode body) throws IOException, InterruptedException {
         HttpRequest request = request(base, path, body);
         try {
@@ -36,7 +36,12 @@ public final class FiwareHttp {
         }
     }
 
-    /** Asks without waiting; a base as in {@code http://127.0.0.1:1026}, a path with its query. */
+    /**
+     * Posts asynchronously.
+     *
+     * @param base as in {@code http://127.0.0.1:1026}
+     * @param path with its query
+     */
     public CompletableFuture<HttpResponse<String>> postAsync(URI base, String path, JsonNode body) {
         return client.sendAsync(request(base, path, body), HttpResponse.BodyHandlers.ofString());
     }
@@ -44,7 +49,7 @@ public final class FiwareHttp {
     private HttpRequest request(URI base, String path, JsonNode body) {
         HttpRequest.Builder request = HttpRequest.newBuilder(
                         URI.create(base.toString().replaceAll("/+$", "") + path))
-                .timeout(PATIENCE)
+                .timeout(TIMEOUT)
                 .header("Content-Type", "application/json")
                 .header("fiware-servicepath", settings.servicePath())
                 .POST(HttpRequest.BodyPublishers.ofByteArray(NgsiJson.write(body)));

@@ -3,16 +3,15 @@ package io.furrow.simulators.device;
 import java.net.URI;
 
 /**
- * Where simulated devices report, and as whom.
+ * The FIWARE endpoints of simulated devices, and their credentials.
  *
- * @param contextBroker base of the NGSI-v2 interface, as in {@code http://127.0.0.1:1026}
- * @param iotAgent base of the IoT Agent's provisioning interface, as in {@code http://127.0.0.1:4041}
+ * @param contextBroker base of the NGSI-v2 API, as in {@code http://127.0.0.1:1026}
+ * @param iotAgent base of the provisioning API, as in {@code http://127.0.0.1:4041}
  * @param mqtt the MQTT broker, as in {@code tcp://127.0.0.1:1883}
- * @param mqttUser user name at the MQTT broker
- * @param mqttPassword its password; left out of {@link #toString()}
+ * @param mqttPassword left out of {@link #toString()}
  * @param fiwareService tenant; blank for the default one
- * @param servicePath service path, {@code /} for the root
- * @param iotAgentResource of service groups, the same as the IoT Agent's default resource; may be empty
+ * @param servicePath {@code /} for the root
+ * @param iotAgentResource of service groups, the IoT Agent's default resource; may be empty
  */
 public record FleetSettings(
         URI contextBroker,

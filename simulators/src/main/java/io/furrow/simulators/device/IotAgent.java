@@ -9,7 +9,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-/** Makes devices known to the IoT Agent; what it knows already stays as it is. */
+/** Registers devices at the IoT Agent; existing registrations stay as they are. */
 public final class IotAgent {
     private static final int BATCH = 100;
     private static final int ALREADY_THERE = 409;
@@ -42,7 +42,7 @@ public final class IotAgent {
         }
     }
 
-    /** One known device makes the agent answer 409 for a whole batch: then each is sent by itself. */
+    /** One known device makes the agent answer 409 for a whole batch: then each is sent separately. */
     private void register(List<ObjectNode> batch) throws IOException, InterruptedException {
         if (post("/iot/devices", "devices", batch) != ALREADY_THERE || batch.size() == 1) {
             return;

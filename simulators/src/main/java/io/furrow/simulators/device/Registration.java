@@ -7,13 +7,13 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 /**
- * What the IoT Agent is told of one device.
+ * Describes a device to the IoT Agent.
  *
  * @param id device id, second part of its MQTT topics
- * @param entity id of the entity that carries its measures
+ * @param entity entity that carries its measures
  * @param attributes how members of a measure become attributes
- * @param mission attributes that every measure gets
- * @param commands what it can be told
+ * @param mission attributes added to every measure
+ * @param commands accepted commands
  */
 public record Registration(
         String id, Entity entity, List<Attribute> attributes, MissionOf mission, List<String> commands) {

@@ -5,7 +5,6 @@ import java.time.Instant;
 import java.util.HashMap;
 import java.util.Map;
 import java.util.Optional;
-import java.util.PriorityQueue;
 import java.util.function.Consumer;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -19,8 +18,8 @@ import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.scenario.SimulatedDevice;
 
 /**
- * What MQTT devices are told, and what they answer: {@code on} and {@code off} at once, {@code restart} when the device is there
- * again, {@link #RESTART} later.
+ * Executes commands of MQTT devices and answers them: {@code on} and {@code off} at once, {@code restart} after {@link
+ * #RESTART}.
  */
 final class Commands {
     static final Duration RESTART = Duration.ofSeconds(2);
@@ -28,22 +27,15 @@ final class Commands {
     private static final Logger LOG = LoggerFactory.getLogger(Commands.class);
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
-    private final Scene scene;
+    private final FarmSimulation scene;
     private final Connections connections;
     private final Consumer<Report> sends;
     private final Map<String, SimulatedDevice> devices = new HashMap<>();
-    private final PriorityQueue<Restart> restarts = new PriorityQueue<>();
+    /** Devices that are restarting, and until when. */
+    private final Map<String, Instant> restarts = new HashMap<>();
 
-    /** A device that is there again at a time. */
-    private record Restart(Instant until, SimulatedDevice device) implements Comparable<Restart> {
-        @Override
-        public int compareTo(Restart other) {
-            return until.compareTo(other.until);
-        }
-    }
-
-    /** @param sends what a device says because it was told something */
-    Commands(Scene scene, Connections connections, Consumer<Report> sends) {
+    /** @param sends publishes the report that a command causes */
+    Commands(FarmSimulation scene, Connections connections, Consumer<Report> sends) {
         this.scene = scene;
         this.connections = connections;
         this.sends = sends;
@@ -55,31 +47,33 @@ final class Commands {
 
     void remove(String device) {
         devices.remove(device);
+        restarts.remove(device);
     }
 
-    /** Lets devices do what they were told since the last time. */
+    /** Executes the commands received since the last call, and ends restarts. */
     void obey(Instant now) {
         for (Optional<Connections.Command> next = connections.command();
                 next.isPresent();
                 next = connections.command()) {
             obey(next.get(), now);
         }
-        while (!restarts.isEmpty() && !restarts.peek().until().isAfter(now)) {
-            SimulatedDevice device = restarts.poll().device();
-            if (devices.get(device.id()) == device) {
-                connections.send(device.id(), "cmdexe", NODES.objectNode().put("restart", "ok"));
-                scene.report(device, now).ifPresent(sends);
+        restarts.entrySet().removeIf(each -> {
+            boolean over = !each.getValue().isAfter(now);
+            if (over) {
+                connections.send(each.getKey(), "cmdexe", NODES.objectNode().put("restart", "ok"));
+                scene.report(devices.get(each.getKey()), now).ifPresent(sends);
             }
-        }
+            return over;
+        });
     }
 
-    private void obey(Connections.Command told, Instant now) {
-        SimulatedDevice device = devices.get(told.device());
+    private void obey(Connections.Command received, Instant now) {
+        SimulatedDevice device = devices.get(received.device());
         if (device == null) {
             return;
         }
         try {
-            JsonNode json = NgsiJson.read(told.payload());
+            JsonNode json = NgsiJson.read(received.payload());
             ObjectNode results = NODES.objectNode();
             for (var names = json.fieldNames(); names.hasNext(); ) {
                 String command = names.next();
@@ -91,7 +85,7 @@ final class Commands {
                     case "restart" -> {
                         Instant until = now.plus(RESTART);
                         scene.restart(device.id(), until);
-                        restarts.add(new Restart(until, device));
+                        restarts.put(device.id(), until);
                     }
                     default -> results.put(command, "unknown command");
                 }
@@ -100,7 +94,7 @@ final class Commands {
                 connections.send(device.id(), "cmdexe", results);
             }
         } catch (UnreadableException e) {
-            LOG.warn("{} got a command that is no JSON: {}", device.id(), e.getMessage());
+            LOG.warn("{} received a command that is not valid JSON: {}", device.id(), e.getMessage());
         }
     }
 }

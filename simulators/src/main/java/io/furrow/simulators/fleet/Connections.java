@@ -22,16 +22,16 @@ import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
-import io.furrow.simulators.mqtt.Line;
 import io.furrow.simulators.mqtt.MqttAccess;
+import io.furrow.simulators.mqtt.MqttConnection;
 import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 
 /**
- * The MQTT connections of a farm: devices have one each while that makes no more than so many; of those beyond each mission has
- * one, a gateway. The topics are those of the device either way. One thread uses them, but {@link #count}.
+ * The MQTT connections of a farm: each device has its own up to a number of devices; beyond it each mission has one, a
+ * gateway. The topics are those of the device either way. Used by one thread, except {@link #count}.
  */
 final class Connections implements AutoCloseable {
-    static final int MOST_OWN = 500;
+    static final int MAX_OWN = 500;
 
     private static final int OWN_KEPT = 20_000;
     private static final long OWN_BYTES = 2L << 20;
@@ -40,38 +40,39 @@ final class Connections implements AutoCloseable {
 
     private final FleetAccess access;
     private final UnaryOperator<String> apiKeys;
-    private final int mostOwn;
-    private final Map<String, Way> ways = new HashMap<>();
+    private final int maxOwn;
+    private final Map<String, Channel> channels = new HashMap<>();
     private final Map<String, String> topics = new HashMap<>();
-    private final Map<String, Way> gateways = new HashMap<>();
-    private final Set<Way> all = ConcurrentHashMap.newKeySet();
+    private final Map<String, Channel> gateways = new HashMap<>();
+    private final Set<Channel> all = ConcurrentHashMap.newKeySet();
     private final Queue<Command> commands = new ConcurrentLinkedQueue<>();
 
-    /** What came over MQTT for a device. */
-    record Command(Way way, String device, byte[] payload) {}
+    /** A message received for a device. */
+    record Command(Channel channel, String device, byte[] payload) {}
 
     /**
      * @param apiKeys of missions, first part of their topics
-     * @param mostOwn how many devices have a connection of their own
+     *
+     * @param maxOwn maximum number of devices with their own connections
      */
-    Connections(FleetAccess access, UnaryOperator<String> apiKeys, int mostOwn) {
+    Connections(FleetAccess access, UnaryOperator<String> apiKeys, int maxOwn) {
         this.access = access;
         this.apiKeys = apiKeys;
-        this.mostOwn = mostOwn;
+        this.maxOwn = maxOwn;
     }
 
-    /** A connection, or what is to become one, and whose it is. */
-    final class Way {
-        private final Supplier<Line.Plan> plans;
+    /** A connection, opened or not yet, and its devices. */
+    final class Channel {
+        private final Supplier<MqttConnection.Plan> plans;
         private final String mission;
         private final boolean gateway;
         private final Set<String> devices = new LinkedHashSet<>();
-        private Line.Plan plan;
-        private Line line;
-        private Line next;
+        private MqttConnection.Plan plan;
+        private MqttConnection line;
+        private MqttConnection next;
         private boolean ended;
 
-        private Way(Supplier<Line.Plan> plans, String mission, boolean gateway) {
+        private Channel(Supplier<MqttConnection.Plan> plans, String mission, boolean gateway) {
             this.plans = plans;
             this.plan = plans.get();
             this.mission = mission;
@@ -79,38 +80,38 @@ final class Connections implements AutoCloseable {
         }
 
         /**
-         * Opens it, on any thread; where it is open already a second line, which takes the place of the first when {@link
-         * Connections#change} comes to it.
+         * Opens it, on any thread; if it is open already, opens a second connection that replaces the first at the next
+         * {@link Connections#change}.
          *
-         * @throws IOException if the broker is away or refuses
+         * @throws IOException if the broker is unavailable or refuses
          */
         void open() throws IOException {
-            Line opened = Line.open(access.mqtt(), plan(), this::heard);
-            Line needless = keep(opened);
+            MqttConnection opened = MqttConnection.open(access.mqtt(), plan(), this::received);
+            MqttConnection needless = keep(opened);
             if (needless != null) {
                 needless.close();
             }
         }
 
-        private synchronized Line.Plan plan() {
+        private synchronized MqttConnection.Plan plan() {
             return plan;
         }
 
-        /** Takes up the login and the topics of now. @return whether it is open with others */
+        /** Renews login and topics; returns whether it is open with others. */
         private synchronized boolean isOutdated() {
-            Line.Plan fresh = plans.get();
+            MqttConnection.Plan fresh = plans.get();
             boolean same = fresh.equals(plan);
             plan = fresh;
             return !same && line != null;
         }
 
-        private void heard(String topic, byte[] payload) {
+        private void received(String topic, byte[] payload) {
             String[] parts = topic.split("/");
             commands.add(new Command(this, parts[parts.length - 2], payload));
         }
 
-        /** Answers the line that is not needed, if one is not. */
-        private synchronized Line keep(Line opened) {
+        /** Returns the connection that is not needed; null if there is none. */
+        private synchronized MqttConnection keep(MqttConnection opened) {
             if (ended) {
                 return opened;
             }
@@ -118,24 +119,23 @@ final class Connections implements AutoCloseable {
                 line = opened;
                 return null;
             }
-            Line before = next;
+            MqttConnection before = next;
             next = opened;
             return before;
         }
 
-        /** Lets the second line take the place of the first, if there is one; answers the first, which is to be closed. */
-        private synchronized Optional<Line> change() {
+        /** Replaces the first connection by the second, if one is open; returns the first, to be closed. */
+        private synchronized Optional<MqttConnection> change() {
             if (next == null) {
                 return Optional.empty();
             }
-            Line before = line;
+            MqttConnection before = line;
             next.takeOver(before);
             line = next;
             next = null;
             return Optional.of(before);
         }
 
-        /** Whether nobody needs it any more. */
         synchronized boolean isEnded() {
             return ended;
         }
@@ -144,157 +144,162 @@ final class Connections implements AutoCloseable {
             return line != null;
         }
 
-        synchronized Optional<Line> line() {
+        synchronized Optional<MqttConnection> line() {
             return Optional.ofNullable(line);
         }
 
-        /** No line of it is kept from now on; answers those that were. */
-        private synchronized List<Line> end() {
+        /** Ends it; returns its connections, to be closed. */
+        private synchronized List<MqttConnection> end() {
             ended = true;
-            List<Line> last = Stream.of(line, next).filter(Objects::nonNull).toList();
+            List<MqttConnection> last =
+                    Stream.of(line, next).filter(Objects::nonNull).toList();
             line = null;
             next = null;
             return last;
         }
 
-        /** The devices that speak over it. */
         List<String> devices() {
             return List.copyOf(devices);
         }
     }
 
     /**
-     * Takes devices in, all with connections of their own or all with gateways.
+     * Adds devices, all with their own connections or all with gateways.
      *
-     * @return what is to be opened for them
+     * @return the channels to open
      */
-    Collection<Way> add(Collection<Identity> devices) {
-        long own = all.stream().filter(way -> !way.gateway).count();
-        boolean many = own + devices.size() > mostOwn;
-        Set<Way> fresh = new LinkedHashSet<>();
+    Collection<Channel> add(Collection<Identity> devices) {
+        long own = all.stream().filter(channel -> !channel.gateway).count();
+        boolean many = own + devices.size() > maxOwn;
+        Set<Channel> fresh = new LinkedHashSet<>();
         for (Identity device : devices) {
             String mission = device.mission();
-            Way way = gateways.get(mission);
-            if (way == null && many) {
-                way = new Way(() -> gateway(mission), mission, true);
-                gateways.put(mission, way);
-                fresh.add(way);
-            } else if (way == null) {
-                way = new Way(() -> own(device), mission, false);
-                fresh.add(way);
+            Channel channel = gateways.get(mission);
+            if (channel == null && many) {
+                channel = new Channel(() -> gateway(mission), mission, true);
+                gateways.put(mission, channel);
+                fresh.add(channel);
+            } else if (channel == null) {
+                channel = new Channel(() -> own(device), mission, false);
+                fresh.add(channel);
             }
-            way.devices.add(device.id());
-            ways.put(device.id(), way);
+            channel.devices.add(device.id());
+            channels.put(device.id(), channel);
             topics.put(device.id(), topic(mission, device.id()));
         }
         all.addAll(fresh);
         return fresh;
     }
 
-    private Line.Plan own(Identity device) {
-        MqttAccess.Login login = access.logins().device(device);
+    private MqttConnection.Plan own(Identity device) {
+        MqttAccess.Login login = access.logins().device().apply(device);
         String commands = topic(device.mission(), device.id()) + "cmd";
-        return new Line.Plan(login, device.id(), List.of(commands), OWN_KEPT, OWN_BYTES);
+        return new MqttConnection.Plan(login, device.id(), List.of(commands), OWN_KEPT, OWN_BYTES);
     }
 
-    private Line.Plan gateway(String mission) {
-        MqttAccess.Login login = access.logins().gateway(mission);
+    private MqttConnection.Plan gateway(String mission) {
+        MqttAccess.Login login = access.logins().gateway().apply(mission);
         String commands = topic(mission, "+") + "cmd";
-        return new Line.Plan(login, "gateway-" + mission, List.of(commands), GATEWAY_KEPT, GATEWAY_BYTES);
+        return new MqttConnection.Plan(login, "gateway-" + mission, List.of(commands), GATEWAY_KEPT, GATEWAY_BYTES);
     }
 
-    /** The start of a device's topics. */
+    /** Prefix of a device's topics. */
     private String topic(String mission, String device) {
         return "/" + apiKeys.apply(mission) + "/" + device + "/";
     }
 
     /**
-     * Takes up logins and API keys as they are now.
+     * Renews logins and API keys.
      *
-     * @return what is open with others, and is to be opened again: it stays in use until then
+     * @return the channels open with others, to be opened again; they stay in use until then
      */
-    Collection<Way> renew() {
-        List<Way> outdated = all.stream().filter(Way::isOutdated).toList();
-        all.stream().filter(way -> !way.isOpen()).forEach(this::retopic);
+    Collection<Channel> renew() {
+        List<Channel> outdated = all.stream().filter(Channel::isOutdated).toList();
+        all.stream().filter(channel -> !channel.isOpen()).forEach(this::retopic);
         return outdated;
     }
 
-    private void retopic(Way way) {
-        way.devices.forEach(device -> topics.put(device, topic(way.mission, device)));
+    private void retopic(Channel channel) {
+        channel.devices.forEach(device -> topics.put(device, topic(channel.mission, device)));
     }
 
-    /** Uses what was opened again; answers the lines whose place it takes, which are to be closed. */
-    Collection<Line> change() {
-        List<Line> replaced = new ArrayList<>();
-        for (Way way : all) {
-            way.change().ifPresent(line -> {
-                retopic(way);
+    /** Switches to the connections opened again; returns the replaced ones, to be closed. */
+    Collection<MqttConnection> change() {
+        List<MqttConnection> replaced = new ArrayList<>();
+        for (Channel channel : all) {
+            channel.change().ifPresent(line -> {
+                retopic(channel);
                 replaced.add(line);
             });
         }
         return replaced;
     }
 
-    /** The connection of a device, open or not. */
-    Optional<Way> of(String device) {
-        return Optional.ofNullable(ways.get(device));
+    /** The channel of a device, open or not. */
+    Optional<Channel> of(String device) {
+        return Optional.ofNullable(channels.get(device));
     }
 
-    /** Lets a device go; answers the lines that nobody uses any more, which are to be closed. */
-    List<Line> remove(String device) {
-        Way way = ways.remove(device);
+    /** Removes a device; returns the connections without devices, to be closed. */
+    List<MqttConnection> remove(String device) {
+        Channel channel = channels.remove(device);
         topics.remove(device);
-        if (way == null || !way.devices.remove(device) || !way.devices.isEmpty()) {
+        if (channel == null || !channel.devices.remove(device) || !channel.devices.isEmpty()) {
             return List.of();
         }
-        all.remove(way);
-        gateways.remove(way.mission, way);
-        return way.end();
+        all.remove(channel);
+        gateways.remove(channel.mission, channel);
+        return channel.end();
     }
 
-    /** The next command for one of the devices; empty where there is none now. */
+    /** The next command for one of the devices; empty if none waits. */
     Optional<Command> command() {
         for (Command next = commands.poll(); next != null; next = commands.poll()) {
-            if (ways.get(next.device()) == next.way()) {
+            if (channels.get(next.device()) == next.channel()) {
                 return Optional.of(next);
             }
         }
         return Optional.empty();
     }
 
-    /** Says something for a device that has a connection. @param end {@code attrs} or {@code cmdexe} */
+    /**
+     * Publishes JSON for a device that is connected.
+     *
+     * @param end {@code attrs} or {@code cmdexe}
+     */
     void send(String device, String end, ObjectNode json) {
         byte[] payload = json.toString().getBytes(StandardCharsets.UTF_8);
-        of(device).flatMap(Way::line).ifPresent(line -> line.send(topics.get(device) + end, payload));
+        of(device).flatMap(Channel::line).ifPresent(line -> line.send(topics.get(device) + end, payload));
     }
 
-    /** Sends what waits and opens again what is broken. */
+    /** Sends waiting messages and reconnects. */
     void push() {
-        lines().forEach(Line::push);
+        lines().forEach(MqttConnection::push);
     }
 
     int count() {
-        return (int) all.stream().filter(Way::isOpen).count();
+        return (int) all.stream().filter(Channel::isOpen).count();
     }
 
     FarmFleet.Tally tally() {
-        return new FarmFleet.Tally(sum(Line::acknowledged), sum(Line::open), sum(Line::dropped));
+        return new FarmFleet.Tally(
+                sum(MqttConnection::acknowledged), sum(MqttConnection::open), sum(MqttConnection::dropped));
     }
 
-    private long sum(ToLongFunction<Line> count) {
+    private long sum(ToLongFunction<MqttConnection> count) {
         return lines().stream().mapToLong(count).sum();
     }
 
-    private List<Line> lines() {
-        List<Line> lines = new ArrayList<>();
-        all.forEach(way -> way.line().ifPresent(lines::add));
+    private List<MqttConnection> lines() {
+        List<MqttConnection> lines = new ArrayList<>();
+        all.forEach(channel -> channel.line().ifPresent(lines::add));
         return lines;
     }
 
     @Override
     public void close() {
-        Set<Line> lines = new HashSet<>();
-        all.forEach(way -> lines.addAll(way.end()));
-        lines.parallelStream().forEach(Line::close);
+        Set<MqttConnection> lines = new HashSet<>();
+        all.forEach(channel -> lines.addAll(channel.end()));
+        lines.parallelStream().forEach(MqttConnection::close);
     }
 }

@@ -26,21 +26,20 @@ import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 
 /**
- * A farm at work: connected and reporting until closed, its devices all there from the start or coming and going. One thread
- * runs all devices; it never waits for an answer. A measure is of the time at which it was due, though it may be sent a little
- * later.
+ * Runs simulated devices until closed, all from the start or as they are added and removed. One thread runs all devices
+ * and never waits for an answer. A measure carries the time at which it was due, though it may be sent a little later.
  */
 public final class FarmFleet implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(FarmFleet.class);
-    private static final Duration LOOK = Duration.ofMillis(10);
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(10);
 
     private final Clock clock;
-    private final Scene scene = new Scene();
-    private final Timetable timetable = new Timetable();
+    private final FarmSimulation scene = new FarmSimulation();
+    private final ReportScheduler timetable = new ReportScheduler();
     private final Queue<Runnable> changes = new ConcurrentLinkedQueue<>();
     private final Connections connections;
-    private final LineOpener opener = new LineOpener();
-    private final LineOpener.Outcome openings = new Openings();
+    private final ConnectionOpener opener = new ConnectionOpener();
+    private final ConnectionOpener.Outcome openings = new Openings();
     private final Map<String, Member> joining = new HashMap<>();
     private final FleetEvents events;
     private final Robots robots;
@@ -53,19 +52,19 @@ public final class FarmFleet implements AutoCloseable {
     private volatile boolean closed;
 
     /**
-     * A device that joins a fleet.
+     * A device to add.
      *
      * @param scope of its entity
-     * @param since when it set out on its way
+     * @param since start of its way
      */
     public record Member(SimulatedDevice device, FiwareScope scope, Instant since) {}
 
     /**
-     * What became of the measures at QoS 1.
+     * Counts of measures at QoS 1.
      *
      * @param acknowledged by the MQTT broker
      * @param open sent or waiting, and not acknowledged
-     * @param dropped given up because too many waited
+     * @param dropped because too many waited
      */
     public record Tally(long acknowledged, long open, long dropped) {}
 
@@ -79,27 +78,27 @@ public final class FarmFleet implements AutoCloseable {
     }
 
     /**
-     * Provisions the farm's devices at the IoT Agent, connects them and lets them report. Up to 500 MQTT devices have a
-     * connection of their own; of more each mission has a gateway.
+     * Provisions the farm's devices at the IoT Agent, connects and starts them. Up to 500 MQTT devices have their own
+     * connections; of more, each mission has a gateway.
      *
-     * @throws IOException if the IoT Agent or the MQTT broker is away or refuses; nothing is left running then
+     * @throws IOException if the IoT Agent or the MQTT broker is unavailable or refuses; nothing keeps running then
      */
     public static FarmFleet start(Farm farm, FleetAccess access) throws IOException, InterruptedException {
         new IotAgent(access.fiware()).provision(farm.apiKey(), Registrations.of(farm));
-        return start(farm, access, Connections.MOST_OWN, Clock.systemUTC());
+        return start(farm, access, Connections.MAX_OWN, Clock.systemUTC());
     }
 
-    /** The same of devices that are provisioned. */
-    static FarmFleet start(Farm farm, FleetAccess access, int mostOwn, Clock clock) throws IOException {
-        Connections connections = new Connections(access, mission -> farm.apiKey(), mostOwn);
-        FarmFleet fleet = new FarmFleet(access, connections, FleetEvents.NONE, clock);
+    /** Starts provisioned devices. */
+    static FarmFleet start(Farm farm, FleetAccess access, int maxOwn, Clock clock) throws IOException {
+        Connections connections = new Connections(access, mission -> farm.apiKey(), maxOwn);
+        FarmFleet fleet = new FarmFleet(access, connections, new FleetEvents() {}, clock);
         FiwareScope scope = Robots.scope(access.fiware());
         Instant start = clock.instant();
         boolean open = false;
         try {
             List<SimulatedDevice> devices = farm.devices();
-            for (Connections.Way way : connections.add(SimulatedDevice.overMqtt(devices))) {
-                way.open();
+            for (Connections.Channel channel : connections.add(SimulatedDevice.overMqtt(devices))) {
+                channel.open();
             }
             devices.forEach(device -> fleet.admit(new Member(device, scope, start), start));
             fleet.thread.start();
@@ -113,13 +112,13 @@ public final class FarmFleet implements AutoCloseable {
     }
 
     /**
-     * A fleet whose devices come and go. They are provisioned by somebody else: a refused connection is tried again for as long
-     * as the device is wanted.
+     * Opens a fleet without devices, to which provisioned ones are added. A refused connection is retried until its
+     * device is removed.
      *
      * @param apiKeys of missions, first part of the MQTT topics of their devices
      */
     public static FarmFleet open(FleetAccess access, UnaryOperator<String> apiKeys, FleetEvents events) {
-        return open(access, new Connections(access, apiKeys, Connections.MOST_OWN), events);
+        return open(access, new Connections(access, apiKeys, Connections.MAX_OWN), events);
     }
 
     static FarmFleet open(FleetAccess access, Connections connections, FleetEvents events) {
@@ -128,13 +127,13 @@ public final class FarmFleet implements AutoCloseable {
         return fleet;
     }
 
-    /** Lets devices of one mission join, none of which is there; each reports once it is connected, and from then on. */
+    /** Adds devices of one mission, none of which exists; each reports as soon as it is connected. */
     public void add(Collection<Member> members) {
         List<Member> joining = List.copyOf(members);
         changes.add(() -> join(joining));
     }
 
-    /** Takes a device away; what it has not sent yet is not sent. Nothing happens where it is not there. */
+    /** Removes a device and its unsent measures; an unknown device is ignored. */
     public void remove(String device) {
         changes.add(() -> {
             joining.remove(device);
@@ -146,41 +145,41 @@ public final class FarmFleet implements AutoCloseable {
         });
     }
 
-    /** Takes up logins and API keys as they are now; a device goes on with what it has until the MQTT broker takes the new. */
+    /** Renews logins and API keys; a device uses the old ones until the MQTT broker accepts the new. */
     public void renew() {
-        changes.add(() -> connections.renew().forEach(way -> opener.open(way, openings)));
+        changes.add(() -> connections.renew().forEach(channel -> opener.open(channel, openings)));
     }
 
-    /** How many reports have been made since the start. */
+    /** Number of reports since the start. */
     public long reports() {
         return reports.sum();
     }
 
-    /** How many MQTT connections it has. */
+    /** Number of open MQTT connections. */
     public int connections() {
         return connections.count();
     }
 
-    /** As of some hundredths of a second ago. */
+    /** The counts, some hundredths of a second old. */
     public Tally tally() {
         return tally;
     }
 
     /**
-     * Lets devices report no more and waits until the MQTT broker has acknowledged what they reported.
+     * Stops reports and waits until the MQTT broker has acknowledged all measures.
      *
-     * @return whether it has within that time
+     * @return false on timeout
      */
-    public boolean drain(Duration patience) throws InterruptedException {
+    public boolean drain(Duration timeout) throws InterruptedException {
         draining = true;
         long begun = steps;
-        long end = System.nanoTime() + patience.toNanos();
-        // Two steps on, none is under way that began before.
+        long end = System.nanoTime() + timeout.toNanos();
+        // After two steps none is running that started before.
         while (steps < begun + 2 || tally.open() > 0) {
             if (System.nanoTime() > end) {
                 return false;
             }
-            TimeUnit.NANOSECONDS.sleep(LOOK.toNanos());
+            TimeUnit.NANOSECONDS.sleep(POLL_INTERVAL.toNanos());
         }
         return true;
     }
@@ -205,11 +204,12 @@ public final class FarmFleet implements AutoCloseable {
                 step();
             } catch (RuntimeException e) {
                 // One device's fault must not stop all others.
-                LOG.error("a simulated device broke down in one report", e);
+                LOG.error("a simulated device failed in one report", e);
             }
             Instant now = clock.instant();
-            Instant next = draining ? now.plus(LOOK) : timetable.next().orElse(now.plus(LOOK));
-            long wait = Math.min(LOOK.toNanos(), Duration.between(now, next).toNanos());
+            Instant next = draining ? now.plus(POLL_INTERVAL) : timetable.next().orElse(now.plus(POLL_INTERVAL));
+            long wait = Math.min(
+                    POLL_INTERVAL.toNanos(), Duration.between(now, next).toNanos());
             if (wait > 0 && !closed) {
                 LockSupport.parkNanos(wait);
             }
@@ -223,7 +223,7 @@ public final class FarmFleet implements AutoCloseable {
         Instant now = clock.instant();
         commands.obey(now);
         robots.obey(now);
-        for (Optional<Timetable.Due> due = draining ? Optional.empty() : timetable.take(now);
+        for (Optional<ReportScheduler.Due> due = draining ? Optional.empty() : timetable.take(now);
                 due.isPresent() && !closed && !draining;
                 due = timetable.take(now)) {
             scene.report(due.get().device(), due.get().time()).ifPresent(this::send);
@@ -232,12 +232,12 @@ public final class FarmFleet implements AutoCloseable {
         connections.push();
         tally = connections.tally();
         steps = steps + 1;
-        robots.ask(now);
+        robots.poll(now);
     }
 
     private void join(List<Member> members) {
         Instant now = clock.instant();
-        Collection<Connections.Way> fresh = connections.add(
+        Collection<Connections.Channel> fresh = connections.add(
                 SimulatedDevice.overMqtt(members.stream().map(Member::device).toList()));
         for (Member member : members) {
             String id = member.device().id();
@@ -249,10 +249,10 @@ public final class FarmFleet implements AutoCloseable {
                 events.up(id);
             }
         }
-        fresh.forEach(way -> opener.open(way, openings));
+        fresh.forEach(channel -> opener.open(channel, openings));
     }
 
-    /** Lets a device that has a connection say its first word at once. */
+    /** Starts a connected device with a first report. */
     private void begin(String id, Instant now) {
         Member member = joining.remove(id);
         if (member != null) {
@@ -280,11 +280,11 @@ public final class FarmFleet implements AutoCloseable {
         }
     }
 
-    /** What becomes of connections, told on threads of the opener. */
-    private final class Openings implements LineOpener.Outcome {
+    /** Receives outcomes of connections, on threads of the opener. */
+    private final class Openings implements ConnectionOpener.Outcome {
         @Override
-        public void opened(Connections.Way way) {
-            changes.add(() -> way.devices().forEach(id -> {
+        public void opened(Connections.Channel channel) {
+            changes.add(() -> channel.devices().forEach(id -> {
                 if (joining.containsKey(id)) {
                     begin(id, clock.instant());
                     events.up(id);
@@ -293,8 +293,8 @@ public final class FarmFleet implements AutoCloseable {
         }
 
         @Override
-        public void failed(Connections.Way way, int attempts, String reason) {
-            changes.add(() -> way.devices().forEach(id -> events.failed(id, attempts, reason)));
+        public void failed(Connections.Channel channel, int attempts, String reason) {
+            changes.add(() -> channel.devices().forEach(id -> events.failed(id, attempts, reason)));
         }
     }
 }

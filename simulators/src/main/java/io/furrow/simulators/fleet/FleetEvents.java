@@ -1,28 +1,15 @@
 package io.furrow.simulators.fleet;
 
-/** What a fleet tells of its devices, on any of its threads. */
+/** Receives connection events of devices, on any thread of the fleet; ignores them by default. */
 public interface FleetEvents {
-    /** Takes no notice. */
-    FleetEvents NONE = new FleetEvents() {
-        @Override
-        public void up(String device) {
-            // Nobody asked.
-        }
-
-        @Override
-        public void failed(String device, int attempts, String reason) {
-            // Nobody asked.
-        }
-    };
-
-    /** Its connection stands; of a robot: the context broker has taken what it reports. */
-    void up(String device);
+    /** The device is connected; for a robot: the context broker has accepted its first update. */
+    default void up(String device) {}
 
     /**
-     * Its connection could not be opened, and is tried again.
+     * A connection attempt failed and is retried.
      *
      * @param attempts so far
      * @param reason a sentence
      */
-    void failed(String device, int attempts, String reason);
+    default void failed(String device, int attempts, String reason) {}
 }

@@ -10,7 +10,7 @@ import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
 
-/** What the IoT Agent is told of a farm's devices; robots are none of its. */
+/** Describes the devices of a farm to the IoT Agent; robots are not registered there. */
 final class Registrations {
     static final List<String> COMMANDS = List.of("on", "off", "restart");
 

@@ -4,14 +4,13 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.ngsi.Entity;
 
-/** What a device has to say. */
+/** A report of a device. */
 public sealed interface Report {
-    /** Id of the device. */
     String device();
 
-    /** Measures that go to the IoT Agent over MQTT. */
+    /** Measures for the IoT Agent, over MQTT. */
     record Measures(String device, ObjectNode json) implements Report {}
 
-    /** An entity that goes to the context broker directly, as FIROS sends it. */
+    /** An entity for the context broker, as FIROS sends it. */
     record Update(String device, Entity entity) implements Report {}
 }

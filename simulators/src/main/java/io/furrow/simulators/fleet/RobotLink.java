@@ -25,10 +25,10 @@ import io.furrow.simulators.device.FiwareHttp;
 import io.furrow.simulators.device.FleetSettings;
 
 /**
- * The robots' way to the context broker and back. One update of a robot at a time keeps them in order; one that comes while the
- * last is not answered is dropped, as FIROS does. Commands are asked for. The first update of a robot empties its {@code cmd}, so
- * that no old command is run again; what {@code cmd} holds after that is a command when it is another than the last time. One
- * that changes and changes back between two questions is not seen.
+ * Connects robots with the context broker. At most one update of a robot is in flight, which keeps them in order; one
+ * that comes meanwhile is dropped, as FIROS does. Commands are polled: the first update of a robot empties its {@code
+ * cmd}, so that no old command runs again; after that each change of {@code cmd} is a command. A change that is
+ * reverted between two polls is missed.
  */
 final class RobotLink {
     private static final Logger LOG = LoggerFactory.getLogger(RobotLink.class);
@@ -41,13 +41,12 @@ final class RobotLink {
     private final FleetEvents events;
     private final Map<String, Known> robots = new ConcurrentHashMap<>();
     private final Queue<Order> orders = new ConcurrentLinkedQueue<>();
-    private final AtomicBoolean asking = new AtomicBoolean();
+    private final AtomicBoolean polling = new AtomicBoolean();
     private volatile boolean away;
 
-    /** What {@code cmd} of a robot's entity holds. */
+    /** The content of {@code cmd} of a robot's entity. */
     record Order(String device, String entity, String word) {}
 
-    /** What is known of a robot. */
     private static final class Known {
         private final String device;
         private final AtomicBoolean busy = new AtomicBoolean();
@@ -69,7 +68,7 @@ final class RobotLink {
         this.events = events;
     }
 
-    /** Takes a robot in, whose {@code cmd} is yet to be emptied. */
+    /** Adds a robot, whose {@code cmd} is yet to be emptied. */
     void add(String device, String entity) {
         robots.put(entity, new Known(device));
     }
@@ -78,7 +77,7 @@ final class RobotLink {
         robots.remove(entity);
     }
 
-    /** Writes an entity without waiting for the outcome. */
+    /** Writes an entity asynchronously. */
     void update(Entity entity) {
         Known robot = robots.get(entity.id());
         if (robot == null || !robot.busy.compareAndSet(false, true)) {
@@ -107,14 +106,14 @@ final class RobotLink {
         });
     }
 
-    /** What became of a command: goes with the robot's next update as {@code cmd_status} and {@code cmd_info}. */
+    /** Stores the result of a command for the robot's next update, as {@code cmd_status} and {@code cmd_info}. */
     void answer(String entity, boolean obeyed, String sentence) {
         ObjectNode result = attribute("cmd_status", "commandStatus", obeyed ? "OK" : "ERROR");
         robots.get(entity).result.set(result.setAll(attribute("cmd_info", "commandResult", sentence)));
     }
 
-    /** Says what became of commands for robots that do not report by themselves at the moment. */
-    void sayResults() {
+    /** Publishes results of commands for robots that do not report at the moment. */
+    void publishResults() {
         robots.forEach((entity, robot) -> {
             if (!robot.result.get().isEmpty()) {
                 update(Entity.builder(entity, TYPE).build());
@@ -122,8 +121,8 @@ final class RobotLink {
         });
     }
 
-    /** Takes a robot for one that has just come: its {@code cmd} is emptied before it is told something again. */
-    void beginAnew(String entity) {
+    /** Treats a robot as new: its {@code cmd} is emptied before it gets a command again. */
+    void restart(String entity) {
         Known robot = robots.get(entity);
         robot.listening = false;
         robot.last = null;
@@ -135,21 +134,21 @@ final class RobotLink {
         return json;
     }
 
-    /** Asks for the commands of robots without waiting for the answer; while one question is open it asks no other. */
-    void ask() {
+    /** Polls for commands asynchronously; at most one poll is in flight. */
+    void poll() {
         List<String> entities = new ArrayList<>();
         robots.forEach((entity, robot) -> {
             if (robot.listening) {
                 entities.add(entity);
             }
         });
-        if (entities.isEmpty() || !asking.compareAndSet(false, true)) {
+        if (entities.isEmpty() || !polling.compareAndSet(false, true)) {
             return;
         }
-        ask(entities, 0);
+        poll(entities, 0);
     }
 
-    private void ask(List<String> entities, int from) {
+    private void poll(List<String> entities, int from) {
         ObjectNode query = NODES.objectNode();
         ArrayNode wanted = query.putArray("entities");
         List<String> page = entities.subList(from, Math.min(entities.size(), from + PAGE));
@@ -161,9 +160,9 @@ final class RobotLink {
                         read(answer.body());
                     }
                     if (failure == null && from + PAGE < entities.size()) {
-                        ask(entities, from + PAGE);
+                        poll(entities, from + PAGE);
                     } else {
-                        asking.set(false);
+                        polling.set(false);
                     }
                 });
     }
@@ -178,11 +177,11 @@ final class RobotLink {
                 }
             }
         } catch (UnreadableException e) {
-            LOG.warn("{} answers what is no JSON to a question for commands", settings.contextBroker(), e);
+            LOG.warn("{} answers a poll for commands with invalid JSON", settings.contextBroker(), e);
         }
     }
 
-    /** The commands that are new since the last time; from one thread. */
+    /** The new commands since the last call; from one thread. */
     List<Order> orders() {
         List<Order> fresh = new ArrayList<>();
         for (Order order = orders.poll(); order != null; order = orders.poll()) {
@@ -202,12 +201,12 @@ final class RobotLink {
                 : "no answer from the context broker %s: is it running?".formatted(settings.contextBroker());
     }
 
-    /** Says once that updates do not arrive, and once that they do again. */
+    /** Logs once that updates fail, and once that they succeed again. */
     private void note(boolean arrived, String reason) {
         if (!arrived && !away) {
-            LOG.warn("{} does not take what robots report: {}", settings.contextBroker(), reason);
+            LOG.warn("{} does not accept updates of robots: {}", settings.contextBroker(), reason);
         } else if (arrived && away) {
-            LOG.info("{} takes what robots report again", settings.contextBroker());
+            LOG.info("{} accepts updates of robots again", settings.contextBroker());
         }
         away = !arrived;
     }

@@ -4,36 +4,31 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.HashMap;
 import java.util.Map;
-import java.util.Optional;
-import java.util.Set;
 
 import io.furrow.model.event.FiwareScope;
 import io.furrow.simulators.device.FleetSettings;
-import io.furrow.simulators.robot.Command;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 
-/** The robots of a fleet: to which context broker's tenant each reports, and what they are told there. */
+/** The robots of a fleet: reports each to its context broker tenant, and executes the commands received there. */
 final class Robots {
-    private static final Duration ASK = Duration.ofMillis(500);
-    private static final Set<String> SWITCHES = Set.of("on", "off");
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(500);
     private static final String RESTART = "restart";
 
     private final FleetSettings settings;
-    private final Scene scene;
+    private final FarmSimulation scene;
     private final FleetEvents events;
     private final Map<FiwareScope, RobotLink> links = new HashMap<>();
     private final Map<String, Robot> robots = new HashMap<>();
     private final Map<String, RobotLink> linkOf = new HashMap<>();
     private final Map<String, Instant> restarting = new HashMap<>();
-    private Instant asked = Instant.MIN;
+    private Instant polled = Instant.MIN;
 
-    Robots(FleetSettings settings, Scene scene, FleetEvents events) {
+    Robots(FleetSettings settings, FarmSimulation scene, FleetEvents events) {
         this.settings = settings;
         this.scene = scene;
         this.events = events;
     }
 
-    /** That of the settings. */
     static FiwareScope scope(FleetSettings settings) {
         return FiwareScope.of(settings.fiwareService(), settings.servicePath());
     }
@@ -66,33 +61,36 @@ final class Robots {
         }
     }
 
-    /** Lets robots do what they were told since the last time. */
+    /** Executes the commands received since the last call. */
     void obey(Instant now) {
         links.values().forEach(link -> link.orders().forEach(order -> obey(link, order, now)));
     }
 
     private void obey(RobotLink link, RobotLink.Order order, Instant now) {
         Robot robot = robots.get(order.device());
-        Optional<Command> command = Command.of(order.word());
-        if (command.isPresent()) {
-            scene.tell(robot, command.get(), now);
-            link.answer(order.entity(), true, order.word());
-        } else if (SWITCHES.contains(order.word())) {
-            scene.switchTo(robot, order.word().equals("on"), now);
-            link.answer(order.entity(), true, order.word());
-        } else if (order.word().equals(RESTART)) {
-            Instant until = now.plus(Commands.RESTART);
-            scene.restart(robot.id(), until);
-            restarting.put(robot.id(), until);
-            link.beginAnew(order.entity());
-        } else {
-            // Without the word itself: the context broker refuses some signs in texts.
-            link.answer(order.entity(), false, "no such command: use Running, Stop, Resume, on, off or restart");
+        switch (order.word()) {
+            case "Running", "Resume", "Stop" -> {
+                scene.command(robot, order.word().equals("Stop"), now);
+                link.answer(order.entity(), true, order.word());
+            }
+            case "on", "off" -> {
+                scene.switchTo(robot, order.word().equals("on"), now);
+                link.answer(order.entity(), true, order.word());
+            }
+            case RESTART -> {
+                Instant until = now.plus(Commands.RESTART);
+                scene.restart(robot.id(), until);
+                restarting.put(robot.id(), until);
+                link.restart(order.entity());
+            }
+            // Without the word itself: the context broker refuses some characters in texts.
+            default ->
+                link.answer(order.entity(), false, "no such command: use Running, Stop, Resume, on, off or restart");
         }
     }
 
-    /** Says that robots are there again which were told to restart. */
-    private void comeBack(Instant now) {
+    /** Answers the restart commands that are over. */
+    private void endRestarts(Instant now) {
         restarting.entrySet().removeIf(each -> {
             boolean back = !now.isBefore(each.getValue());
             Robot robot = robots.get(each.getKey());
@@ -103,13 +101,13 @@ final class Robots {
         });
     }
 
-    /** Asks for commands, twice a second, and says what became of them where no report does. */
-    void ask(Instant now) {
-        if (Duration.between(asked, now).compareTo(ASK) >= 0) {
-            asked = now;
-            comeBack(now);
-            links.values().forEach(RobotLink::sayResults);
-            links.values().forEach(RobotLink::ask);
+    /** Polls for commands twice a second, and publishes results of robots that do not report. */
+    void poll(Instant now) {
+        if (Duration.between(polled, now).compareTo(POLL_INTERVAL) >= 0) {
+            polled = now;
+            endRestarts(now);
+            links.values().forEach(RobotLink::publishResults);
+            links.values().forEach(RobotLink::poll);
         }
     }
 }

@@ -10,12 +10,13 @@ import org.apache.kafka.common.KafkaException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.time.Backoff;
 import io.furrow.simulators.fleet.FarmFleet;
 
 /**
- * Runs the devices that are wanted on {@code service.devices} as a simulated fleet, and says on {@code service.devices.status} how
- * each is. It provisions none: the control plane does. All is on Kafka, so that a host that was killed goes on where it is
- * started again, and one that failed begins anew by itself. There is to be one host at a time, because each runs all.
+ * Runs the devices desired on {@code service.devices} as a simulated fleet, and publishes their statuses on {@code
+ * service.devices.status}. Provisions none: the control plane does. All state is on Kafka, so a host continues after a
+ * kill, and restarts by itself after a failure. Run one host at a time, because each runs all devices.
  */
 public final class DeviceHost implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(DeviceHost.class);
@@ -37,10 +38,10 @@ public final class DeviceHost implements AutoCloseable {
     }
 
     /**
-     * Starts; devices come up once the topics can be read and the MQTT broker lets them in. Kafka and the broker may be away at
-     * that time.
+     * Starts; devices start once the topics can be read and the MQTT broker accepts them. Kafka and the broker may be
+     * unavailable at that time.
      *
-     * @throws IOException if the settings of Kafka are no such; the message says which
+     * @throws IOException if the Kafka settings are invalid; the message says which
      */
     public static DeviceHost start(HostSettings settings) throws IOException {
         try {
@@ -52,30 +53,29 @@ public final class DeviceHost implements AutoCloseable {
         }
     }
 
-    /** Whether all that was wanted at the start has been taken up; connections may still be on their way. */
+    /** Whether all devices desired at the start were processed; connections may still be opening. */
     public boolean isCaughtUp() {
         return loop.isCaughtUp();
     }
 
-    /** Whether it goes on taking up what is wanted. */
     public boolean isAlive() {
         return thread.isAlive();
     }
 
-    /** When it last read what is wanted; null if it has not since it began anew. */
+    /** Time of the last poll; null if none succeeded since its last restart. */
     public Instant lastPoll() {
         return loop.lastPoll();
     }
 
-    /** What made it begin anew or end; empty where nothing has. */
+    /** Why it restarted or ended; empty if it did not. */
     public String lastFailure() {
         return refusal == null ? lastFailure == null ? "" : lastFailure : refusal;
     }
 
     /**
-     * Waits until it takes up nothing any more, because it was closed.
+     * Waits until it has ended, because it was closed.
      *
-     * @throws IOException if it has ended because the farm has another secret; the message says what to do
+     * @throws IOException if it ended because the farm has another secret; the message names the remedy
      */
     public void await() throws InterruptedException, IOException {
         thread.join();
@@ -84,12 +84,11 @@ public final class DeviceHost implements AutoCloseable {
         }
     }
 
-    /** The fleet at work, for figures. */
     public FarmFleet fleet() {
         return loop.fleet();
     }
 
-    /** Stops all devices within seconds. Their statuses stay as they are: another host may go on. */
+    /** Stops all devices within seconds. Their statuses stay as they are: another host may continue. */
     @Override
     public void close() {
         closing.countDown();
@@ -98,17 +97,18 @@ public final class DeviceHost implements AutoCloseable {
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }
-        loop.fleet().close(); // where it did not end in time
+        loop.fleet().close(); // if it did not end in time
     }
 
     private void run() {
         try {
-            Duration backoff = MIN_BACKOFF;
+            Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);
             while (!isClosing()) {
                 if (!host()) {
-                    backoff = loop.isCaughtUp() ? MIN_BACKOFF : backoff;
-                    closing.await(backoff.toMillis(), TimeUnit.MILLISECONDS);
-                    backoff = backoff.compareTo(MAX_BACKOFF.dividedBy(2)) > 0 ? MAX_BACKOFF : backoff.multipliedBy(2);
+                    if (loop.isCaughtUp()) {
+                        backoff.reset();
+                    }
+                    closing.await(backoff.next().toMillis(), TimeUnit.MILLISECONDS);
                 }
             }
         } catch (InterruptedException e) {
@@ -119,15 +119,15 @@ public final class DeviceHost implements AutoCloseable {
         }
     }
 
-    /** Answers whether it ended without failing. The devices of one that failed are stopped and started again. */
+    /** Returns whether it ended without failure. After a failure the devices are stopped and started again. */
     private boolean host() throws InterruptedException, FarmSecretCheck.AnotherSecretException {
         try (HostLoop now = lastFailure == null ? loop : new HostLoop(settings)) {
             loop = now;
             now.run(this::isClosing);
             return true;
-        } catch (RuntimeException e) { // whatever it is, the devices shall run
+        } catch (RuntimeException e) { // restarted whatever the cause
             lastFailure = e.toString();
-            LOG.error("the host of devices failed and begins anew", e);
+            LOG.error("the host of devices failed and restarts", e);
             return false;
         }
     }

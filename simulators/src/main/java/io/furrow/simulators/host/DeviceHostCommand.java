@@ -23,10 +23,13 @@ import io.furrow.model.file.PrivateFile;
 import io.furrow.model.file.ReloadedFile;
 import io.furrow.simulators.mqtt.MqttAccess;
 
-/** The host of simulated devices as a process of its own, in a container for instance: each option may be a variable too. */
+/**
+ * Runs the host of simulated devices as a process, in a container for instance; each option may be an environment
+ * variable.
+ */
 @Command(
         name = "device-host",
-        description = "Runs the devices that are wanted on service.devices as a simulated fleet, until it is stopped.",
+        description = "Runs the devices desired on service.devices as a simulated fleet, until it is stopped.",
         mixinStandardHelpOptions = true,
         sortOptions = false)
 public final class DeviceHostCommand implements Callable<Integer> {
@@ -61,7 +64,7 @@ public final class DeviceHostCommand implements Callable<Integer> {
             names = "--mqtt-trusted",
             paramLabel = "FILE",
             defaultValue = "${env:FURROW_MQTT_TRUSTED:-}",
-            description = "Certificates in PEM whom to trust. Default: $FURROW_MQTT_TRUSTED, else those of Java.")
+            description = "Trusted certificates in PEM. Default: $FURROW_MQTT_TRUSTED, else those of Java.")
     private String trusted;
 
     @Option(
@@ -92,12 +95,12 @@ public final class DeviceHostCommand implements Callable<Integer> {
             names = "--seed",
             paramLabel = "N",
             defaultValue = "${env:FURROW_SEED:-0}",
-            description = "Another number makes other devices. Default: $FURROW_SEED, else 0.")
+            description = "Seed: another number creates other devices. Default: $FURROW_SEED, else 0.")
     private long seed;
 
     private DeviceHostCommand() {}
 
-    /** Ends with 1 where it cannot start or broke down, which is in the log. */
+    /** Exits with 1 on failure, with the reason in the log. */
     public static void main(String[] arguments) {
         System.exit(new CommandLine(new DeviceHostCommand()).execute(arguments));
     }
@@ -122,7 +125,7 @@ public final class DeviceHostCommand implements Callable<Integer> {
                             host.close();
                         },
                         "device-host-stop"));
-        spec.commandLine().getOut().println("Devices that are wanted run until this is stopped.");
+        spec.commandLine().getOut().println("Desired devices run until this is stopped.");
         spec.commandLine().getOut().flush();
         host.await();
         return asked.get() ? 0 : 1;

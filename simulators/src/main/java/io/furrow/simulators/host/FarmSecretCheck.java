@@ -11,8 +11,8 @@ import io.furrow.model.device.SecretFingerprints;
 import io.furrow.model.ngsi.UnreadableException;
 
 /**
- * The secret that a host uses: what it was given, as long as that is the farm's, whose fingerprints are on {@code service.secrets}.
- * One thread changes it, any may ask for it.
+ * Provides the secret of a host: the given one, as long as it matches the farm's fingerprints on {@code
+ * service.secrets}. One thread changes it, any may read it.
  */
 final class FarmSecretCheck implements Supplier<FarmSecret> {
     private static final Logger LOG = LoggerFactory.getLogger(FarmSecretCheck.class);
@@ -22,7 +22,7 @@ final class FarmSecretCheck implements Supplier<FarmSecret> {
     private volatile FarmSecret used;
     private SecretFingerprints farms;
 
-    /** The host has a secret that is not the farm's: no login that it makes is known to the MQTT broker. */
+    /** The secret of the host is not the farm's: the MQTT broker knows none of its logins. */
     static final class AnotherSecretException extends Exception {
         private static final long serialVersionUID = 1L;
 
@@ -45,10 +45,10 @@ final class FarmSecretCheck implements Supplier<FarmSecret> {
     }
 
     /**
-     * Takes records of the topic.
+     * Processes records of the topic.
      *
-     * @throws AnotherSecretException if the farm has another secret; one that was rotated once more is only reported, because the
-     *     host's passwords count for a time
+     * @throws AnotherSecretException if the farm has another secret; one rotated once more only causes a warning,
+     *     because old passwords stay valid for a time
      */
     void take(Map<String, byte[]> records) throws AnotherSecretException {
         byte[] value = records.get(SecretFingerprints.KEY);
@@ -58,7 +58,7 @@ final class FarmSecretCheck implements Supplier<FarmSecret> {
         try {
             farms = SecretFingerprints.read(value);
         } catch (UnreadableException e) {
-            LOG.warn("the fingerprints of the farm's secret cannot be read and are passed over", e);
+            LOG.warn("the fingerprints of the farm's secret cannot be read and are ignored", e);
             return;
         }
         SecretFingerprints mine = SecretFingerprints.of(used);
@@ -66,14 +66,14 @@ final class FarmSecretCheck implements Supplier<FarmSecret> {
             case ANOTHER -> throw new AnotherSecretException(farms, mine);
             case OLDER ->
                 LOG.warn(
-                        "the farm's secret was rotated: its newest key is {}, that of this host {}. Give the host a copy of the control plane's file before the old passwords cease to count",
+                        "the farm's secret was rotated: its newest key is {}, that of this host {}. Give the host a copy of the control plane's file before the old passwords expire",
                         farms,
                         mine);
             default -> LOG.debug("the secret of this host is that of the farm, {}", mine);
         }
     }
 
-    /** Takes up what the host was given since it was asked last, if it is the farm's. @return whether it did */
+    /** Adopts a changed secret, if it is the farm's; returns whether it did. */
     boolean isChanged() {
         FarmSecret now = given.get();
         if (now.equals(newest)) {
@@ -83,7 +83,7 @@ final class FarmSecretCheck implements Supplier<FarmSecret> {
         SecretFingerprints mine = SecretFingerprints.of(now);
         if (farms != null && mine.to(farms) == SecretFingerprints.Relation.ANOTHER) {
             LOG.warn(
-                    "{}; until then the one from before stays in use",
+                    "{}; until then the previous one stays in use",
                     new AnotherSecretException(farms, mine).getMessage());
             return false;
         }

@@ -3,7 +3,6 @@ package io.furrow.simulators.host;
 import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
-import java.util.Collection;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
@@ -24,7 +23,7 @@ import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.fleet.FleetAccess;
 import io.furrow.simulators.fleet.FleetEvents;
 
-/** One attempt at hosting devices, from reading all that is wanted to the end, or to an exception after which another begins anew. */
+/** Hosts devices, from reading all desired ones until close, or until an exception after which a new loop starts. */
 final class HostLoop implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(HostLoop.class);
     private static final Duration RETRY_BACKOFF = Duration.ofSeconds(1);
@@ -33,11 +32,11 @@ final class HostLoop implements AutoCloseable {
     private final WantedRecords records;
     private final StatusRecords statuses;
     private final FarmFleet fleet;
-    private final StatusBoard board;
-    private final Hosting hosting;
+    private final StatusPublisher board;
+    private final FleetReconciler hosting;
     private final FarmSecretCheck secret;
     private final KnownFields fields = new KnownFields();
-    private final Queue<Runnable> told = new ConcurrentLinkedQueue<>();
+    private final Queue<Runnable> events = new ConcurrentLinkedQueue<>();
     private volatile boolean caughtUp;
     private volatile Instant lastPoll;
 
@@ -50,16 +49,16 @@ final class HostLoop implements AutoCloseable {
                 kafka,
                 List.of(Topics.DEVICES, Topics.MISSION_DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS));
         this.statuses = new StatusRecords(kafka);
-        this.board = new StatusBoard(statuses::say);
-        this.fleet = FarmFleet.open(access, mission -> secret.get().apiKey(mission), new Told());
-        this.hosting = new Hosting(new Running(), board, settings.seed());
+        this.board = new StatusPublisher(statuses::publish);
+        this.fleet = FarmFleet.open(access, mission -> secret.get().apiKey(mission), new EventQueue());
+        this.hosting = new FleetReconciler(fleet::add, fleet::remove, board, settings.seed());
     }
 
     boolean isCaughtUp() {
         return caughtUp;
     }
 
-    /** When the topics were last read; null if never. */
+    /** Time of the last successful poll; null before the first. */
     Instant lastPoll() {
         return lastPoll;
     }
@@ -68,20 +67,20 @@ final class HostLoop implements AutoCloseable {
         return fleet;
     }
 
-    /** Hosts until it is closing; a Kafka that is away is waited for. */
+    /** Hosts until closing; retries while Kafka is unavailable. */
     void run(BooleanSupplier closing) throws InterruptedException, FarmSecretCheck.AnotherSecretException {
         while (!closing.getAsBoolean()) {
             try {
                 step();
                 lastPoll = clock.instant();
             } catch (KafkaException e) {
-                LOG.warn("Kafka does not answer the host of devices, which goes on trying: {}", e.toString());
+                LOG.warn("Kafka does not answer the host of devices, which retries: {}", e.toString());
                 Thread.sleep(RETRY_BACKOFF.toMillis());
             }
         }
     }
 
-    /** Stops all devices within seconds. Their statuses stay as they are: another host may go on. */
+    /** Stops all devices within seconds. Their statuses stay as they are: another host may continue. */
     @Override
     public void close() {
         fleet.close();
@@ -112,10 +111,10 @@ final class HostLoop implements AutoCloseable {
             hosting.forgetAllBut(statuses.keys());
             caughtUp = true;
         }
-        for (Runnable next = told.poll(); next != null; next = told.poll()) {
+        for (Runnable next = events.poll(); next != null; next = events.poll()) {
             next.run();
         }
-        statuses.repeatLost();
+        statuses.retryFailed();
     }
 
     private static Map<String, WantedDevice> read(Map<String, byte[]> records) {
@@ -124,34 +123,22 @@ final class HostLoop implements AutoCloseable {
             try {
                 devices.put(key, value == null ? null : WantedDevice.read(value));
             } catch (UnreadableException e) {
-                LOG.warn("what is wanted of {} cannot be read and is passed over: {}", key, e.getMessage());
+                LOG.warn("the desired device {} cannot be read and is ignored: {}", key, e.getMessage());
             }
         });
         return devices;
     }
 
-    /** What the fleet tells, taken on the thread of the host. */
-    private final class Told implements FleetEvents {
+    /** Queues events of the fleet for the thread of the host. */
+    private final class EventQueue implements FleetEvents {
         @Override
         public void up(String device) {
-            told.add(() -> board.up(device));
+            events.add(() -> board.up(device));
         }
 
         @Override
         public void failed(String device, int attempts, String reason) {
-            told.add(() -> board.failed(device, attempts, reason));
-        }
-    }
-
-    private final class Running implements Hosting.Fleet {
-        @Override
-        public void add(Collection<FarmFleet.Member> members) {
-            fleet.add(members);
-        }
-
-        @Override
-        public void remove(String device) {
-            fleet.remove(device);
+            events.add(() -> board.failed(device, attempts, reason));
         }
     }
 }

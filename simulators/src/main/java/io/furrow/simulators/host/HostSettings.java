@@ -1,7 +1,6 @@
 package io.furrow.simulators.host;
 
 import java.net.URI;
-import java.util.Objects;
 import java.util.Properties;
 import java.util.function.Supplier;
 
@@ -9,24 +8,16 @@ import io.furrow.model.device.FarmSecret;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /**
- * What a host of simulated devices is started with.
+ * Settings of a host of simulated devices.
  *
- * @param kafka settings of Kafka clients, {@code bootstrap.servers} among them
- * @param mqtt the MQTT broker that devices speak to
- * @param contextBroker base of the NGSI-v2 interface that robots write to, as in {@code http://127.0.0.1:1026}
- * @param secret of which the API keys of missions and the passwords of devices are made, as at the control plane; asked often, and
- *     followed when it changes
- * @param seed other seeds make other devices: elsewhere in their area, other noise
+ * @param kafka settings of Kafka clients, including {@code bootstrap.servers}
+ * @param mqtt the MQTT broker of the devices
+ * @param contextBroker base of the NGSI-v2 API that robots write to, as in {@code http://127.0.0.1:1026}
+ * @param secret source of API keys and passwords, the same as the control plane's; polled for changes
+ * @param seed other seeds create other devices: elsewhere in their area, other noise
  */
 public record HostSettings(
         Properties kafka, MqttAccess mqtt, URI contextBroker, Supplier<FarmSecret> secret, long seed) {
-    public HostSettings {
-        Objects.requireNonNull(kafka);
-        Objects.requireNonNull(mqtt);
-        Objects.requireNonNull(contextBroker);
-        Objects.requireNonNull(secret);
-    }
-
     /** With the seed 0. */
     public static HostSettings of(Properties kafka, MqttAccess mqtt, URI contextBroker, Supplier<FarmSecret> secret) {
         return new HostSettings(kafka, mqtt, contextBroker, secret, 0);

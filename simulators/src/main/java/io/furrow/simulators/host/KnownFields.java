@@ -11,13 +11,13 @@ import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.robot.WorkField;
 
-/** The fields of {@code service.fields}, version by version. Of a field with several parts devices use the largest. */
+/** The fields of {@code service.fields}, by version. Of a field with several parts devices use the largest. */
 final class KnownFields {
     private static final Logger LOG = LoggerFactory.getLogger(KnownFields.class);
 
     private final Map<String, FieldVersion> versions = new HashMap<>();
 
-    /** Takes records, null for a version that was taken away. */
+    /** Processes records, null for a removed version. */
     void take(Map<String, byte[]> records) {
         records.forEach((key, value) -> {
             try {
@@ -26,12 +26,12 @@ final class KnownFields {
                     versions.put(key, FieldVersion.read(value));
                 }
             } catch (UnreadableException e) {
-                LOG.warn("the field of {} cannot be read and is passed over: {}", key, e.getMessage());
+                LOG.warn("the field of {} cannot be read and is ignored: {}", key, e.getMessage());
             }
         });
     }
 
-    /** The fields as they are at an event time, by id. */
+    /** The fields valid at an event time, by id. */
     Map<String, WorkField> at(long time) {
         Map<String, FieldVersion> newest = new HashMap<>();
         for (FieldVersion version : versions.values()) {

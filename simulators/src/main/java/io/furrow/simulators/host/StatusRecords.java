@@ -22,77 +22,81 @@ import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
-/** What is said on {@code service.devices.status}: a record where a device's status is another than the last, and never less. */
+/** Publishes {@code service.devices.status}: a record whenever the status of a device changes. */
 final class StatusRecords implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(StatusRecords.class);
 
-    private static final Duration PATIENCE = Duration.ofSeconds(5);
+    private static final Duration TIMEOUT = Duration.ofSeconds(5);
 
     private final KafkaProducer<String, byte[]> producer;
-    private final Map<String, DeviceStatus> said = new HashMap<>();
-    private final Queue<String> lost = new ConcurrentLinkedQueue<>();
+    private final Map<String, DeviceStatus> published = new HashMap<>();
+    private final Queue<String> failed = new ConcurrentLinkedQueue<>();
 
     StatusRecords(Properties kafka) {
         Properties settings = new Properties();
         settings.putAll(kafka);
-        settings.putIfAbsent(ProducerConfig.MAX_BLOCK_MS_CONFIG, PATIENCE.toMillis());
+        settings.putIfAbsent(ProducerConfig.MAX_BLOCK_MS_CONFIG, TIMEOUT.toMillis());
         settings.put(ProducerConfig.ACKS_CONFIG, "all");
         settings.put(ProducerConfig.ENABLE_IDEMPOTENCE_CONFIG, true);
         this.producer = new KafkaProducer<>(settings, new StringSerializer(), new ByteArraySerializer());
     }
 
-    /** Takes what an earlier host has said, null for what it took back. */
+    /** Initializes from the records of an earlier host, null for tombstones. */
     void remember(Map<String, byte[]> records) {
         records.forEach((key, value) -> {
             try {
-                said.put(key, value == null ? null : DeviceStatus.read(value));
+                published.put(key, value == null ? null : DeviceStatus.read(value));
             } catch (UnreadableException e) {
-                LOG.warn("the status of {} cannot be read and is written anew: {}", key, e.getMessage());
-                said.put(key, new DeviceStatus(-1, DeviceStatus.State.FAILED, ""));
+                LOG.warn("the status of {} cannot be read and is replaced: {}", key, e.getMessage());
+                published.put(key, new DeviceStatus(-1, DeviceStatus.State.FAILED, ""));
             }
         });
-        said.values().removeIf(Objects::isNull);
+        published.values().removeIf(Objects::isNull);
     }
 
-    /** The devices of which a status is on the topic. */
+    /** Devices with a status on the topic. */
     Set<String> keys() {
-        return new HashSet<>(said.keySet());
+        return new HashSet<>(published.keySet());
     }
 
-    /** @param status null for a device that is gone */
-    void say(String key, DeviceStatus status) {
-        if (Objects.equals(said.get(key), status)) {
+    /**
+     * Publishes a status unless it is unchanged.
+     *
+     * @param status null for a removed device
+     */
+    void publish(String key, DeviceStatus status) {
+        if (Objects.equals(published.get(key), status)) {
             return;
         }
         if (status == null) {
-            said.remove(key);
+            published.remove(key);
         } else {
-            said.put(key, status);
+            published.put(key, status);
         }
         send(key);
     }
 
     private void send(String key) {
-        DeviceStatus status = said.get(key);
+        DeviceStatus status = published.get(key);
         byte[] value = status == null ? null : status.toBytes();
         producer.send(new ProducerRecord<>(Topics.DEVICES_STATUS, key, value), (at, failure) -> {
             if (failure != null) {
-                LOG.warn("the status of {} was not written and is written again: {}", key, failure.toString());
-                lost.add(key);
+                LOG.warn("the status of {} was not written and is retried: {}", key, failure.toString());
+                failed.add(key);
             }
         });
     }
 
-    /** Says again what did not arrive. */
-    void repeatLost() {
-        for (String key = lost.poll(); key != null; key = lost.poll()) {
+    /** Sends failed records again. */
+    void retryFailed() {
+        for (String key = failed.poll(); key != null; key = failed.poll()) {
             send(key);
         }
     }
 
-    /** Waits some seconds until all has arrived. */
+    /** Waits some seconds for outstanding records. */
     @Override
     public void close() {
-        producer.close(PATIENCE);
+        producer.close(TIMEOUT);
     }
 }

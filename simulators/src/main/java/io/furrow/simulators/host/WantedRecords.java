@@ -2,72 +2,64 @@ package io.furrow.simulators.host;
 
 import java.time.Duration;
 import java.util.HashMap;
-import java.util.HashSet;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
-import java.util.Set;
 import java.util.concurrent.locks.LockSupport;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.common.PartitionInfo;
-import org.apache.kafka.common.TopicPartition;
-import org.apache.kafka.common.serialization.ByteArrayDeserializer;
-import org.apache.kafka.common.serialization.StringDeserializer;
+
+import io.furrow.kafka.CommittedReader;
 
 /**
- * Compacted topics read from their beginning, committed records only: first all that is there by then, newest of each key, then
- * what comes. Topics that are not there yet are waited for.
+ * Reads compacted topics from their beginning, committed records only: first the newest of each key up to the current
+ * end, then new records. Waits for topics that do not exist yet.
  */
 final class WantedRecords implements AutoCloseable {
     private static final Duration POLL = Duration.ofMillis(50);
-    private static final long LOOK_NANOS = Duration.ofSeconds(1).toNanos();
-    private static final long LOOK_AGAIN_NANOS = Duration.ofSeconds(30).toNanos();
-    private static final int PATIENCE_MS = 5000;
+    private static final long POLL_INTERVAL_NANOS = Duration.ofSeconds(1).toNanos();
+    private static final long REFRESH_INTERVAL_NANOS = Duration.ofSeconds(30).toNanos();
+    private static final int TIMEOUT_MS = 5000;
 
-    private final KafkaConsumer<String, byte[]> consumer;
+    private final CommittedReader<String> reader;
     private final List<String> topics;
     private final Map<String, Map<String, byte[]>> fresh = new HashMap<>();
-    private Map<TopicPartition, Long> ends = new HashMap<>();
     private boolean caughtUp;
-    private long nextLook = System.nanoTime();
+    private long nextDiscovery = System.nanoTime();
 
-    /** @param topics of which the first must be there before anything is answered */
+    /** @param topics of which the first must exist before anything is returned */
     WantedRecords(Properties kafka, List<String> topics) {
         Properties settings = new Properties();
         settings.putAll(kafka);
-        settings.put(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
-        settings.put(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, false);
-        settings.put(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, false);
-        settings.put(ConsumerConfig.AUTO_OFFSET_RESET_CONFIG, "earliest");
-        settings.putIfAbsent(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, PATIENCE_MS);
-        settings.putIfAbsent(ConsumerConfig.REQUEST_TIMEOUT_MS_CONFIG, PATIENCE_MS);
+        settings.putIfAbsent(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MS);
+        settings.putIfAbsent(ConsumerConfig.REQUEST_TIMEOUT_MS_CONFIG, TIMEOUT_MS);
         settings.put(ConsumerConfig.MAX_POLL_RECORDS_CONFIG, 5000);
-        this.consumer = new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer());
+        this.reader = CommittedReader.unassigned(settings);
         this.topics = topics;
     }
 
     /**
-     * What is new since the last time, after a moment at most: per topic the newest value of each key, null of one that was
-     * deleted. Empty where there is nothing, or not everything yet that was there at the start.
+     * Waits a moment for new records.
+     *
+     * @return per topic the newest value of each key, null if deleted; empty until everything that existed at the start
+     *     is read
      */
     Map<String, Map<String, byte[]>> next() {
-        lookForPartitions();
-        if (consumer.assignment().isEmpty()) {
+        discoverPartitions();
+        if (!reader.isAssigned(topics.get(0))) {
             LockSupport.parkNanos(POLL.toNanos());
             return Map.of();
         }
-        for (ConsumerRecord<String, byte[]> each : consumer.poll(POLL)) {
+        for (ConsumerRecord<String, byte[]> each : reader.poll(POLL)) {
             if (each.key() != null) {
                 Map<String, byte[]> newest = fresh.computeIfAbsent(each.topic(), none -> new LinkedHashMap<>());
                 newest.remove(each.key());
                 newest.put(each.key(), each.value());
             }
         }
-        caughtUp = caughtUp || isAtTheEnd();
+        caughtUp = caughtUp || reader.isCaughtUp();
         if (!caughtUp) {
             return Map.of();
         }
@@ -76,43 +68,21 @@ final class WantedRecords implements AutoCloseable {
         return all;
     }
 
-    /** Whether all that was there at the start has been answered. */
+    /** Whether all records that existed at the start have been returned. */
     boolean isCaughtUp() {
         return caughtUp;
     }
 
-    private boolean isAtTheEnd() {
-        return !ends.isEmpty()
-                && ends.entrySet().stream().allMatch(end -> consumer.position(end.getKey()) >= end.getValue());
-    }
-
-    /** A topic may be made, or get more partitions, at any time. */
-    private void lookForPartitions() {
-        if (System.nanoTime() - nextLook < 0) {
-            return;
-        }
-        boolean complete = true;
-        Set<TopicPartition> known = new HashSet<>();
-        for (String topic : topics) {
-            List<PartitionInfo> partitions = consumer.partitionsFor(topic);
-            complete &= !partitions.isEmpty();
-            partitions.forEach(each -> known.add(new TopicPartition(topic, each.partition())));
-        }
-        nextLook = System.nanoTime() + (complete ? LOOK_AGAIN_NANOS : LOOK_NANOS);
-        Set<TopicPartition> added = new HashSet<>(known);
-        added.removeAll(consumer.assignment());
-        if (added.isEmpty()) {
-            return;
-        }
-        consumer.assign(known);
-        consumer.seekToBeginning(added);
-        if (!caughtUp && known.stream().anyMatch(each -> each.topic().equals(topics.get(0)))) {
-            ends = consumer.endOffsets(known);
+    /** Topics may be created, or get more partitions, at any time. */
+    private void discoverPartitions() {
+        if (System.nanoTime() - nextDiscovery >= 0) {
+            boolean complete = reader.assign(topics);
+            nextDiscovery = System.nanoTime() + (complete ? REFRESH_INTERVAL_NANOS : POLL_INTERVAL_NANOS);
         }
     }
 
     @Override
     public void close() {
-        consumer.close();
+        reader.close();
     }
 }

@@ -1,2 +1,2 @@
-/** A fleet that runs what is wanted on {@code service.devices}, and says on {@code service.devices.status} how it is. */
+/** A fleet that runs what is requested on {@code service.devices}, and says on {@code service.devices.status} how it is. */
 package io.furrow.simulators.host;

@@ -8,47 +8,49 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.locks.LockSupport;
 import java.util.stream.IntStream;
 
-import org.eclipse.paho.client.mqttv3.MqttException;
-
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.IotAgent;
 import io.furrow.simulators.device.Registration;
+import io.furrow.simulators.mqtt.MqttAccess;
+import io.furrow.simulators.mqtt.MqttConnection;
 
 /**
- * A load under way: the devices of a plan, evenly phased, over {@value #GATEWAYS} MQTT connections. The schedule is
- * absolute: what could not be sent in time is sent as soon as possible and nothing is left out; {@code time} in a message
- * is when it was really sent.
+ * Sends a load: the devices of a plan, evenly phased, over {@value #GATEWAYS} MQTT connections. The schedule is
+ * absolute: late messages are sent as soon as possible and none is left out; {@code time} in a message is the actual
+ * time of sending.
  */
 public final class LoadFleet implements AutoCloseable {
     private static final String API_KEY = "furrow-load";
     private static final int GATEWAYS = 4;
-    private static final int MOST_INFLIGHT = 2_000;
-    private static final int LEAST_INFLIGHT = 16;
+    private static final int MAX_INFLIGHT = 2_000;
+    private static final int MIN_INFLIGHT = 16;
     private static final int INFLIGHT_BYTES = 16 * 1024 * 1024;
-    private static final long RETRY_NANOS = TimeUnit.MICROSECONDS.toNanos(500);
-    private static final long LOOK_MS = 5;
-    private static final Duration PATIENCE = Duration.ofSeconds(30);
+    private static final long PUSH_INTERVAL_NANOS = TimeUnit.MICROSECONDS.toNanos(500);
+    private static final long POLL_INTERVAL_MS = 5;
+    private static final Duration TIMEOUT = Duration.ofSeconds(30);
 
     private final LoadPlan plan;
-    private final List<Gateway> gateways = new ArrayList<>();
+    private final int inflight;
+    private final List<MqttConnection> gateways = new ArrayList<>();
     private final LoadMessages messages;
     private final Thread pacer = new Thread(this::pace, "load");
     private volatile boolean closed;
     private volatile long sent;
+    private volatile long acknowledged;
     private volatile long held;
     private volatile boolean holding;
-    private volatile MqttException broken;
 
     private LoadFleet(LoadPlan plan) {
         this.plan = plan;
+        this.inflight = Math.max(MIN_INFLIGHT, Math.min(MAX_INFLIGHT, INFLIGHT_BYTES / plan.payloadBytes()));
         this.messages = new LoadMessages(plan.payloadBytes(), System.currentTimeMillis());
         pacer.setDaemon(true);
     }
 
     /**
-     * Provisions the devices; the context broker tells each new one as a change of its own, before any measure.
+     * Provisions the devices; the context broker notifies of each new one before any measure.
      *
-     * @throws IOException if the IoT Agent is away or refuses
+     * @throws IOException if the IoT Agent is unavailable or refuses
      */
     public static void provision(FleetSettings settings, LoadPlan plan) throws IOException, InterruptedException {
         new IotAgent(settings)
@@ -62,15 +64,16 @@ public final class LoadFleet implements AutoCloseable {
     /**
      * Connects the provisioned devices and starts to send.
      *
-     * @throws IOException if the MQTT broker is away or refuses; nothing is left running then
+     * @throws IOException if the MQTT broker is unavailable or refuses; nothing keeps running then
      */
     public static LoadFleet start(FleetSettings settings, LoadPlan plan) throws IOException {
-        int inflight = Math.max(LEAST_INFLIGHT, Math.min(MOST_INFLIGHT, INFLIGHT_BYTES / plan.payloadBytes()));
+        MqttAccess access = new MqttAccess(settings.mqtt(), null, 1);
+        MqttAccess.Login login = new MqttAccess.Login(settings.mqttUser(), settings.mqttPassword());
         LoadFleet fleet = new LoadFleet(plan);
         boolean started = false;
         try {
             for (int i = 0; i < Math.min(GATEWAYS, plan.devices()); i++) {
-                fleet.gateways.add(Gateway.connect(settings, "load-gateway", inflight));
+                fleet.gateways.add(MqttConnection.open(access, fleet.connection(login), (topic, payload) -> {}));
             }
             fleet.pacer.start();
             started = true;
@@ -82,17 +85,21 @@ public final class LoadFleet implements AutoCloseable {
         }
     }
 
-    /** How many messages have been handed to the connections. */
+    private MqttConnection.Plan connection(MqttAccess.Login login) {
+        return new MqttConnection.Plan(login, "load-gateway", List.of(), inflight, Long.MAX_VALUE, inflight);
+    }
+
+    /** Messages handed to the connections. */
     public long sent() {
         return sent;
     }
 
-    /** How many of them the MQTT broker has acknowledged. */
+    /** Messages acknowledged by the MQTT broker. */
     public long acknowledged() {
-        return gateways.stream().mapToLong(Gateway::acknowledged).sum();
+        return acknowledged;
     }
 
-    /** How many had to wait because too many were unacknowledged or the connection was broken. */
+    /** Messages that had to wait because too many were unacknowledged. */
     public long held() {
         return held;
     }
@@ -100,22 +107,19 @@ public final class LoadFleet implements AutoCloseable {
     /**
      * Waits until every message of the plan is sent and acknowledged.
      *
-     * @throws IOException if sending broke down, or for 30 s nothing moved while messages were open
+     * @throws IOException if it was closed, or made no progress for 30 s
      */
     public void await() throws IOException, InterruptedException {
         long moved = System.nanoTime();
         long before = -1;
         while (acknowledged() < plan.messages()) {
-            TimeUnit.MILLISECONDS.sleep(LOOK_MS);
-            if (broken != null) {
-                throw new IOException("the load broke down after " + sent + " messages", broken);
-            }
+            TimeUnit.MILLISECONDS.sleep(POLL_INTERVAL_MS);
             long now = sent + acknowledged();
             boolean idle = !holding && sent == acknowledged();
             if (!closed && (idle || now != before)) {
                 before = now;
                 moved = System.nanoTime();
-            } else if (closed || System.nanoTime() - moved > PATIENCE.toNanos()) {
+            } else if (closed || System.nanoTime() - moved > TIMEOUT.toNanos()) {
                 throw new IOException("of %d messages %d were sent and %d acknowledged, then %s"
                         .formatted(plan.messages(), sent, acknowledged(), closed ? "it was closed" : "nothing moved"));
             }
@@ -127,47 +131,50 @@ public final class LoadFleet implements AutoCloseable {
     public void close() {
         closed = true;
         LockSupport.unpark(pacer);
-        gateways.parallelStream().forEach(Gateway::close);
+        gateways.parallelStream().forEach(MqttConnection::close);
     }
 
     private void pace() {
         long start = System.nanoTime();
         long period = plan.period().toNanos();
-        try {
-            for (long i = 0; i < plan.messages() && !closed; i++) {
-                int device = (int) (i % plan.devices());
-                long sequence = i / plan.devices();
-                waitUntil(start + sequence * period + period * device / plan.devices());
-                send(device, sequence);
-            }
-            while (acknowledged() < sent && !closed) {
-                gateways.forEach(Gateway::ready);
-                LockSupport.parkNanos(RETRY_NANOS);
-            }
-        } catch (MqttException e) {
-            broken = e;
+        for (long i = 0; i < plan.messages() && !closed; i++) {
+            int device = (int) (i % plan.devices());
+            long sequence = i / plan.devices();
+            waitUntil(start + sequence * period + period * device / plan.devices());
+            send(device, sequence);
+        }
+        while (acknowledged < sent && !closed) {
+            pause(PUSH_INTERVAL_NANOS);
         }
     }
 
     private void waitUntil(long due) {
         for (long left = due - System.nanoTime(); left > 0 && !closed; left = due - System.nanoTime()) {
-            LockSupport.parkNanos(left);
+            pause(Math.min(left, PUSH_INTERVAL_NANOS));
         }
     }
 
-    private void send(int device, long sequence) throws MqttException {
-        // A device keeps to one gateway, which keeps its messages in order.
-        Gateway gateway = gateways.get(device % gateways.size());
-        String topic = "/" + API_KEY + "/" + id(plan, device) + "/attrs";
-        while (!closed) {
-            if (gateway.offer(topic, messages.message(device, sequence, System.currentTimeMillis()))) {
-                sent++;
-                holding = false;
-                return;
-            }
+    /** Waits, then takes acknowledgements and reconnects where a connection is broken. */
+    private void pause(long nanos) {
+        LockSupport.parkNanos(nanos);
+        gateways.forEach(MqttConnection::push);
+        acknowledged = gateways.stream().mapToLong(MqttConnection::acknowledged).sum();
+    }
+
+    private void send(int device, long sequence) {
+        // A device keeps to one connection, which keeps its messages in order.
+        MqttConnection gateway = gateways.get(device % gateways.size());
+        while (gateway.open() >= inflight && !closed) {
             held += holding ? 0 : 1;
             holding = true;
-            LockSupport.parkNanos(RETRY_NANOS);
+            pause(PUSH_INTERVAL_NANOS);
+        }
+        if (!closed) {
+            gateway.send(
+                    "/" + API_KEY + "/" + id(plan, device) + "/attrs",
+                    messages.message(device, sequence, System.currentTimeMillis()));
+            sent++;
+            holding = false;
         }
     }
 

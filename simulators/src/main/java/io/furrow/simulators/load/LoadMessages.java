@@ -4,8 +4,9 @@ import java.nio.charset.StandardCharsets;
 import java.util.SplittableRandom;
 
 /**
- * The measures of a load: {@code {"time", "stat", "payload"}}. A payload is device, run and sequence number, then random
- * letters and digits, so no two are equal; the letters are drawn once, since drawing 100 kB per message costs more than sending it.
+ * Builds the measures of a load, {@code {"time", "stat", "payload"}}. A payload is device, run and sequence number,
+ * then random letters and digits, so no two are equal; the letters are drawn once, because drawing 100 kB per message
+ * costs more than sending it.
  */
 final class LoadMessages {
     private static final String LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
@@ -16,7 +17,7 @@ final class LoadMessages {
     private final String run;
     private final byte[] letters;
 
-    /** @param run tells the payloads of one run from those of another */
+    /** @param run distinguishes the payloads of one run from those of another */
     LoadMessages(int payloadBytes, long run) {
         this.payloadBytes = payloadBytes;
         this.run = Long.toString(run, Character.MAX_RADIX);

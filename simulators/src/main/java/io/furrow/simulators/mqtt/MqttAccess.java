@@ -16,11 +16,11 @@ import javax.net.ssl.TrustManagerFactory;
 import org.eclipse.paho.client.mqttv3.MqttException;
 
 /**
- * An MQTT broker and how to speak to it.
+ * Address, trust and QoS of an MQTT broker.
  *
- * @param broker {@code tcp://host:port}, or {@code ssl://host:port} with TLS; {@code mqtt} and {@code mqtts} mean the same
- * @param trusted PEM file with the certificates of those whom to trust; null for those whom the JDK trusts
- * @param qos of measures, 0 or 1: with 0 what is measured while the connection is broken is lost
+ * @param broker {@code tcp://host:port}, or {@code ssl://host:port} with TLS; also {@code mqtt} and {@code mqtts}
+ * @param trusted PEM file with trusted certificates; null for those of the JDK
+ * @param qos of measures, 0 or 1: with 0 they are lost while the connection is broken
  */
 public record MqttAccess(URI broker, Path trusted, int qos) {
     public MqttAccess {
@@ -34,7 +34,7 @@ public record MqttAccess(URI broker, Path trusted, int qos) {
         }
     }
 
-    /** As whom to connect; the password is left out of {@link #toString()}. */
+    /** User and password; the password is left out of {@link #toString()}. */
     public record Login(String user, String password) {
         @Override
         public String toString() {
@@ -47,9 +47,9 @@ public record MqttAccess(URI broker, Path trusted, int qos) {
     }
 
     /**
-     * Sockets that speak TLS with those whom to trust only.
+     * TLS sockets that trust the configured certificates.
      *
-     * @throws IOException naming the file, where it holds no certificate
+     * @throws IOException naming the file, if it holds no certificate
      */
     public SSLSocketFactory encryptedSockets() throws IOException {
         try {
@@ -61,7 +61,7 @@ public record MqttAccess(URI broker, Path trusted, int qos) {
         }
     }
 
-    /** Why a connection was not opened: names broker and user, and what to look at. */
+    /** Why a connection was not opened: names broker and user, and what to check. */
     String refusal(Login login, MqttException e) {
         return switch (e.getReasonCode()) {
             case MqttException.REASON_CODE_FAILED_AUTHENTICATION, MqttException.REASON_CODE_NOT_AUTHORIZED ->

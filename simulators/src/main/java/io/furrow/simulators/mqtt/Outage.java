@@ -6,23 +6,22 @@ import java.util.function.LongSupplier;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-/** Tells an outage that somebody must look at from one that the next attempts end. Safe from two threads. */
+/** Reports outages that need attention, once each; those ended by the next attempts are not. Safe from two threads. */
 final class Outage {
     private static final Logger LOG = LoggerFactory.getLogger(Outage.class);
-    /** After which it is reported, once. */
+    /** Outages longer than this are reported. */
     static final Duration LONG = Duration.ofSeconds(10);
 
     private final LongSupplier nanoTime;
-    /** Null while there is none, and once it has been reported. */
+    /** Null without an outage, and once it has been reported. */
     private volatile Long since;
 
     Outage(LongSupplier nanoTime) {
         this.nanoTime = nanoTime;
     }
 
-    /** @param connection to be named */
     void begin(Object connection, String cause) {
-        LOG.info("{} lost its connection and tries again: {}", connection, cause);
+        LOG.info("{} lost its connection and reconnects: {}", connection, cause);
         since = nanoTime.getAsLong();
     }
 
@@ -30,17 +29,17 @@ final class Outage {
         since = null;
     }
 
-    /** Warns of a long one. @param connection to be named */
+    /** Warns of a long outage. */
     void report(Object connection) {
         if (isToBeReported()) {
             LOG.warn(
-                    "{} has had no connection for {} s and tries on: is the broker running, and does it let this user in?",
+                    "{} has had no connection for {} s and keeps trying: is the broker running, and does it accept this user?",
                     connection,
                     LONG.toSeconds());
         }
     }
 
-    /** True once in each outage that is long. */
+    /** Whether the outage is long and not reported yet. */
     boolean isToBeReported() {
         Long began = since;
         if (began == null || nanoTime.getAsLong() - began <= LONG.toNanos()) {

@@ -1,12 +1,10 @@
 package io.furrow.simulators.robot;
 
-/** What a robot is doing. */
+/** The activity of a robot. */
 public enum Activity {
     RUNNING,
-    /** Told to stop. */
+    /** Stopped by a command. */
     STOPPED,
-    /** Something lies on its way. */
-    BLOCKED,
-    /** It lets another robot pass. */
+    /** Letting another robot pass. */
     WAITING
 }

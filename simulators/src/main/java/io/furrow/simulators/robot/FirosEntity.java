@@ -7,13 +7,13 @@ import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
 
-/** A robot as FIROS shows it in the context broker: ROS messages as text, JSON whose quotes are written {@code %27}. */
+/** Writes a robot as FIROS does: ROS messages as text, JSON whose quotes are {@code %27}. */
 public final class FirosEntity {
     private static final String QUOTE = "%27";
     private static final double HOURS_PER_BATTERY = 8;
-    private static final double LEAST_CHARGE = 0.2;
+    private static final double MIN_CHARGE = 0.2;
 
     private FirosEntity() {}
 
@@ -25,11 +25,11 @@ public final class FirosEntity {
     }
 
     /**
-     * The same with {@code speed} (m/s), {@code heading} (degrees clockwise from north), {@code state} (std_msgs/String: {@code
-     * Running}, {@code Stopped}, {@code Blocked}, {@code Waiting}) and {@code battery} (sensor_msgs/BatteryState).
+     * Adds {@code speed} (m/s), {@code heading} (degrees clockwise from north), {@code state} (std_msgs/String: {@code
+     * Running}, {@code Stopped}, {@code Waiting}) and {@code battery} (sensor_msgs/BatteryState).
      */
     public static EntityBuilder of(String id, RobotModel robot, RobotState state) {
-        Way.Pose pose = robot.pose(state);
+        Trajectory.Pose pose = robot.pose(state);
         String word = state.activity().name().charAt(0)
                 + state.activity().name().substring(1).toLowerCase(Locale.ROOT);
         return located(id, pose.place(), state.time())
@@ -43,10 +43,10 @@ public final class FirosEntity {
                                 escaped(String.format(Locale.ROOT, "{'percentage': %.3f}", charge(state.driven())))));
     }
 
-    /** Falls with what was driven, from 1 to 0.2 in eight hours; then the battery is changed. */
+    /** Falls with the time driven, from 1 to 0.2 in eight hours; then the battery is replaced. */
     static double charge(double driven) {
         double used = driven / 3600 % HOURS_PER_BATTERY / HOURS_PER_BATTERY;
-        return 1 - (1 - LEAST_CHARGE) * used;
+        return 1 - (1 - MIN_CHARGE) * used;
     }
 
     private static String navSatFix(Position place, Instant now) {

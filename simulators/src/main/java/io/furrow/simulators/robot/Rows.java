@@ -13,12 +13,12 @@ import org.locationtech.jts.geom.LineString;
 import org.locationtech.jts.geom.util.AffineTransformation;
 
 /**
- * The rows of a field in the order and direction in which they are worked: parallel, {@code spacing} metres apart, up one and
- * down the next, cut where the field is narrower than a {@code margin} from its edge.
+ * The rows of a field in order of work: parallel, {@code spacing} meters apart, up one and down the next, at least
+ * {@code margin} meters from the edge.
  */
 final class Rows {
     /** Shorter pieces are left out. */
-    static final double SHORTEST = 0.5;
+    static final double MIN = 0.5;
 
     private static final int MAX_ROWS = 10_000;
 
@@ -63,7 +63,7 @@ final class Rows {
         Geometry cut = flat.intersection(line);
         List<LineSegment> pieces = new ArrayList<>();
         for (int i = 0; i < cut.getNumGeometries(); i++) {
-            if (cut.getGeometryN(i) instanceof LineString piece && piece.getLength() >= SHORTEST) {
+            if (cut.getGeometryN(i) instanceof LineString piece && piece.getLength() >= MIN) {
                 Envelope along = piece.getEnvelopeInternal();
                 Coordinate west = new Coordinate(along.getMinX(), y);
                 Coordinate end = new Coordinate(along.getMaxX(), y);
@@ -79,7 +79,7 @@ final class Rows {
         return back.transform(place, new Coordinate());
     }
 
-    /** Angle of the longer side of the smallest rectangle around it, radians counter-clockwise from east. */
+    /** Angle of the longer side of the smallest enclosing rectangle, radians counter-clockwise from east. */
     private static double longerSide(Geometry area) {
         Coordinate[] corners = MinimumAreaRectangle.getMinimumRectangle(area).getCoordinates();
         boolean first = corners[0].distance(corners[1]) >= corners[1].distance(corners[2]);

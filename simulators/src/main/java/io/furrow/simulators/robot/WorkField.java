@@ -13,20 +13,20 @@ import org.locationtech.jts.geom.LinearRing;
 import org.locationtech.jts.geom.Polygon;
 import org.locationtech.jts.operation.valid.IsValidOp;
 
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
 
 /**
- * A field to work in, as metres in a plane.
+ * A field in meters of a plane.
  *
- * @param area one polygon, which may have holes
+ * @param area one polygon, may have holes
  */
 public record WorkField(String id, LocalPlane plane, Polygon area) {
     static final GeometryFactory GEOMETRIES = new GeometryFactory();
 
     /**
-     * A field from its GeoJSON Feature (RFC 7946) with {@code id} and a Polygon.
+     * Reads a GeoJSON Feature (RFC 7946) with {@code id} and a Polygon.
      *
-     * @throws IllegalArgumentException saying what is wrong with it and what to do
+     * @throws IllegalArgumentException naming the mistake and the remedy
      */
     public static WorkField of(JsonNode feature) {
         String id = feature.path("id").asText();
@@ -65,7 +65,7 @@ public record WorkField(String id, LocalPlane plane, Polygon area) {
     }
 
     /**
-     * A field from the geometry of a Polygon or MultiPolygon; of the latter the largest part.
+     * Creates a field from a Polygon, or from the largest part of a MultiPolygon.
      *
      * @throws IllegalArgumentException as {@link #of}
      */
@@ -83,7 +83,6 @@ public record WorkField(String id, LocalPlane plane, Polygon area) {
                 .orElseThrow(() -> new IllegalArgumentException("field '%s' has no part".formatted(id)));
     }
 
-    /** Whether a place in metres is inside or on the edge. */
     public boolean covers(Coordinate meters) {
         return area.covers(GEOMETRIES.createPoint(meters));
     }

@@ -1,5 +1,2 @@
-/**
- * How a robot moves: rows through a field, the way along them, and what it does when told to stop, when something lies on its
- * way or when it meets another. Pure: nothing here reads a clock or a network.
- */
+/** How a robot moves: rows through a field, the way along them, stops on command and meetings. Pure: nothing here reads a clock. */
 package io.furrow.simulators.robot;

@@ -26,17 +26,17 @@ import io.furrow.model.ngsi.NgsiJson;
  */
 public record Farm(String apiKey, List<SimulatedDevice> devices) {
     /**
-     * A farm from its file; the same file and start always make the same farm.
+     * Reads a farm from its file; the same file and start always give the same farm.
      *
-     * @param start when it begins: {@code after} in a fault counts from here
-     * @throws UnusableScenarioException naming the member, what is wrong with it and what to do
+     * @param start base of {@code after} in faults
+     * @throws UnusableScenarioException naming the member, the mistake and the remedy
      */
     public static Farm read(InputStream json, Instant start) throws IOException {
         try {
-            return new FarmReader(start).farm(Members.of(NgsiJson.mapper().readTree(json), ""));
+            return new FarmReader(start).farm(JsonMembers.of(NgsiJson.mapper().readTree(json), ""));
         } catch (JsonProcessingException e) {
             UnusableScenarioException refused = new UnusableScenarioException(
-                    "line " + e.getLocation().getLineNr(), "is no JSON: " + e.getOriginalMessage());
+                    "line " + e.getLocation().getLineNr(), "is not valid JSON: " + e.getOriginalMessage());
             refused.initCause(e);
             throw refused;
         }

@@ -15,7 +15,7 @@ import io.furrow.simulators.scenario.SimulatedDevice.Place;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 import io.furrow.simulators.scenario.SimulatedDevice.Sensor;
 
-/** Reads a whole scenario and checks what concerns more than one device: ids that are taken, carriers that are missing. */
+/** Reads a whole scenario and checks across devices: duplicate ids, missing carriers. */
 final class FarmReader {
     private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_-]{1,64}");
 
@@ -28,17 +28,17 @@ final class FarmReader {
         this.start = start;
     }
 
-    Farm farm(Members file) throws UnusableScenarioException {
+    Farm farm(JsonMembers file) throws UnusableScenarioException {
         PlaceReader places = new PlaceReader(fields(file));
         GroupReader groups = new GroupReader(places, new FaultReader(start), file.whole("seed", 0, Long.MAX_VALUE, 0));
         String apiKey = name(file, "apiKey");
         List<SimulatedDevice> devices = new ArrayList<>();
-        for (Members mission : file.objects("missions")) {
+        for (JsonMembers mission : file.objects("missions")) {
             List<SimulatedDevice> loose = new ArrayList<>();
-            Map<SimulatedDevice, Members> from = new LinkedHashMap<>();
+            Map<SimulatedDevice, JsonMembers> from = new LinkedHashMap<>();
             String domain = name(mission, "domain");
             String named = name(mission, "mission");
-            for (Members group : mission.objects("devices")) {
+            for (JsonMembers group : mission.objects("devices")) {
                 for (SimulatedDevice device : groups.devices(group, domain, named)) {
                     register(device, group);
                     loose.add(device);
@@ -54,7 +54,7 @@ final class FarmReader {
         return new Farm(apiKey, List.copyOf(devices));
     }
 
-    private static Map<String, WorkField> fields(Members file) throws UnusableScenarioException {
+    private static Map<String, WorkField> fields(JsonMembers file) throws UnusableScenarioException {
         Map<String, WorkField> fields = new LinkedHashMap<>();
         if (!file.has("fields")) {
             return fields;
@@ -65,7 +65,7 @@ final class FarmReader {
             try {
                 WorkField field = WorkField.of(feature);
                 if (fields.put(field.id(), field) != null) {
-                    throw new UnusableScenarioException(at, "field '" + field.id() + "' is there twice");
+                    throw new UnusableScenarioException(at, "field '" + field.id() + "' is defined twice");
                 }
             } catch (IllegalArgumentException e) {
                 UnusableScenarioException refused = new UnusableScenarioException(at, e.getMessage());
@@ -76,7 +76,7 @@ final class FarmReader {
         return fields;
     }
 
-    private static String name(Members json, String member) throws UnusableScenarioException {
+    private static String name(JsonMembers json, String member) throws UnusableScenarioException {
         String name = json.text(member);
         if (!NAME.matcher(name).matches()) {
             throw json.refused(member, "must be 1 to 64 of A-Z a-z 0-9 _ -, not '" + name + "'");
@@ -84,7 +84,7 @@ final class FarmReader {
         return name;
     }
 
-    private void register(SimulatedDevice device, Members group) throws UnusableScenarioException {
+    private void register(SimulatedDevice device, JsonMembers group) throws UnusableScenarioException {
         if (!NAME.matcher(device.id()).matches()) {
             throw group.refused("id", "must be 1 to 64 of A-Z a-z 0-9 _ -, not '" + device.id() + "'");
         }
@@ -95,7 +95,7 @@ final class FarmReader {
         }
     }
 
-    private static void free(Map<String, String> taken, String value, Members group, String member)
+    private static void free(Map<String, String> taken, String value, JsonMembers group, String member)
             throws UnusableScenarioException {
         String by = taken.put(value, group.path());
         if (by != null) {
@@ -103,8 +103,8 @@ final class FarmReader {
         }
     }
 
-    /** The same, with its carrier found: the robot of the same number, or the one robot that carries the whole group. */
-    private SimulatedDevice carried(SimulatedDevice device, Members group) throws UnusableScenarioException {
+    /** Resolves the carrier: the robot of the same number, or the one robot that carries the whole group. */
+    private SimulatedDevice carried(SimulatedDevice device, JsonMembers group) throws UnusableScenarioException {
         if (device instanceof Sensor sensor && sensor.place().carrier() != null) {
             return new Sensor(
                     sensor.identity(), sensor.period(), found(sensor.place(), device, group), sensor.quantities());
@@ -121,7 +121,7 @@ final class FarmReader {
         return device;
     }
 
-    private Place found(Place place, SimulatedDevice device, Members group) throws UnusableScenarioException {
+    private Place found(Place place, SimulatedDevice device, JsonMembers group) throws UnusableScenarioException {
         String said = group.text("carriedBy");
         for (String carrier : List.of(place.carrier(), said)) {
             if (device.identity().mission().equals(robots.get(carrier))) {

@@ -13,9 +13,9 @@ import io.furrow.simulators.signal.Draw;
 import io.furrow.simulators.signal.Fault;
 import io.furrow.simulators.signal.Span;
 
-/** Reads what is wrong with a device: {@code "faults": [{"kind": "drift", "perHour": 2, "after": "PT10M"}]}. */
+/** Reads the faults of a device: {@code "faults": [{"kind": "drift", "perHour": 2, "after": "PT10M"}]}. */
 final class FaultReader {
-    private static final double MOST = 1e9;
+    private static final double MAX = 1e9;
 
     private final Instant start;
 
@@ -23,22 +23,22 @@ final class FaultReader {
         this.start = start;
     }
 
-    /** @param attribute what is shown wrongly; null for all that the device shows */
+    /** @param attribute affected attribute; null for all */
     record Wrong(String attribute, Fault fault) {}
 
     /**
      * The faults of one device of a group.
      *
      * @param number of the device in its group, from 1
-     * @param attributes names of what it shows; the first is meant where a fault names none
+     * @param attributes names; a fault that names none affects the first
      */
-    List<Wrong> faults(Members device, long number, long seed, List<String> attributes)
+    List<Wrong> faults(JsonMembers device, long number, long seed, List<String> attributes)
             throws UnusableScenarioException {
         List<Wrong> faults = new ArrayList<>();
         if (!device.has("faults")) {
             return faults;
         }
-        for (Members each : device.objects("faults")) {
+        for (JsonMembers each : device.objects("faults")) {
             Wrong wrong = wrong(each, Draw.seed(seed, "fault " + faults.size()), attributes);
             boolean mine = isFor(each, number);
             each.end();
@@ -49,7 +49,7 @@ final class FaultReader {
         return faults;
     }
 
-    private Wrong wrong(Members json, long seed, List<String> attributes) throws UnusableScenarioException {
+    private Wrong wrong(JsonMembers json, long seed, List<String> attributes) throws UnusableScenarioException {
         Instant from = start.plus(json.duration("after", Duration.ZERO));
         Span during = new Span(from, json.has("for") ? from.plus(json.duration("for")) : null);
         String kind = json.text("kind");
@@ -66,10 +66,10 @@ final class FaultReader {
         }
         Fault fault = switch (kind) {
             case "stuck" ->
-                new Fault.Stuck(during, json.has("value") ? Double.valueOf(json.number("value", -MOST, MOST)) : null);
-            case "drift" -> new Fault.Drift(during, json.number("perHour", -MOST, MOST));
+                new Fault.Stuck(during, json.has("value") ? Double.valueOf(json.number("value", -MAX, MAX)) : null);
+            case "drift" -> new Fault.Drift(during, json.number("perHour", -MAX, MAX));
             case "spikes" ->
-                new Fault.Spikes(during, json.number("share", 0, 1), json.number("height", -MOST, MOST), seed);
+                new Fault.Spikes(during, json.number("share", 0, 1), json.number("height", -MAX, MAX), seed);
             default ->
                 throw json.refused(
                         "kind", "'%s' is no kind of fault; use stuck, drift, spikes or silent".formatted(kind));
@@ -77,8 +77,8 @@ final class FaultReader {
         return new Wrong(attribute, fault);
     }
 
-    /** {@code "numbers": [2, 5]} says which devices of the group; all where it is missing. */
-    private static boolean isFor(Members fault, long number) throws UnusableScenarioException {
+    /** {@code "numbers": [2, 5]} selects devices of the group; all without it. */
+    private static boolean isFor(JsonMembers fault, long number) throws UnusableScenarioException {
         if (!fault.has("numbers")) {
             return true;
         }

@@ -6,9 +6,8 @@ import java.util.List;
 import java.util.OptionalDouble;
 
 import io.furrow.simulators.device.Registration;
-import io.furrow.simulators.robot.Interruptions;
 import io.furrow.simulators.robot.RobotModel;
-import io.furrow.simulators.robot.Way;
+import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 import io.furrow.simulators.scenario.SimulatedDevice.Place;
 import io.furrow.simulators.scenario.SimulatedDevice.Quantity;
@@ -18,12 +17,14 @@ import io.furrow.simulators.signal.Signal;
 import io.furrow.simulators.signal.Span;
 import io.furrow.simulators.signal.Weather;
 
-/** Reads one entry of a mission's {@code devices}: a device, or a {@code count} of them that differ in place and seed. */
+/**
+ * Reads an entry of a mission's {@code devices}: a device, or a {@code count} of them that differ in place and seed.
+ */
 final class GroupReader {
-    private static final long MOST_DEVICES = 100_000;
+    private static final long MAX_DEVICES = 100_000;
     private static final double COLDEST = -60;
     private static final double HOTTEST = 60;
-    private static final double MOST = 1e9;
+    private static final double MAX = 1e9;
     private static final Duration WANDERS = Duration.ofMinutes(10);
 
     private final PlaceReader places;
@@ -36,11 +37,11 @@ final class GroupReader {
         this.seed = seed;
     }
 
-    List<SimulatedDevice> devices(Members group, String domain, String mission) throws UnusableScenarioException {
+    List<SimulatedDevice> devices(JsonMembers group, String domain, String mission) throws UnusableScenarioException {
         String type = group.text("type");
         String id = group.text("id");
         boolean many = group.has("count");
-        long count = group.whole("count", 1, MOST_DEVICES, 1);
+        long count = group.whole("count", 1, MAX_DEVICES, 1);
         String entity = group.text("entity", "urn:ngsi-ld:" + type + ":" + id);
         List<SimulatedDevice> devices = new ArrayList<>();
         for (long number = 1; number <= count; number++) {
@@ -51,30 +52,30 @@ final class GroupReader {
         return devices;
     }
 
-    /** The one device that an entry is about which does not say itself whose it is. */
-    SimulatedDevice single(Members entry, Identity identity, long number) throws UnusableScenarioException {
+    /** Reads an entry without identity. */
+    SimulatedDevice single(JsonMembers entry, Identity identity, long number) throws UnusableScenarioException {
         SimulatedDevice device = device(entry, identity, number);
         entry.end();
         return device;
     }
 
-    private SimulatedDevice device(Members group, Identity identity, long number) throws UnusableScenarioException {
+    private SimulatedDevice device(JsonMembers group, Identity identity, long number) throws UnusableScenarioException {
         Duration period = group.duration("period");
         if (period.isZero()) {
             throw group.refused("period", "must be longer than PT0S");
         }
         long own = Draw.seed(seed, identity.mission() + "/" + identity.id());
         return switch (identity.type()) {
-            case "Thermometer" -> sensor(group, identity, number, thermometer(weather(group, own)));
-            case "WeatherStation" -> sensor(group, identity, number, station(weather(group, own)));
-            case "Camera" -> camera(group, identity, number);
-            case "Robot" -> robot(group, identity, period, own);
+            case "Thermometer" -> sensor(group, identity, number, own, thermometer(weather(group, own)));
+            case "WeatherStation" -> sensor(group, identity, number, own, station(weather(group, own)));
+            case "Camera" -> camera(group, identity, number, own);
+            case "Robot" -> robot(group, identity, period);
             default -> other(group, identity, number, own);
         };
     }
 
-    /** A type of the farm's own: it says what it measures. */
-    private SimulatedDevice other(Members group, Identity identity, long number, long own)
+    /** Reads a custom type, which lists its attributes. */
+    private SimulatedDevice other(JsonMembers group, Identity identity, long number, long own)
             throws UnusableScenarioException {
         if (!group.has("attributes")) {
             throw group.refused(
@@ -83,10 +84,10 @@ final class GroupReader {
                             .formatted(identity.type()));
         }
         List<Quantity> quantities = new ArrayList<>();
-        for (Members attribute : group.objects("attributes")) {
+        for (JsonMembers attribute : group.objects("attributes")) {
             String name = attribute.text("name");
-            double low = attribute.number("low", -MOST, MOST, 0);
-            double high = attribute.number("high", low, MOST, low + 100);
+            double low = attribute.number("low", -MAX, MAX, 0);
+            double high = attribute.number("high", low, MAX, low + 100);
             Signal middle = time -> OptionalDouble.of((low + high) / 2);
             Signal signal = middle.plus(Curves.wandering((high - low) / 2, WANDERS, Draw.seed(own, name)));
             String type = attribute.text("type", "Float");
@@ -97,12 +98,11 @@ final class GroupReader {
         if (quantities.isEmpty()) {
             throw group.refused("attributes", "must name at least one attribute");
         }
-        return sensor(group, identity, number, quantities);
+        return sensor(group, identity, number, own, quantities);
     }
 
-    private SimulatedDevice sensor(Members group, Identity identity, long number, List<Quantity> sound)
+    private SimulatedDevice sensor(JsonMembers group, Identity identity, long number, long own, List<Quantity> sound)
             throws UnusableScenarioException {
-        long own = Draw.seed(seed, identity.mission() + "/" + identity.id());
         List<Quantity> all = new ArrayList<>(sound);
         all.addAll(battery(group, own));
         List<String> names =
@@ -114,8 +114,8 @@ final class GroupReader {
         return new SimulatedDevice.Sensor(identity, group.duration("period"), place(group, number, own), shown);
     }
 
-    private SimulatedDevice camera(Members group, Identity identity, long number) throws UnusableScenarioException {
-        long own = Draw.seed(seed, identity.mission() + "/" + identity.id());
+    private SimulatedDevice camera(JsonMembers group, Identity identity, long number, long own)
+            throws UnusableScenarioException {
         Double heading = group.has("heading") ? Double.valueOf(group.number("heading", 0, 360)) : null;
         List<Span> silent = faults.faults(group, number, own, List.of()).stream()
                 .map(wrong -> wrong.fault().during())
@@ -124,8 +124,8 @@ final class GroupReader {
                 identity, group.duration("period"), place(group, number, own), heading, silent, battery(group, own));
     }
 
-    /** The charge of its battery, where it says how long one lasts. */
-    private static List<Quantity> battery(Members group, long own) throws UnusableScenarioException {
+    /** The charge of its battery, if the entry says how long one lasts. */
+    private static List<Quantity> battery(JsonMembers group, long own) throws UnusableScenarioException {
         if (!group.has("battery")) {
             return List.of();
         }
@@ -134,29 +134,19 @@ final class GroupReader {
                 "bat", "battery", Curves.charge(life, Draw.seed(own, "battery")).rounded(3)));
     }
 
-    private SimulatedDevice robot(Members group, Identity identity, Duration period, long own)
+    private SimulatedDevice robot(JsonMembers group, Identity identity, Duration period)
             throws UnusableScenarioException {
-        Way way = places.way(group);
-        RobotModel.Manners manners = new RobotModel.Manners(
-                group.number("clearance", 0, 1000, 2),
+        Trajectory way = places.way(group);
+        RobotModel model = new RobotModel(
+                identity.id(),
+                way,
                 group.number("meeting", 0, 1000, 0),
                 group.duration("patience", Duration.ofSeconds(20)));
-        Interruptions interruptions = null;
-        if (group.has("obstacles")) {
-            Members json = group.object("obstacles");
-            interruptions = new Interruptions(
-                    atLeastAMillisecond(json, "every"),
-                    atLeastAMillisecond(json, "stay"),
-                    json.number("radius", 0, 100, 0.5),
-                    Draw.seed(own, "obstacles"));
-            json.end();
-        }
-        RobotModel model = new RobotModel(identity.id(), way, manners, interruptions);
         double driven = group.number("start", 0, 1e9, 0) / way.speed();
         return new SimulatedDevice.Robot(identity, period, model, driven, group.truth("tellsMission", true));
     }
 
-    private static Duration atLeastAMillisecond(Members json, String name) throws UnusableScenarioException {
+    private static Duration atLeastAMillisecond(JsonMembers json, String name) throws UnusableScenarioException {
         Duration duration = json.duration(name);
         if (duration.toMillis() < 1) {
             throw json.refused(name, "must be at least PT0.001S");
@@ -164,18 +154,17 @@ final class GroupReader {
         return duration;
     }
 
-    private Place place(Members group, long number, long own) throws UnusableScenarioException {
+    private Place place(JsonMembers group, long number, long own) throws UnusableScenarioException {
         if (!group.has("carriedBy")) {
             return places.place(group, Draw.seed(own, "place"));
         }
         PlaceReader.once(group, "area", "at", "route", "carriedBy");
-        // A group may be carried by a group: the nth by the nth. Which of the two is meant is known when all devices
-        // are.
+        // A group may be carried by a group, the nth by the nth: resolved when all devices are known.
         String carrier = group.text("carriedBy");
         return new Place(group.reported("where", ""), null, group.has("count") ? carrier + "-" + number : carrier);
     }
 
-    private static Weather weather(Members group, long own) throws UnusableScenarioException {
+    private static Weather weather(JsonMembers group, long own) throws UnusableScenarioException {
         return new Weather(group.number("meanCelsius", COLDEST, HOTTEST, 18), own);
     }
 

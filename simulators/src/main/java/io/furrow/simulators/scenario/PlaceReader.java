@@ -9,30 +9,33 @@ import java.util.stream.Collectors;
 import org.locationtech.jts.geom.Coordinate;
 import org.locationtech.jts.geom.Envelope;
 
-import io.furrow.model.ngsi.Position;
-import io.furrow.simulators.robot.Way;
+import io.furrow.model.position.Position;
+import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.signal.Draw;
 
-/** Reads where a device is: {@code at} a place, along a {@code route}, somewhere in an {@code area}, or in {@code rows} of a field. */
+/**
+ * Reads the place of a device: {@code at} a place, along a {@code route}, within an {@code area}, or in {@code rows} of
+ * a field.
+ */
 final class PlaceReader {
-    private static final double MOST_SPEED = 50;
+    private static final double MAX_SPEED = 50;
     private static final int TRIES = 1_000;
-    private static final int MOST_NAMED = 20;
+    private static final int MAX_NAMED = 20;
 
     private final Map<String, WorkField> fields;
 
-    /** The same for all robots of a group, and costly where the field has many corners. */
-    private final Map<Plan, Way> ways = new HashMap<>();
+    /** Shared by the robots of a group, costly for large fields. */
+    private final Map<Plan, Trajectory> ways = new HashMap<>();
 
-    private record Plan(String field, Way.Work work, Way.Pace pace) {}
+    private record Plan(String field, Trajectory.Work work, Trajectory.Pace pace) {}
 
     PlaceReader(Map<String, WorkField> fields) {
         this.fields = fields;
     }
 
-    /** Of a device that is not carried. */
-    SimulatedDevice.Place place(Members device, long seed) throws UnusableScenarioException {
+    /** The place of a device that is not carried. */
+    SimulatedDevice.Place place(JsonMembers device, long seed) throws UnusableScenarioException {
         once(device, "area", "at", "route", "carriedBy");
         String where = device.reported("where", device.reported("area", ""));
         if (device.has("area")) {
@@ -49,7 +52,7 @@ final class PlaceReader {
     }
 
     /** The way of a robot. */
-    Way way(Members device) throws UnusableScenarioException {
+    Trajectory way(JsonMembers device) throws UnusableScenarioException {
         once(device, "rows", "route");
         if (!device.has("rows")) {
             if (!device.has("route")) {
@@ -57,22 +60,23 @@ final class PlaceReader {
             }
             return route(device);
         }
-        Members rows = device.object("rows");
+        JsonMembers rows = device.object("rows");
         WorkField field = field(rows, "field");
         Double bearing = rows.has("bearing") ? Double.valueOf(rows.number("bearing", 0, 360)) : null;
-        Way.Work work =
-                new Way.Work(rows.number("spacing", 0.2, 1000, 3), rows.number("margin", 0.2, 1000, 2), bearing);
+        Trajectory.Work work =
+                new Trajectory.Work(rows.number("spacing", 0.2, 1000, 3), rows.number("margin", 0.2, 1000, 2), bearing);
         rows.end();
-        Way.Pace pace = pace(device);
+        Trajectory.Pace pace = pace(device);
         try {
-            return ways.computeIfAbsent(new Plan(field.id(), work, pace), plan -> Way.through(field, work, pace));
+            return ways.computeIfAbsent(
+                    new Plan(field.id(), work, pace), plan -> Trajectory.through(field, work, pace));
         } catch (IllegalArgumentException e) {
             throw device.refused("rows", e);
         }
     }
 
-    /** That of several members that say the same thing there is at most one. */
-    static void once(Members device, String... names) throws UnusableScenarioException {
+    /** Refuses more than one of several members that describe the place. */
+    static void once(JsonMembers device, String... names) throws UnusableScenarioException {
         String said = null;
         for (String name : names) {
             if (device.has(name) && said != null) {
@@ -82,32 +86,32 @@ final class PlaceReader {
         }
     }
 
-    private Way route(Members device) throws UnusableScenarioException {
+    private Trajectory route(JsonMembers device) throws UnusableScenarioException {
         List<Position> points = new ArrayList<>();
-        for (Members point : device.objects("route")) {
+        for (JsonMembers point : device.objects("route")) {
             points.add(position(point));
         }
         if (points.isEmpty()) {
             throw device.refused("route", "has no point; give at least one {latitude, longitude}");
         }
-        return Way.along(points, pace(device));
+        return Trajectory.along(points, pace(device));
     }
 
-    private static Way.Pace pace(Members device) throws UnusableScenarioException {
-        return new Way.Pace(device.number("speed", 0.01, MOST_SPEED, 1), device.number("turnRate", 1, 3600, 90));
+    private static Trajectory.Pace pace(JsonMembers device) throws UnusableScenarioException {
+        return new Trajectory.Pace(device.number("speed", 0.01, MAX_SPEED, 1), device.number("turnRate", 1, 3600, 90));
     }
 
-    private static Way standing(Position place) {
-        return Way.along(List.of(place), new Way.Pace(1, 90));
+    private static Trajectory standing(Position place) {
+        return Trajectory.along(List.of(place), new Trajectory.Pace(1, 90));
     }
 
-    private static Position position(Members point) throws UnusableScenarioException {
+    private static Position position(JsonMembers point) throws UnusableScenarioException {
         Position position = new Position(point.number("latitude", -90, 90), point.number("longitude", -180, 180));
         point.end();
         return position;
     }
 
-    private WorkField field(Members device, String name) throws UnusableScenarioException {
+    private WorkField field(JsonMembers device, String name) throws UnusableScenarioException {
         WorkField field = fields.get(device.text(name));
         if (field == null) {
             throw device.refused(
@@ -115,12 +119,12 @@ final class PlaceReader {
                     "there is no field '%s'; there are: %s"
                             .formatted(
                                     device.text(name),
-                                    fields.keySet().stream().limit(MOST_NAMED).collect(Collectors.joining(", "))));
+                                    fields.keySet().stream().limit(MAX_NAMED).collect(Collectors.joining(", "))));
         }
         return field;
     }
 
-    /** Drawn evenly from the field's area. */
+    /** A place drawn evenly from the field's area. */
     private static Position somewhereIn(WorkField field, long seed) {
         Envelope extent = field.area().getEnvelopeInternal();
         for (int number = 0; number < TRIES; number++) {

@@ -6,22 +6,21 @@ import java.util.List;
 
 import io.furrow.simulators.device.Registration;
 import io.furrow.simulators.robot.RobotModel;
-import io.furrow.simulators.robot.Way;
+import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.signal.Signal;
 import io.furrow.simulators.signal.Span;
 
-/** One device of a farm: all that it will ever show follows from this and from the times at which it is asked. */
+/** A device of a farm, from which all its reports follow at given times. */
 public sealed interface SimulatedDevice {
     Identity identity();
 
-    /** How often it reports. */
     Duration period();
 
     default String id() {
         return identity().id();
     }
 
-    /** Who of these reports over MQTT: all but robots. */
+    /** The devices that report over MQTT: all but robots. */
     static List<Identity> overMqtt(Collection<SimulatedDevice> devices) {
         return devices.stream()
                 .filter(device -> !(device instanceof Robot))
@@ -30,10 +29,11 @@ public sealed interface SimulatedDevice {
     }
 
     /**
-     * @param id at the IoT Agent and in MQTT topics; of a robot, which has none there, its name
-     * @param entity id of its entity in the context broker
+     * @param id at the IoT Agent and in MQTT topics; of a robot its name
+     *
+     * @param entity entity id in the context broker
      * @param type NGSI type of the entity
-     * @param generation how often its credentials were rotated
+     * @param generation number of rotations of its credentials
      */
     record Identity(String id, String entity, String type, String domain, String mission, int generation) {
         /** A device whose credentials were never rotated. */
@@ -43,27 +43,27 @@ public sealed interface SimulatedDevice {
     }
 
     /**
-     * Where a device is.
+     * The place of a device.
      *
      * @param where name of the place
-     * @param way what it goes along, or where it stands; null where it is carried
-     * @param carrier id of the robot that carries it; null where none does
+     * @param way its route or place; null if it is carried
+     * @param carrier id of the robot that carries it; null if none does
      */
-    record Place(String where, Way way, String carrier) {}
+    record Place(String where, Trajectory way, String carrier) {}
 
-    /** One of the quantities that a sensor measures. */
+    /** A quantity measured by a sensor. */
     record Quantity(Registration.Attribute attribute, Signal signal) {}
 
-    /** A thermometer or weather station; it is silent when none of its quantities says anything. */
+    /** A thermometer or weather station; silent when none of its quantities has a reading. */
     record Sensor(Identity identity, Duration period, Place place, List<Quantity> quantities)
             implements SimulatedDevice {}
 
     /**
      * A camera.
      *
-     * @param heading where it looks, degrees clockwise from north; null for where its carrier, or its way, goes
+     * @param heading degrees clockwise from north; null for that of its carrier or way
      * @param silent when it takes no pictures
-     * @param battery what else it tells, the charge of its battery; empty where it tells none
+     * @param battery its charge as an additional attribute; empty if it reports none
      */
     record Camera(
             Identity identity, Duration period, Place place, Double heading, List<Span> silent, List<Quantity> battery)
@@ -72,8 +72,8 @@ public sealed interface SimulatedDevice {
     /**
      * A robot.
      *
-     * @param driven seconds of its way that lie behind it when it starts
-     * @param tellsMission whether it reports {@code Domain} and {@code Mission}, which FIROS by itself does not
+     * @param driven seconds of its way behind it at the start
+     * @param tellsMission whether it reports {@code Domain} and {@code Mission}, which FIROS does not
      */
     record Robot(Identity identity, Duration period, RobotModel model, double driven, boolean tellsMission)
             implements SimulatedDevice {}

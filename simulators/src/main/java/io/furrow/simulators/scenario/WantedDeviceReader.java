@@ -17,8 +17,9 @@ import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.SimulatedDevice.Identity;
 
 /**
- * Makes a simulated device of a wanted one: {@code area}, {@code path}, {@code speed}, {@code faults} of its settings, and what a
- * scenario file says of a device besides as {@code parameters}. The same record and seed always make the same device.
+ * Creates a simulated device from a desired one: {@code area}, {@code path}, {@code speed}, {@code faults} of its
+ * settings, and further members of a scenario device as {@code parameters}. The same record and seed always create the
+ * same device.
  */
 public final class WantedDeviceReader {
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
@@ -32,7 +33,7 @@ public final class WantedDeviceReader {
 
     private final PlaceReader places;
     private final long seed;
-    /** The area that was drawn last, and who knows it: devices of one group come together, and share it. */
+    /** The last drawn area and its reader: devices of one group are read together and share it. */
     private JsonNode drawnArea;
 
     private PlaceReader drawnPlaces;
@@ -44,9 +45,9 @@ public final class WantedDeviceReader {
     }
 
     /**
-     * The device. Times of its faults and its way count from when it is wanted.
+     * Creates the device. Times of its faults and its way count from the start of the desired record.
      *
-     * @throws UnusableScenarioException naming the setting, what is wrong with it and what to do
+     * @throws UnusableScenarioException naming the setting, the mistake and the remedy
      */
     public SimulatedDevice read(WantedDevice wanted) throws UnusableScenarioException {
         Identity identity = new Identity(
@@ -65,7 +66,8 @@ public final class WantedDeviceReader {
         PlaceReader where = place(wanted, entry);
         FaultReader faults =
                 new FaultReader(Instant.ofEpochMilli(wanted.version().from()));
-        return new GroupReader(where, faults, seed).single(Members.of(entry, ""), identity, number(identity.entity()));
+        return new GroupReader(where, faults, seed)
+                .single(JsonMembers.of(entry, ""), identity, number(identity.entity()));
     }
 
     private static ObjectNode parameters(ObjectNode settings) throws UnusableScenarioException {
@@ -82,7 +84,7 @@ public final class WantedDeviceReader {
         return entry;
     }
 
-    /** Puts where the device is into its entry, and answers who knows the fields that are named there. */
+    /** Writes the place of the device into its entry; returns the reader with the fields named there. */
     private PlaceReader place(WantedDevice wanted, ObjectNode entry) throws UnusableScenarioException {
         ObjectNode settings = wanted.settings();
         String carrier = wanted.version().carriedBy();
@@ -159,12 +161,12 @@ public final class WantedDeviceReader {
         return route;
     }
 
-    /** The id that the control plane gives the device of an entity. */
+    /** The device id that the control plane derives from an entity id. */
     private static String deviceOf(String entity) {
         return entity.replace("+", "%2B");
     }
 
-    /** Which of its type on its mission it is, which is how ids end. */
+    /** The number at the end of an id, 1 without one. */
     private static long number(String entity) {
         Matcher numbered = NUMBERED.matcher(entity);
         return numbered.matches() ? Long.parseLong(numbered.group(1)) : 1;

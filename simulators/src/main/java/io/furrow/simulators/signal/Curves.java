@@ -5,10 +5,10 @@ import java.time.Instant;
 import java.time.ZoneOffset;
 import java.util.OptionalDouble;
 
-/** The forms that what sensors measure is put together from. */
+/** The curves that readings are composed of. */
 public final class Curves {
     private static final int WARMEST_HOUR = 15;
-    private static final double LEAST_CHARGE = 0.2;
+    private static final double MIN_CHARGE = 0.2;
 
     private Curves() {}
 
@@ -17,19 +17,13 @@ public final class Curves {
         return time -> OptionalDouble.of(mean + swing * Math.cos(2 * Math.PI * (hour(time) - WARMEST_HOUR) / 24));
     }
 
-    /** Noise of normal distribution and mean 0, another from one millisecond to the next. */
+    /** Normally distributed noise of mean 0, different in each millisecond. */
     public static Signal noise(double deviation, long seed) {
         return time ->
                 OptionalDouble.of(deviation * Draw.of(seed, time.toEpochMilli()).nextGaussian());
     }
 
-    /** One value for ever, drawn evenly from {@code -width} to {@code width}: what an instrument is off by. */
-    public static Signal offset(double width, long seed) {
-        double value = width * (2 * Draw.of(seed, 0).nextDouble() - 1);
-        return time -> OptionalDouble.of(value);
-    }
-
-    /** Wanders smoothly between {@code -width} and {@code width}: drawn anew each {@code pace}, a cosine in between. */
+    /** Wanders smoothly between {@code -width} and {@code width}: drawn once per {@code pace}, a cosine in between. */
     public static Signal wandering(double width, Duration pace, long seed) {
         long step = pace.toMillis();
         return time -> {
@@ -42,12 +36,15 @@ public final class Curves {
         };
     }
 
-    /** The charge of a battery, 1 to 0.2, that falls evenly and is changed after {@code life}; another phase for each seed. */
+    /**
+     * The charge of a battery, falling evenly from 1 to 0.2 within {@code life}, then replaced; the phase depends on
+     * the seed.
+     */
     public static Signal charge(Duration life, long seed) {
         double phase = Draw.of(seed, 0).nextDouble();
         return time -> {
             double lives = time.toEpochMilli() / (double) life.toMillis() + phase;
-            return OptionalDouble.of(1 - (1 - LEAST_CHARGE) * (lives - Math.floor(lives)));
+            return OptionalDouble.of(1 - (1 - MIN_CHARGE) * (lives - Math.floor(lives)));
         };
     }
 

@@ -5,11 +5,11 @@ import java.time.Instant;
 import java.util.OptionalDouble;
 import java.util.random.RandomGenerator;
 
-/** What can be wrong with a sensor for a time; outside that time it is sound. */
+/** A fault of a sensor for a period; outside it the sensor is sound. */
 public sealed interface Fault {
     Span during();
 
-    /** What the faulty sensor shows at a time within {@link #during()}. */
+    /** The reading of the faulty sensor at a time within {@link #during()}. */
     OptionalDouble distort(Signal sound, Instant time);
 
     /** The signal of a sensor that has this fault. */
@@ -18,9 +18,9 @@ public sealed interface Fault {
     }
 
     /**
-     * Shows the same value again and again.
+     * Repeats the same value.
      *
-     * @param value null for what it showed when the fault began
+     * @param value null for the reading at the start of the fault
      */
     record Stuck(Span during, Double value) implements Fault {
         @Override
@@ -30,9 +30,9 @@ public sealed interface Fault {
     }
 
     /**
-     * Moves away from the truth.
+     * Drifts away from the truth.
      *
-     * @param perHour by how much in an hour, in the unit of the sensor
+     * @param perHour change in an hour, in the unit of the sensor
      */
     record Drift(Span during, double perHour) implements Fault {
         @Override
@@ -43,9 +43,9 @@ public sealed interface Fault {
     }
 
     /**
-     * Is off by {@code height}, up or down, now and then.
+     * Is off by {@code height}, up or down, at random.
      *
-     * @param share of the readings that are, 0 to 1
+     * @param share of the readings affected, 0 to 1
      */
     record Spikes(Span during, double share, double height, long seed) implements Fault {
         public Spikes {
@@ -65,7 +65,7 @@ public sealed interface Fault {
         }
     }
 
-    /** Says nothing. */
+    /** Shows no readings. */
     record Silent(Span during) implements Fault {
         @Override
         public OptionalDouble distort(Signal sound, Instant time) {

@@ -4,23 +4,23 @@ import java.time.Instant;
 import java.util.OptionalDouble;
 import java.util.function.DoubleUnaryOperator;
 
-/** What a sensor shows at an instant, empty where it says nothing; a pure function, so that any time may be asked, in any order. */
+/** The reading of a sensor at an instant, empty if it is silent; a pure function of time. */
 @FunctionalInterface
 public interface Signal {
     OptionalDouble at(Instant time);
 
-    /** The same to so many decimals, as an instrument shows it. */
+    /** Rounds to this many decimals. */
     default Signal rounded(int decimals) {
         double scale = Math.pow(10, decimals);
         return time -> map(at(time), value -> Math.round(value * scale) / scale);
     }
 
-    /** The same, never below or above the ends of the instrument's range. */
+    /** Clamps to the range of the instrument. */
     default Signal within(double lowest, double highest) {
         return time -> map(at(time), value -> Math.min(highest, Math.max(lowest, value)));
     }
 
-    /** The sum of both; empty where one says nothing. */
+    /** The sum of both; empty if one is silent. */
     default Signal plus(Signal other) {
         return time -> {
             OptionalDouble addend = other.at(time);

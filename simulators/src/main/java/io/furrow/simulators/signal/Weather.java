@@ -5,8 +5,8 @@ import java.time.Instant;
 import java.util.OptionalDouble;
 
 /**
- * The weather at one place: its quantities fit each other (the air is driest when it is warmest, the sun shines by day), and
- * depend on seed and time only.
+ * The weather at one place. Its quantities are consistent (the air is driest when it is warmest, the sun shines by day)
+ * and depend on seed and time only.
  *
  * @param meanCelsius mean temperature of the day
  */
@@ -52,7 +52,7 @@ public record Weather(double meanCelsius, long seed) {
         return time -> OptionalDouble.of(Math.floorMod(Math.round(value(wind, time)), 360));
     }
 
-    /** Rain, mm/h; mostly none. */
+    /** Rain, mm/h; mostly 0. */
     public Signal rain() {
         Signal shower = Curves.wandering(1, Duration.ofMinutes(30), part("rain"));
         Signal fall = time -> OptionalDouble.of(20 * (value(shower, time) - (1 - 2 * SHOWER_SHARE)));

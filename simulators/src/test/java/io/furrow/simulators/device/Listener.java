@@ -2,13 +2,17 @@ package io.furrow.simulators.device;
 
 import java.nio.charset.StandardCharsets;
 import java.util.List;
+import java.util.UUID;
 import java.util.concurrent.CopyOnWriteArrayList;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.eclipse.paho.client.mqttv3.IMqttDeliveryToken;
+import org.eclipse.paho.client.mqttv3.MqttAsyncClient;
 import org.eclipse.paho.client.mqttv3.MqttCallback;
+import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.MqttMessage;
+import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -17,14 +21,37 @@ import io.furrow.model.ngsi.UnreadableException;
 public final class Listener implements MqttCallback, AutoCloseable {
     public record Heard(String topic, JsonNode json) {}
 
+    private static final int ATTEMPTS = 5;
+    private static final long TIMEOUT_MS = 15_000;
+
     private final List<Heard> heard = new CopyOnWriteArrayList<>();
-    private final BrokerConnection connection;
+    private final MqttAsyncClient client;
 
     public Listener(FleetSettings settings) throws Exception {
-        connection = BrokerConnection.to(settings, "listener");
-        connection.open(this, 1000, true);
-        for (String topic : List.of("/+/+/attrs", "/+/+/cmdexe")) {
-            connection.subscribe(topic).waitForCompletion();
+        client = connected(settings);
+    }
+
+    /** Moquette 0.17 now and then drops a client that it has just accepted: connects again, as devices do. */
+    private MqttAsyncClient connected(FleetSettings settings) throws Exception {
+        for (int attempt = 1; ; attempt++) {
+            String id = "listener-" + attempt + "-" + UUID.randomUUID();
+            MqttAsyncClient opened = new MqttAsyncClient(settings.mqtt().toString(), id, new MemoryPersistence());
+            opened.setCallback(this);
+            try {
+                MqttConnectOptions options = new MqttConnectOptions();
+                options.setUserName(settings.mqttUser());
+                options.setPassword(settings.mqttPassword().toCharArray());
+                options.setMaxInflight(1000);
+                opened.connect(options).waitForCompletion(TIMEOUT_MS);
+                opened.subscribe(new String[] {"/+/+/attrs", "/+/+/cmdexe"}, new int[] {1, 1})
+                        .waitForCompletion();
+                return opened;
+            } catch (MqttException e) {
+                close(opened);
+                if (attempt == ATTEMPTS) {
+                    throw e;
+                }
+            }
         }
     }
 
@@ -55,11 +82,21 @@ public final class Listener implements MqttCallback, AutoCloseable {
     }
 
     public void say(String topic, String json) throws MqttException {
-        connection.publish(topic, json.getBytes(StandardCharsets.UTF_8));
+        client.publish(topic, json.getBytes(StandardCharsets.UTF_8), 1, false);
     }
 
     @Override
     public void close() {
-        connection.close();
+        close(client);
+    }
+
+    private static void close(MqttAsyncClient client) {
+        client.setCallback(null);
+        try {
+            client.disconnectForcibly(0, 100, client.isConnected());
+            client.close(true);
+        } catch (MqttException e) {
+            throw new IllegalStateException("a listener could not be closed", e);
+        }
     }
 }

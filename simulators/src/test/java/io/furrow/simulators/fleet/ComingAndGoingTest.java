@@ -33,7 +33,7 @@ import static org.awaitility.Awaitility.await;
 
 class ComingAndGoingTest {
     private static final FarmSecret SECRET = new FarmSecret("0123456789abcdef".getBytes(StandardCharsets.UTF_8));
-    private static final int MOST_OWN = 3;
+    private static final int MAX_OWN = 3;
 
     private final Map<String, String> passwords = new ConcurrentHashMap<>();
     private final Set<String> connectedAs = ConcurrentHashMap.newKeySet();
@@ -53,7 +53,7 @@ class ComingAndGoingTest {
         FleetAccess access =
                 new FleetAccess(settings, new MqttAccess(mqtt.uri(), null, 1), FleetAccess.Logins.of(() -> secret));
         fleet = FarmFleet.open(
-                access, new Connections(access, mission -> secret.apiKey(mission), MOST_OWN), new FleetEvents() {
+                access, new Connections(access, mission -> secret.apiKey(mission), MAX_OWN), new FleetEvents() {
                     @Override
                     public void up(String device) {
                         up.add(device);
@@ -114,7 +114,7 @@ class ComingAndGoingTest {
         assertThat(fleet.connections()).isEqualTo(1);
     }
 
-    /** A device goes on with its old login until the broker takes the new one: nothing is lost in between. */
+    /** A device continues with its old login until the broker takes the new one: nothing is lost in between. */
     @Test
     void movesToNewLoginsWithoutAGapAndTriesUntilTheyAreKnown() throws Exception {
         letIn("small", 2);

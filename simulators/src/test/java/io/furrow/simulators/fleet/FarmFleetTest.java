@@ -20,13 +20,13 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.PositionReading;
+import io.furrow.model.position.PositionReading;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.Listener;
-import io.furrow.simulators.fiware.FiwareSettings;
-import io.furrow.simulators.fiware.FiwareStandIn;
 import io.furrow.simulators.scenario.Farm;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -222,7 +222,7 @@ class FarmFleetTest {
     }
 
     private static FleetAccess access(String password) {
-        return FleetAccess.of(settings(password));
+        return Subscriber.access(settings(password));
     }
 
     private static FleetSettings settings(String password) {

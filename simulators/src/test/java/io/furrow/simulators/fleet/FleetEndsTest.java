@@ -55,7 +55,7 @@ class FleetEndsTest {
         FleetSettings wrong = new FleetSettings(
                 right.contextBroker(), URI.create("http://127.0.0.1:1"), right.mqtt(), "farmer", "plough", "farm", "/");
 
-        assertThatThrownBy(() -> FarmFleet.start(farm(THERMOMETER), FleetAccess.of(wrong)))
+        assertThatThrownBy(() -> FarmFleet.start(farm(THERMOMETER), Subscriber.access(wrong)))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("http://127.0.0.1:1/iot/services");
     }
@@ -64,14 +64,14 @@ class FleetEndsTest {
     void saysWhyTheIotAgentRefuses() {
         ends.answer(request -> request.path().equals("/iot/devices") ? 400 : 201);
 
-        assertThatThrownBy(() -> FarmFleet.start(farm(THERMOMETER), FleetAccess.of(ends.settings())))
+        assertThatThrownBy(() -> FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings())))
                 .isInstanceOf(IOException.class)
                 .hasMessageContaining("answers 400 to POST /iot/devices");
     }
 
     @Test
     void provisionsItsDevicesAsTheContractSays() throws Exception {
-        FarmFleet.start(farm(THERMOMETER), FleetAccess.of(ends.settings())).close();
+        FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings())).close();
 
         FiwareEnds.Asked group = ends.asked("/iot/services").get(0);
         assertThat(group.service()).isEqualTo("farm");
@@ -96,7 +96,7 @@ class FleetEndsTest {
     void makesItsGroupUnderTheResourceThatIsSet() throws Exception {
         FleetSettings settings = ends.settings().withIotAgentResource("");
 
-        FarmFleet.start(farm(THERMOMETER), FleetAccess.of(settings)).close();
+        FarmFleet.start(farm(THERMOMETER), Subscriber.access(settings)).close();
 
         assertThat(ends.asked("/iot/services")
                         .get(0)
@@ -110,7 +110,7 @@ class FleetEndsTest {
     void startsAgainWhereTheAgentKnowsItsDevices() throws Exception {
         ends.answer(request -> 409);
 
-        try (FarmFleet fleet = FarmFleet.start(farm(THERMOMETER), FleetAccess.of(ends.settings()))) {
+        try (FarmFleet fleet = FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings()))) {
             await().until(() -> fleet.tally().acknowledged() > 0);
         }
     }
@@ -118,7 +118,8 @@ class FleetEndsTest {
     @Test
     void goesOnReportingARobotWhoseBrokerRefusedForAWhile() throws Exception {
         ends.answer(request -> 500);
-        try (FarmFleet fleet = FarmFleet.start(farm(ROBOT), FleetAccess.of(ends.settings()), 500, Clock.systemUTC())) {
+        try (FarmFleet fleet =
+                FarmFleet.start(farm(ROBOT), Subscriber.access(ends.settings()), 500, Clock.systemUTC())) {
             await().until(() -> ends.asked("/v2/op/update").size() > 2);
             ends.reset();
 
@@ -131,7 +132,7 @@ class FleetEndsTest {
 
     @Test
     void leavesNoThreadBehind() throws Exception {
-        FarmFleet fleet = FarmFleet.start(farm(THERMOMETER), FleetAccess.of(ends.settings()));
+        FarmFleet fleet = FarmFleet.start(farm(THERMOMETER), Subscriber.access(ends.settings()));
         assertThat(ofFleet()).isNotEmpty();
 
         fleet.close();

@@ -26,7 +26,7 @@ import static org.awaitility.Awaitility.await;
 
 /** A fleet and a real Mosquitto with password file and TLS. */
 class MosquittoIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String FARM = """
             {"seed": 1, "apiKey": "k", "missions": [{"domain": "farm", "mission": "weeding", "devices": [
                 {"type": "Thermometer", "id": "t", "count": 20, "at": {"latitude": 40.31, "longitude": -3.48}, "period": "PT0.02S"}]}]}
@@ -70,7 +70,7 @@ class MosquittoIT {
             assertThat(fleet.connections()).isEqualTo(connections);
             for (int i = 0; i < 5; i++) {
                 long before = fleet.tally().acknowledged();
-                await().atMost(PATIENCE).until(() -> fleet.tally().acknowledged() > before + 500);
+                await().atMost(TIMEOUT).until(() -> fleet.tally().acknowledged() > before + 500);
                 broker.restart();
             }
             long before = fleet.tally().acknowledged();
@@ -96,11 +96,11 @@ class MosquittoIT {
                 FleetAccess.Logins.of(() -> secret));
 
         // Mosquitto reads its files a moment after it is told to.
-        try (FarmFleet fleet = await().atMost(PATIENCE)
+        try (FarmFleet fleet = await().atMost(TIMEOUT)
                         .ignoreExceptions()
                         .until(() -> fleet(farm, access, 5), started -> started.connections() == 1);
                 Subscriber subscriber = Subscriber.to(broker, "subscriber-farmer")) {
-            await().atMost(PATIENCE).until(() -> subscriber.measures().size() > 20);
+            await().atMost(TIMEOUT).until(() -> subscriber.measures().size() > 20);
             assertThat(fleet.tally().dropped()).isZero();
         }
     }

@@ -13,6 +13,7 @@ import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
 
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /** Hears all measures, each told by topic and time; its session outlives the broker's restarts, so that it misses none. */
@@ -56,6 +57,12 @@ record Subscriber(MqttAsyncClient client, Set<String> heard) implements AutoClos
             }
         }
         return heard;
+    }
+
+    /** With the user of the settings for all devices, at QoS 1. */
+    static FleetAccess access(FleetSettings settings) {
+        MqttAccess.Login login = new MqttAccess.Login(settings.mqttUser(), settings.mqttPassword());
+        return new FleetAccess(settings, new MqttAccess(settings.mqtt(), null, 1), FleetAccess.Logins.all(login));
     }
 
     @Override

@@ -9,6 +9,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.function.Predicate;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -20,9 +21,11 @@ import org.junit.jupiter.params.provider.ValueSource;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
+import io.furrow.simulators.robot.Activity;
 import io.furrow.simulators.robot.RobotModel;
-import io.furrow.simulators.robot.Way;
+import io.furrow.simulators.robot.RobotState;
+import io.furrow.simulators.robot.Trajectory;
 import io.furrow.simulators.scenario.SimulatedDevice;
 import io.furrow.simulators.scenario.SimulatedDevice.Camera;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;
@@ -59,19 +62,48 @@ class DemoMissionsTest {
     void hasTheFarmWithTwoMissionsAndTheCanary() {
         assertThat(demo.path("domains").findValuesAsText("domain")).containsExactly("farm", "canary");
         assertThat(demo.path("missions").findValuesAsText("mission")).containsExactly("weeding", "scouting", "dummy");
-        assertThat(devices).hasSize(14);
+        assertThat(devices).hasSize(17);
     }
 
     @Test
-    void putsFourOneAndOneThermometersIntoTheFieldsTheyName() throws IOException {
+    void putsFourThreeAndOneThermometersIntoTheFieldsTheyName() throws IOException {
         Map<String, Integer> counts = new TreeMap<>();
-        for (Sensor sensor : of("farm", Sensor.class)) {
+        for (Sensor sensor : thermometers()) {
             List<String> fields = fieldsAt(place(sensor, Duration.ZERO));
             assertThat(fields).as(sensor.id()).containsExactly(sensor.place().where());
             counts.merge(fields.get(0), 1, Integer::sum);
         }
 
-        assertThat(counts).isEqualTo(Map.of("field-1", 4, "field-2", 1, "field-3", 1));
+        assertThat(counts).isEqualTo(Map.of("field-1", 4, "field-2", 3, "field-3", 1));
+    }
+
+    /** A yard with a sensor in it would have an average. */
+    @Test
+    void keepsWeatherStationAndCameraOutOfFieldsAndYard() throws IOException {
+        for (SimulatedDevice device :
+                List.of(devices.get("urn:ngsi-ld:WeatherStation:1"), devices.get("urn:ngsi-ld:Camera:1"))) {
+            assertThat(fieldsAt(place(device, Duration.ZERO))).as(device.id()).isEmpty();
+        }
+    }
+
+    /** The map draws the rows from the field's properties: they have to be those that the robots work. */
+    @Test
+    void letsTheRobotsWorkAlongTheRowsOfTheUpperField() throws IOException {
+        JsonNode field = resource("fields.geojson").path("features").path(0);
+        double rows = field.at("/properties/rowDirection").doubleValue();
+        assertThat(field.at("/properties/rowSpacing").doubleValue()).isEqualTo(3);
+        for (Robot robot : robots()) {
+            int along = 0;
+            for (int second = 0; second < 600; second++) {
+                Trajectory.Pose pose = robot.model().way().at(second);
+                assertThat(fieldsAt(pose.place())).as(robot.id()).containsExactly("field-1");
+                double off = Math.abs((pose.heading() - rows + 270) % 180 - 90);
+                along += off < 1 ? 1 : 0;
+            }
+            assertThat(along)
+                    .as(robot.id() + ": seconds along the rows of ten minutes")
+                    .isGreaterThan(400);
+        }
     }
 
     @Test
@@ -99,22 +131,37 @@ class DemoMissionsTest {
         assertThat(shown.get(3) - shown.get(2)).isGreaterThan(20);
     }
 
-    /** Their missions do not start at the same time. */
+    /** A host starts them one after the other. */
     @ParameterizedTest
-    @ValueSource(ints = {0, 1, 3, 10})
-    void letsTheTwoRobotsMeetWithinTenSecondsAndThenEveryTwentyToThirty(int secondsBetweenStarts) {
-        List<Robot> robots = of("farm", Robot.class);
-        assertThat(robots)
+    @ValueSource(ints = {0, 1, 2, 3})
+    void letsTheTwoRobotsMeetWithinTenSecondsAndThenEveryTwentyToThirtyFive(int secondsBetweenStarts) {
+        assertThat(robots())
                 .hasSize(2)
                 .allSatisfy(robot -> assertThat(robot.period()).isEqualTo(Duration.ofMillis(500)));
-        List<Duration> meetings = meetings(robots.get(0), robots.get(1), Duration.ofSeconds(secondsBetweenStarts));
+        List<Beat> beats = work(Duration.ofSeconds(secondsBetweenStarts), Duration.ofHours(1));
+        List<Duration> meetings = starts(beats, beat -> beat.meters() <= CLOSE_METERS);
 
         assertThat(meetings.get(0)).isLessThan(Duration.ofSeconds(10));
-        assertThat(meetings).hasSizeGreaterThan(20);
+        assertThat(meetings).hasSizeGreaterThan(100);
         for (int i = 1; i < meetings.size(); i++) {
             assertThat(meetings.get(i).minus(meetings.get(i - 1)))
-                    .isBetween(Duration.ofSeconds(20), Duration.ofSeconds(30));
+                    .isBetween(Duration.ofSeconds(20), Duration.ofSeconds(35));
         }
+        assertThat(beats).allSatisfy(beat -> assertThat(beat.meters()).isGreaterThan(2));
+    }
+
+    @Test
+    void letsTheSecondRobotStopForTheFirstAndGoOn() {
+        List<Beat> beats = work(Duration.ZERO, Duration.ofHours(1));
+        int meetings = starts(beats, beat -> beat.meters() <= CLOSE_METERS).size();
+
+        assertThat(starts(beats, beat -> beat.second() == Activity.WAITING)).hasSizeBetween(meetings - 1, meetings + 1);
+        assertThat(starts(beats, beat -> beat.first() == Activity.WAITING)).isEmpty();
+        assertThat(beats.stream()
+                        .filter(beat -> beat.second() == Activity.RUNNING)
+                        .count())
+                .as("beats in which the second one goes")
+                .isGreaterThan(beats.size() / 2);
     }
 
     @Test
@@ -136,19 +183,52 @@ class DemoMissionsTest {
         }
     }
 
-    /** The times at which a pair becomes close, seen at 2 Hz over ten minutes; the one has started earlier than the other. */
-    private static List<Duration> meetings(Robot a, Robot b, Duration earlier) {
-        List<Duration> meetings = new ArrayList<>();
-        boolean close = false;
-        for (int beat = 0; beat < 1200; beat++) {
-            Duration time = Duration.ofMillis(500L * beat);
-            boolean now = meters(place(a, time.plus(earlier)), place(b, time)) <= CLOSE_METERS;
-            if (now && !close) {
-                meetings.add(time);
-            }
-            close = now;
+    private record Beat(Duration time, double meters, Activity first, Activity second) {}
+
+    /** The two robots at 2 Hz, each seeing the other; the first has started earlier. */
+    private List<Beat> work(Duration earlier, Duration length) {
+        Robot first = robots().get(0);
+        Robot second = robots().get(1);
+        Instant start = NOON;
+        RobotState one = RobotState.starting(start, first.driven() + earlier.toSeconds());
+        RobotState other = RobotState.starting(start, second.driven());
+        List<Beat> beats = new ArrayList<>();
+        for (Duration time = Duration.ZERO; time.compareTo(length) < 0; time = time.plusMillis(500)) {
+            Instant now = start.plus(time);
+            one = first.model().advance(one, now, around(second, other));
+            other = second.model().advance(other, now, around(first, one));
+            double meters = meters(
+                    first.model().pose(one).place(), second.model().pose(other).place());
+            beats.add(new Beat(time, meters, one.activity(), other.activity()));
         }
-        return meetings;
+        return beats;
+    }
+
+    private static Map<String, Position> around(Robot robot, RobotState state) {
+        return Map.of(robot.id(), robot.model().pose(state).place());
+    }
+
+    private static List<Duration> starts(List<Beat> beats, Predicate<Beat> condition) {
+        List<Duration> starts = new ArrayList<>();
+        boolean before = false;
+        for (Beat beat : beats) {
+            boolean now = condition.test(beat);
+            if (now && !before) {
+                starts.add(beat.time());
+            }
+            before = now;
+        }
+        return starts;
+    }
+
+    private List<Robot> robots() {
+        return of("farm", Robot.class);
+    }
+
+    private List<Sensor> thermometers() {
+        return of("farm", Sensor.class).stream()
+                .filter(sensor -> sensor.identity().type().equals("Thermometer"))
+                .toList();
     }
 
     private static Position place(SimulatedDevice device, Duration time) {
@@ -157,7 +237,7 @@ class DemoMissionsTest {
             RobotModel model = robot.model();
             return model.way().at(robot.driven() + seconds).place();
         }
-        Way way = device instanceof Sensor sensor
+        Trajectory way = device instanceof Sensor sensor
                 ? sensor.place().way()
                 : ((Camera) device).place().way();
         return way.at(seconds).place();

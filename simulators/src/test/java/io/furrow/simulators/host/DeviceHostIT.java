@@ -25,7 +25,7 @@ import static org.awaitility.Awaitility.await;
 
 /** A host against a real Kafka and MQTT broker; each test has a mission of its own. */
 class DeviceHostIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
@@ -61,7 +61,7 @@ class DeviceHostIT {
     void runsWhatIsWantedFromWhenTheBrokerKnowsIt() throws Exception {
         String device = entity("Thermometer", "late", 1);
         long sequence = bench.want("late", device, true, YARD);
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(device)).hasValueSatisfying(status -> {
                     assertThat(status.state()).isEqualTo(State.FAILED);
                     assertThat(status.reason())
@@ -70,10 +70,10 @@ class DeviceHostIT {
 
         bench.admit("late", device);
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(listener.heard(topic("late", device, "attrs")))
                         .hasSizeGreaterThan(3));
     }
@@ -83,14 +83,14 @@ class DeviceHostIT {
         String device = run("anew", 1);
         FarmSecret before = bench.secret;
         bench.secret = null;
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(host.lastFailure()).contains("NullPointerException"));
         bench.secret = before;
 
-        await().atMost(PATIENCE).until(host::isCaughtUp);
-        await().atMost(PATIENCE).until(() -> host.fleet().connections() == 1);
+        await().atMost(TIMEOUT).until(host::isCaughtUp);
+        await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
         int heard = heard("anew", device);
-        await().atMost(PATIENCE).until(() -> heard("anew", device) > heard);
+        await().atMost(TIMEOUT).until(() -> heard("anew", device) > heard);
         assertThat(host.isAlive()).isTrue();
         bench.delete(device);
     }
@@ -104,15 +104,15 @@ class DeviceHostIT {
         long sequence = bench.want("end", stopped, false, YARD);
         bench.delete(deleted);
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(stopped)).contains(new DeviceStatus(sequence, State.STOPPED, null)));
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(deleted)).isEmpty());
-        await().atMost(PATIENCE).until(() -> host.fleet().connections() == 1);
+        await().atMost(TIMEOUT).until(() -> host.fleet().connections() == 1);
         int before = heard("end", stopped) + heard("end", deleted);
         int other = heard("end", goesOn);
-        await().atMost(PATIENCE).until(() -> heard("end", goesOn) > other + 10);
+        await().atMost(TIMEOUT).until(() -> heard("end", goesOn) > other + 10);
         assertThat(heard("end", stopped) + heard("end", deleted)).isEqualTo(before);
         bench.delete(goesOn);
     }
@@ -127,12 +127,12 @@ class DeviceHostIT {
 
         host = DeviceHost.start(bench.settings());
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(gone)).isEmpty());
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .until(() -> listener.heard(topic("again", device, "attrs")).stream()
                         .anyMatch(json -> json.path("lon").doubleValue() == -3.5));
         bench.delete(device);
@@ -143,7 +143,7 @@ class DeviceHostIT {
         String device = entity("Thermometer", "field", 1);
         bench.admit("field", device);
         bench.want("field", device, true, "{\"area\": \"orchard\"}");
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(device))
                         .hasValueSatisfying(
                                 status -> assertThat(status.reason()).startsWith("area: there is no field 'orchard'")));
@@ -153,7 +153,7 @@ class DeviceHostIT {
                  "coordinates": [[[-3.5, 40.3], [-3.49, 40.3], [-3.49, 40.31], [-3.5, 40.3]]]}}
                 """);
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(device).map(DeviceStatus::state))
                         .contains(State.RUNNING));
         bench.delete(device);
@@ -169,13 +169,13 @@ class DeviceHostIT {
                 camera,
                 true,
                 "{\"carriedBy\": \"%s\", \"parameters\": {\"battery\": \"P3D\"}}".formatted(robot));
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(bench.status(camera).map(DeviceStatus::reason))
                         .contains("carriedBy: '" + robot + "' is no robot that runs here"));
 
         bench.want("carry", robot, true, "{\"path\": [[-3.48, 40.31], [-3.48, 40.32]], \"speed\": 2}");
 
-        await().atMost(PATIENCE).untilAsserted(() -> {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
             assertThat(bench.status(robot).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(bench.status(camera).map(DeviceStatus::state)).contains(State.RUNNING);
             assertThat(listener.heard(topic("carry", camera, "attrs"))).last().satisfies(json -> {
@@ -192,7 +192,7 @@ class DeviceHostIT {
         String device = run("restart", 1);
         listener.say(topic("restart", device, "cmd"), "{\"restart\": \"\"}");
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(listener.heard(topic("restart", device, "cmdexe")))
                         .singleElement()
                         .hasToString("{\"restart\":\"ok\"}"));
@@ -216,11 +216,11 @@ class DeviceHostIT {
 
         long sequence = bench.wantRotated("stolen", device, YARD, 1);
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         int before = heard("stolen", device);
-        await().atMost(PATIENCE).until(() -> heard("stolen", device) > before + 3);
+        await().atMost(TIMEOUT).until(() -> heard("stolen", device) > before + 3);
         bench.delete(device);
     }
 
@@ -234,18 +234,18 @@ class DeviceHostIT {
         bench.passwords.put(login.user(), login.password());
 
         bench.secret = rotated;
-        // One that is wanted from now on has the new login only.
+        // One that is requested from now on has the new login only.
         String second = entity("Thermometer", "rotated", 2);
         FarmSecret.Login other = rotated.device("rotated", second);
         bench.passwords.put(other.user(), other.password());
         long sequence = bench.want("rotated", second, true, YARD);
 
-        await().atMost(PATIENCE)
+        await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(bench.status(second)).contains(new DeviceStatus(sequence, State.RUNNING, null)));
         bench.passwords.remove(HostBench.SECRET.device("rotated", device).user());
         int before = heard("rotated", device);
-        await().atMost(PATIENCE).until(() -> heard("rotated", device) > before + 10);
+        await().atMost(TIMEOUT).until(() -> heard("rotated", device) > before + 10);
         bench.secret = HostBench.SECRET;
         bench.delete(device);
         bench.delete(second);
@@ -255,7 +255,7 @@ class DeviceHostIT {
         String device = entity("Thermometer", mission, number);
         bench.admit(mission, device);
         long sequence = bench.want(mission, device, true, YARD);
-        await().atMost(PATIENCE).untilAsserted(() -> {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
             assertThat(bench.status(device)).contains(new DeviceStatus(sequence, State.RUNNING, null));
             assertThat(heard(mission, device)).isPositive();
         });

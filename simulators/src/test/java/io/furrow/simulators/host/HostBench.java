@@ -14,7 +14,6 @@ import java.util.concurrent.atomic.AtomicLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
-import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
@@ -28,6 +27,8 @@ import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.FarmSecret;
@@ -37,8 +38,6 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.device.Listener;
-import io.furrow.simulators.fiware.FiwareSettings;
-import io.furrow.simulators.fiware.FiwareStandIn;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /** All that a host of devices speaks to, and who asks it for devices in the place of the control plane. */
@@ -61,14 +60,9 @@ final class HostBench implements AutoCloseable {
         mqtt = EmbeddedMqtt.start(passwords);
         fiware = FiwareStandIn.start(new FiwareSettings(0, 0, mqtt.uri(), "farmer", "plough"));
         producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
-        try (Admin admin = Admin.create(client())) {
-            admin.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS).stream()
-                            .map(topic ->
-                                    new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
-                            .toList())
-                    .all()
-                    .get();
-        }
+        kafka.createTopics(List.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.FIELDS, Topics.SECRETS).stream()
+                .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
+                .toList());
     }
 
     Properties client() {

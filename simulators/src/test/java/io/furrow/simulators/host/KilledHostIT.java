@@ -23,7 +23,7 @@ import static org.awaitility.Awaitility.await;
 
 /** The host as a process of its own. */
 class KilledHostIT {
-    private static final Duration PATIENCE = Duration.ofSeconds(60);
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
 
     @TempDir
@@ -56,7 +56,7 @@ class KilledHostIT {
         long first = bench.want("killed", stays, true, YARD);
         long second = bench.want("killed", stopped, true, YARD);
         Process host = host();
-        await().atMost(PATIENCE).untilAsserted(() -> {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
             assertThat(bench.status(stays)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(second, State.RUNNING, null));
         });
@@ -66,13 +66,13 @@ class KilledHostIT {
         long begin = bench.want("killed", comes, true, YARD);
         host();
 
-        await().atMost(PATIENCE).untilAsserted(() -> {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
             assertThat(bench.status(stays)).contains(new DeviceStatus(first, State.RUNNING, null));
             assertThat(bench.status(stopped)).contains(new DeviceStatus(end, State.STOPPED, null));
             assertThat(bench.status(comes)).contains(new DeviceStatus(begin, State.RUNNING, null));
         });
         try (Listener listener = bench.listener()) {
-            await().atMost(PATIENCE).untilAsserted(() -> {
+            await().atMost(TIMEOUT).untilAsserted(() -> {
                 assertThat(listener.heard(topic("killed", stays, "attrs"))).isNotEmpty();
                 assertThat(listener.heard(topic("killed", comes, "attrs"))).isNotEmpty();
             });

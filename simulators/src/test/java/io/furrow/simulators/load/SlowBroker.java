@@ -16,7 +16,7 @@ final class SlowBroker implements AutoCloseable {
     private static final int PUBLISH = 3;
 
     private final ServerSocket server = new ServerSocket(0, 1, InetAddress.getLoopbackAddress());
-    private final CountDownLatch patience = new CountDownLatch(1);
+    private final CountDownLatch timeout = new CountDownLatch(1);
 
     private volatile Socket current;
 
@@ -36,12 +36,12 @@ final class SlowBroker implements AutoCloseable {
     }
 
     void acknowledge() {
-        patience.countDown();
+        timeout.countDown();
     }
 
     @Override
     public void close() throws IOException {
-        patience.countDown();
+        timeout.countDown();
         server.close();
     }
 
@@ -61,7 +61,7 @@ final class SlowBroker implements AutoCloseable {
                 if (first >> 4 == CONNECT) {
                     out.write(CONNACK);
                 } else if (first >> 4 == PUBLISH) {
-                    patience.await();
+                    timeout.await();
                     int id = 2 + ((packet[0] & 0xff) << 8 | packet[1] & 0xff);
                     out.write(new byte[] {0x40, 2, packet[id], packet[id + 1]});
                 }

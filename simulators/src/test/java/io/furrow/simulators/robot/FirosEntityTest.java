@@ -9,8 +9,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.Position;
-import io.furrow.model.ngsi.PositionReading;
+import io.furrow.model.position.Position;
+import io.furrow.model.position.PositionReading;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.within;
@@ -19,9 +19,10 @@ class FirosEntityTest {
     private static final Instant START = Instant.parse("2026-06-01T08:00:00Z");
     private static final RobotModel ROBOT = new RobotModel(
             "robot-1",
-            Way.along(List.of(new Position(40.31, -3.48), new Position(40.32, -3.48)), new Way.Pace(1.5, 45)),
-            new RobotModel.Manners(2, 0, Duration.ZERO),
-            null);
+            Trajectory.along(
+                    List.of(new Position(40.31, -3.48), new Position(40.32, -3.48)), new Trajectory.Pace(1.5, 45)),
+            0,
+            Duration.ZERO);
 
     @Test
     void tellsItsPositionTimeSpeedAndHeading() {
@@ -39,7 +40,7 @@ class FirosEntityTest {
 
     @Test
     void writesRosMessagesAsTextWithoutQuotes() throws Exception {
-        Entity entity = entity(RobotState.starting(START, 4 * 3600).told(Command.STOP));
+        Entity entity = entity(RobotState.starting(START, 4 * 3600).commanded(true));
 
         for (String message : List.of("gnss", "state", "battery")) {
             assertThat(entity.text(message))

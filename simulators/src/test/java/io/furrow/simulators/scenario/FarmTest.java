@@ -34,8 +34,7 @@ class FarmTest {
                  "faults": [{"kind": "stuck", "value": 60, "numbers": [4]}, {"kind": "silent", "after": "PT10M", "numbers": [5]}]},
                 {"type": "WeatherStation", "id": "w", "at": {"latitude": 40.31, "longitude": -3.48}, "where": "yard", "period": "PT1M",
                  "faults": [{"kind": "drift", "attribute": "Pressure", "perHour": 2}]},
-                {"type": "Robot", "id": "r", "count": 2, "period": "PT0.5S", "rows": {"field": "field-1", "spacing": 4}, "speed": 1.5,
-                 "obstacles": {"every": "PT1M", "stay": "PT10S"}, "meeting": 5},
+                {"type": "Robot", "id": "r", "count": 2, "period": "PT0.5S", "rows": {"field": "field-1", "spacing": 4}, "speed": 1.5, "meeting": 5},
                 {"type": "Camera", "id": "c", "count": 2, "period": "PT5S", "carriedBy": "r"},
                 {"type": "Camera", "id": "eye", "period": "PT5S", "carriedBy": "r-2", "heading": 90}]},
               {"domain": "farm", "mission": "scouting", "devices": [
@@ -56,8 +55,7 @@ class FarmTest {
                         "t-2", "urn:ngsi-ld:Thermometer:t-2", "Thermometer", "farm", "weeding"));
         assertThat(device(farm, "moving", Camera.class).identity().entity()).isEqualTo("urn:x:1");
         assertThat(device(farm, "r-1", Robot.class).period()).isEqualTo(Duration.ofMillis(500));
-        assertThat(device(farm, "r-1", Robot.class).model().interruptions().every())
-                .isEqualTo(Duration.ofMinutes(1));
+        assertThat(device(farm, "r-1", Robot.class).model().meeting()).isEqualTo(5);
     }
 
     @Test
@@ -140,7 +138,7 @@ class FarmTest {
         "seed": 7                   | "seed": -1                  | seed: must be a whole number from 0 to 9223372036854775807, not -1
         "seed": 7                   | "sed": 7                    | sed: is not known here; known are apiKey, fields, missions, seed
         "apiKey": "secret"          | "apiKey": "a/b"             | apiKey: must be 1 to 64 of A-Z a-z 0-9 _ -, not 'a/b'
-        "apiKey": "secret",         | ,                           | line 1: is no JSON: Unexpected character (',' (code 44)): was expecting double-quote to start field name
+        "apiKey": "secret",         | ,                           | line 1: is not valid JSON: Unexpected character (',' (code 44)): was expecting double-quote to start field name
         "apiKey": "secret",         | ''                          | apiKey: must be a text, and is missing
         "mission": "weeding"        | "mission": "a.b"            | missions[0].mission: must be 1 to 64 of A-Z a-z 0-9 _ -, not 'a.b'
         "type": "WeatherStation"    | "type": "Barn"              | missions[0].devices[1].type: 'Barn' is no type of device; use Thermometer, WeatherStation, Camera or Robot
@@ -162,7 +160,8 @@ class FarmTest {
         "entity": "urn:x:1"         | "entity": "urn:ngsi-ld:Robot:r-1" | missions[1].devices[0].entity: 'urn:ngsi-ld:Robot:r-1' is taken by missions[0].devices[2]; give it another
         "spacing": 4                | "spacing": 4, "margin": 100 | missions[0].devices[2].rows: field 'field-1' has no room for a row 100.0 m from its edge: give a smaller margin
         "rows": {"field": "field-1", "spacing": 4}, | ''          | missions[0].devices[2].rows: is missing; a robot needs either rows or a route
-        "every": "PT1M"             | "every": "PT0S"             | missions[0].devices[2].obstacles.every: must be at least PT0.001S
+        "meeting": 5                | "obstacles": {"every": "PT1M"} | missions[0].devices[2].obstacles: is not known here; known are count, entity, id, meeting, patience, period, route, rows, speed, start, tellsMission, turnRate, type
+        "meanCelsius": 20           | "battery": "PT0S"           | missions[0].devices[0].battery: must be at least PT0.001S
         {"latitude": 40.3,          | {"latitude": 140.3,         | missions[1].devices[0].route[0].latitude: must be a number from -90 to 90, not 140.3
         "type": "Polygon"           | "type": "Point"             | fields.features[0]: the geometry of field 'field-1' is no Polygon: make each part of a MultiPolygon a field of its own
         """)

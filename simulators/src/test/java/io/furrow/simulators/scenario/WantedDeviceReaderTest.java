@@ -14,7 +14,7 @@ import org.junit.jupiter.params.provider.CsvSource;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.Position;
+import io.furrow.model.position.Position;
 import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.SimulatedDevice.Camera;
 import io.furrow.simulators.scenario.SimulatedDevice.Robot;

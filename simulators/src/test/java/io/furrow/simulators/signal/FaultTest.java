@@ -63,7 +63,7 @@ class FaultTest {
     @ParameterizedTest
     @MethodSource("cases")
     void repeatsWhatAStuckSensorShowedWhenItGotStuck(Case device) {
-        Signal stuck = new Fault.Stuck(Span.since(START), null).on(device.sound);
+        Signal stuck = new Fault.Stuck(new Span(START, null), null).on(device.sound);
 
         assertThat(device.times).allSatisfy(time -> assertThat(stuck.at(time)).isEqualTo(device.sound.at(START)));
     }
@@ -72,7 +72,7 @@ class FaultTest {
     @MethodSource("cases")
     void driftsAtItsRate(Case device) {
         double perHour = 1 + device.seed % 5;
-        Signal drifting = new Fault.Drift(Span.since(START), perHour).on(device.sound);
+        Signal drifting = new Fault.Drift(new Span(START, null), perHour).on(device.sound);
 
         for (Instant time : device.times) {
             double off = drifting.at(time).getAsDouble() - device.sound.at(time).getAsDouble();
@@ -84,7 +84,7 @@ class FaultTest {
     @ParameterizedTest
     @MethodSource("cases")
     void isOffByItsHeightInItsShareOfTheReadings(Case device) {
-        Signal spiky = new Fault.Spikes(Span.since(START), 0.1, 20, device.seed).on(device.sound);
+        Signal spiky = new Fault.Spikes(new Span(START, null), 0.1, 20, device.seed).on(device.sound);
 
         List<Double> off = IntStream.range(0, 2000)
                 .mapToObj(START::plusSeconds)
@@ -103,7 +103,7 @@ class FaultTest {
     @ParameterizedTest
     @MethodSource("cases")
     void saysNothingWhileSilent(Case device) {
-        Signal silent = new Fault.Silent(Span.since(START)).on(device.sound);
+        Signal silent = new Fault.Silent(new Span(START, null)).on(device.sound);
 
         assertThat(device.times).allSatisfy(time -> assertThat(silent.at(time)).isEqualTo(OptionalDouble.empty()));
     }
@@ -136,8 +136,6 @@ class FaultTest {
     void endsASpanBeforeItsEnd() {
         assertThat(NOON.holds(NOON.from())).isTrue();
         assertThat(NOON.holds(NOON.until())).isFalse();
-        assertThat(NOON.meets(NOON.until(), NOON.until().plusSeconds(1))).isFalse();
-        assertThat(NOON.meets(NOON.from().minusSeconds(1), NOON.from())).isTrue();
         assertThatThrownBy(() -> new Span(NOON.until(), NOON.from())).isInstanceOf(IllegalArgumentException.class);
     }
 }

@@ -1,9 +1,9 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.PairId;
-import io.furrow.analytics.collision.Phase;
-import io.furrow.analytics.collision.PositionFix;
-import io.furrow.flink.Epochs;
+import io.furrow.analytics.collision.encounter.PairId;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.Epochs;
 
 /**
  * That two devices will come, or came between their reports, within the threshold; complete in itself.
@@ -11,10 +11,10 @@ import io.furrow.flink.Epochs;
  * @param phase {@link Phase#PREDICTED} or {@link Phase#CROSSED}
  * @param first the device with the lesser id; predicted: at its newest position; crossed: where it was at the closest
  * @param second the other device
- * @param distance metres between these two positions
- * @param dcpa metres at the closest point of approach
+ * @param distance meters between these two positions
+ * @param dcpa meters at the closest point of approach
  * @param tcpa seconds from {@code time} to the closest point of approach; 0 where that is in the past
- * @param startTime predicted: when that was first told; crossed: when the contact began; epoch milliseconds
+ * @param startTime predicted: when that was first emitted; crossed: when the contact began; epoch milliseconds
  * @param time predicted: the newer of both positions; crossed: when they were closest; epoch milliseconds
  */
 public record Approach(

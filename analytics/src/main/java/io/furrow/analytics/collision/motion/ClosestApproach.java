@@ -2,19 +2,21 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.Optional;
 
+import io.furrow.analytics.collision.motion.space.Place;
+
 /**
  * How near two straight motions come to each other during a time.
  *
  * @param time when they are closest, epoch milliseconds with a fraction, of the original time as all here
- * @param distance metres between them then
+ * @param distance meters between them then
  * @param contactFrom from when on they are within the threshold, epoch milliseconds with a fraction
  * @param contactUntil until when
  */
 record ClosestApproach(double time, double distance, double contactFrom, double contactUntil) {
-    /** Slower than this against each other (a metre in 30 years) both keep their distance. */
+    /** Slower than this against each other (a meter in 30 years) both keep their distance. */
     private static final double STANDSTILL = 1e-24;
 
-    /** Empty where they do not come within the threshold, in metres, between {@code from} and {@code until}. */
+    /** Empty if they do not come within the threshold, in meters, between {@code from} and {@code until}. */
     static Optional<ClosestApproach> within(double threshold, Leg a, Leg b, long from, long until) {
         if (from > until) {
             return Optional.empty();

@@ -4,12 +4,12 @@ import java.util.List;
 import java.util.function.Consumer;
 
 /**
- * Legs of a pair that are within the threshold and may go on to be so.
+ * Legs of a pair that are within the threshold and may continue to be so.
  *
  * @param nearest what was found where they were closest
  * @param from when it began, epoch milliseconds
  * @param until up to when the legs are known
- * @param reportedClose whether the reports saw the devices close as well: then it is an encounter, and not told here
+ * @param reportedClose whether the reports saw the devices close as well: then it is an encounter, and not emitted here
  */
 public record Contact(Finding nearest, long from, long until, boolean reportedClose) {
 
@@ -18,9 +18,9 @@ public record Contact(Finding nearest, long from, long until, boolean reportedCl
     }
 
     /**
-     * What the legs of a pair come to; null where no contact is open at the end.
+     * What the legs of a pair come to; null if no contact is open at the end.
      *
-     * @param before null where none was
+     * @param before null if none was
      * @param findings in the order of {@link Finding#SEQUENCE}
      */
     static Contact join(Contact before, List<Finding> findings, Consumer<Approach> out) {
@@ -40,7 +40,7 @@ public record Contact(Finding nearest, long from, long until, boolean reportedCl
         return open;
     }
 
-    /** Tells of it if only the ways came close. */
+    /** Reports it if only the ways came close. */
     static void close(Contact contact, Consumer<Approach> out) {
         if (contact != null && !contact.reportedClose) {
             out.accept(Approach.crossed(contact));

@@ -2,8 +2,8 @@ package io.furrow.analytics.collision.motion;
 
 import java.util.Comparator;
 
-import io.furrow.analytics.collision.PositionFix;
 import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.position.PositionFix;
 
 /**
  * That two devices' legs come within the threshold, as one cube saw it.
@@ -11,8 +11,8 @@ import io.furrow.analytics.eventtime.Timed;
  * @param first the device with the lesser id, in the order of {@link PositionFix#NAMING}
  * @param second the other device
  * @param time when this is known: the newest of the reports that it follows from, epoch milliseconds
- * @param apart metres between the newest positions
- * @param distance metres when they are closest
+ * @param apart meters between the newest positions
+ * @param distance meters when they are closest
  * @param closest when that is; of the original time, since it has a fraction
  * @param from the first instant that both legs cover; of legs ahead the same as {@code time}
  * @param until the last

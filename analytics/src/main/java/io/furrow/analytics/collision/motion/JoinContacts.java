@@ -14,7 +14,7 @@ import io.furrow.analytics.eventtime.OneTimer;
 /**
  * Joins the contacts of legs that follow each other to one crossing. Key: the pair.
  *
- * <p><b>State</b>: findings that wait for the watermark; a contact that may go on.
+ * <p><b>State</b>: findings that wait for the watermark; a contact that may continue.
  *
  * <p><b>Cleared</b>: when the contact ended, at the latest one time-to-live after its last leg, and no finding waits.
  *

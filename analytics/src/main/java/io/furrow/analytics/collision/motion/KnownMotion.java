@@ -1,11 +1,11 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.position.PositionFix;
 
 /**
  * What is known of one device's motion.
  *
  * @param last the newest position
- * @param ahead the leg that begins there; null where no course is known
+ * @param ahead the leg that begins there; null if no course is known
  */
 public record KnownMotion(PositionFix last, Leg ahead) {}

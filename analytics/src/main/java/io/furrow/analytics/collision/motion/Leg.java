@@ -1,7 +1,8 @@
 package io.furrow.analytics.collision.motion;
 
-import io.furrow.analytics.collision.PositionFix;
-import io.furrow.flink.Epochs;
+import io.furrow.analytics.collision.motion.space.Place;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.Epochs;
 
 /**
  * A straight, uniform motion of one device.
@@ -9,12 +10,12 @@ import io.furrow.flink.Epochs;
  * @param fix the newer position of a leg behind, or the one from which a leg ahead begins
  * @param from when the device is at the beginning, epoch milliseconds
  * @param until when it is at the end
- * @param x where it begins, metres from the Earth's centre towards 0° N 0° E
- * @param y metres towards 0° N 90° E
- * @param z metres towards the north pole
- * @param vx metres per millisecond
- * @param vy metres per millisecond
- * @param vz metres per millisecond
+ * @param x where it begins, meters from the Earth's center towards 0° N 0° E
+ * @param y meters towards 0° N 90° E
+ * @param z meters towards the north pole
+ * @param vx meters per millisecond
+ * @param vy meters per millisecond
+ * @param vz meters per millisecond
  */
 public record Leg(
         PositionFix fix, long from, long until, double x, double y, double z, double vx, double vy, double vz) {
@@ -25,9 +26,9 @@ public record Leg(
     /**
      * Where the device is on its leg; the newest position itself where the leg ends with it.
      *
-     * @param time the original one, epoch milliseconds: a double tells no milliseconds of a late epoch's event time
+     * @param time the original one, epoch milliseconds: a double cannot represent the milliseconds of a late epoch's event time
      */
-    Place at(double time) {
+    public Place at(double time) {
         double elapsed = time - Epochs.original(from);
         return new Place(x + vx * elapsed, y + vy * elapsed, z + vz * elapsed);
     }
@@ -36,7 +37,7 @@ public record Leg(
         return new Place(x, y, z);
     }
 
-    Place velocity() {
+    public Place velocity() {
         return new Place(vx, vy, vz);
     }
 

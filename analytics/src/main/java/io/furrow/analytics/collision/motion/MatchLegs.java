@@ -9,6 +9,8 @@ import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 import org.apache.flink.util.OutputTag;
 
+import io.furrow.analytics.collision.motion.space.Cubes;
+import io.furrow.analytics.collision.motion.space.Neighbourhood;
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
 
@@ -65,7 +67,7 @@ public final class MatchLegs extends KeyedProcessFunction<Long, LegUpdate, Findi
         Neighbourhood now = known == null ? Neighbourhood.empty() : known;
         now.apply(
                 due,
-                new Watch(
+                new ApproachDetector(
                         rules,
                         cubes,
                         context.getCurrentKey(),

@@ -4,8 +4,8 @@ import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
 
-import io.furrow.analytics.collision.PositionFix;
-import io.furrow.flink.KeyedLatenessOperator;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.KeyedLatenessOperator;
 
 /** What is predicted and what crossed among positions, as defined for this package; beside the encounters. */
 public final class MotionDetection {
@@ -30,9 +30,9 @@ public final class MotionDetection {
 
         DataStream<Approach> predicted = predictions
                 .keyBy(Finding::pair)
-                .process(new FollowPredictions(rules))
-                .uid("follow-predictions")
-                .name("Follow predictions of each pair");
+                .process(new TrackPredictions(rules))
+                .uid("track-predictions")
+                .name("Track predictions of each pair");
 
         DataStream<Approach> crossed = predictions
                 .getSideOutput(MatchLegs.CONTACTS)

@@ -16,7 +16,7 @@ public final class MotionOptions {
             defaultValue = "0s",
             description =
                     "How far ahead of its newest position the course of a device is followed. A pair that will come "
-                            + "within the threshold by then is told with the phase 'predicted', 'tcpa' and 'dcpa'. 0s predicts "
+                            + "within the threshold by then is reported with the phase 'predicted', 'tcpa' and 'dcpa'. 0s predicts "
                             + "nothing and costs nothing; 10s suits machines that report once a second. Default: ${DEFAULT-VALUE}.")
     private Duration horizon;
 
@@ -24,19 +24,19 @@ public final class MotionOptions {
             names = "--crossed",
             description =
                     "Compare the ways between two reports too: a pair that comes within the threshold there, though "
-                            + "no report shows it, is told with the phase 'crossed'. Set it where devices move further between "
+                            + "no report shows it, is reported with the phase 'crossed'. Set it where devices move further between "
                             + "two reports than the threshold.")
     private boolean crossed;
 
     @Option(
-            names = "--greatest-speed",
+            names = "--max-speed",
             paramLabel = "M/S",
             defaultValue = "30",
             description =
-                    "No device moves faster, in metres per second. What seems faster is taken for a faulty position: "
-                            + "it has no part in predictions and crossings and is counted as 'positions.too-fast'. "
+                    "No device moves faster, in meters per second. What seems faster is taken for a faulty position: "
+                            + "it has no part in predictions and crossings and is counted as 'positionsTooFast'. "
                             + "Default: ${DEFAULT-VALUE}.")
-    private double greatestSpeed;
+    private double maxSpeed;
 
     @Option(
             names = "--moving-types",
@@ -51,6 +51,6 @@ public final class MotionOptions {
      * @throws IllegalArgumentException with a sentence for whoever set the options
      */
     public MotionRules rules(CollisionRules common) {
-        return new MotionRules(common, horizon, crossed, greatestSpeed, Set.copyOf(movingTypes));
+        return new MotionRules(common, horizon, crossed, maxSpeed, Set.copyOf(movingTypes));
     }
 }

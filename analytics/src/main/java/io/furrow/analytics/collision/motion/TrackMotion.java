@@ -9,14 +9,14 @@ import org.apache.flink.metrics.Counter;
 import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
 import org.apache.flink.util.Collector;
 
-import io.furrow.analytics.collision.PositionFix;
 import io.furrow.analytics.eventtime.Inbox;
 import io.furrow.analytics.eventtime.OneTimer;
-import io.furrow.flink.EventTimeReached;
-import io.furrow.flink.JudgesLateness;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.EventTimeReached;
+import io.furrow.flink.time.JudgesLateness;
 
 /**
- * Makes legs of the positions of each device and puts them into the cubes that they touch. Key: the device.
+ * Creates legs from the positions of each device and adds them to the cubes that they touch. Key: the device.
  *
  * <p><b>State</b>: positions that wait for the watermark, the newest with the leg that begins there; how far event time has
  * come, because a restored job starts without a watermark.
@@ -27,15 +27,15 @@ import io.furrow.flink.JudgesLateness;
  * encounters sets the same one aside.
  *
  * <p><b>Emits</b>: updates of cubes, a device's in the order of their time, before the watermark that brings them about.
- * {@code positions.too-fast} counts positions that are further from the one before, or report a greater speed, than the
+ * {@code positionsTooFast} counts positions that are further from the one before, or report a greater speed, than the
  * greatest speed allows.
  */
 public final class TrackMotion extends KeyedProcessFunction<String, PositionFix, LegUpdate> implements JudgesLateness {
     private static final long serialVersionUID = 1L;
     /** Positions of a device; the stage that finds the encounters sets aside what is beyond. */
-    private static final int MOST_WAITING = 100_000;
+    private static final int MAX_WAITING = 100_000;
 
-    private final Navigator navigator;
+    private final LegBuilder navigator;
 
     private transient OneTimer timer;
     private transient Inbox<PositionFix> inbox;
@@ -45,7 +45,7 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
     private transient Counter tooFast;
 
     TrackMotion(MotionRules rules) {
-        navigator = new Navigator(rules);
+        navigator = new LegBuilder(rules);
     }
 
     @Override
@@ -59,13 +59,13 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
         inbox = new Inbox<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
         motion = getRuntimeContext().getState(new ValueStateDescriptor<>("motion", KnownMotion.class));
         late = getRuntimeContext().getMetricGroup().counter("late");
-        tooFast = getRuntimeContext().getMetricGroup().counter("positions.too-fast");
+        tooFast = getRuntimeContext().getMetricGroup().counter("positionsTooFast");
     }
 
     @Override
     public void processElement(PositionFix fix, Context context, Collector<LegUpdate> out) throws Exception {
         if (reached.hasPassed(fix.time(), context.getCurrentKey())
-                || !inbox.offer(fix, MOST_WAITING, context.timerService())) {
+                || !inbox.offer(fix, MAX_WAITING, context.timerService())) {
             late.inc();
         }
     }
@@ -75,7 +75,7 @@ public final class TrackMotion extends KeyedProcessFunction<String, PositionFix,
         timer.rang();
         long until = context.timerService().currentWatermark();
         List<PositionFix> due = inbox.takeDue(context.timerService());
-        Navigator.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
+        LegBuilder.Advanced advanced = navigator.advance(motion.value(), due, out::collect);
         tooFast.inc(advanced.tooFast());
         KnownMotion now = advanced.known();
         if (now == null || navigator.expiry(now) <= until) {

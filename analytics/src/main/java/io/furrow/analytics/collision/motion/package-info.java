@@ -4,7 +4,7 @@
  * <p>A <em>leg</em> is a straight, uniform motion of one device. A leg <em>behind</em> runs from one accepted position to the
  * next, if that comes before the first one's time-to-live ends. A leg <em>ahead</em> begins at a position and lasts as long
  * as the horizon; its speed and course are those of the report ({@code speed}, {@code heading}), else those from the
- * position before. Where neither tells a course, or the speed is above the greatest, there is no such leg.
+ * position before. Where neither gives a course, or the speed is above the greatest, there is no such leg.
  *
  * <p><b>Predicted</b>: at each instant t at which either device of a pair reported, both newest positions counting and
  * further apart than the threshold, their legs ahead come within the threshold between t and the end of the shorter of both.

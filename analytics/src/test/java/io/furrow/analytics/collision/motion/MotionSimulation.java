@@ -9,17 +9,19 @@ import java.util.Map;
 import java.util.Random;
 import java.util.function.Function;
 
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.motion.space.Cubes;
+import io.furrow.analytics.collision.motion.space.Neighbourhood;
+import io.furrow.analytics.position.PositionFix;
 
 /** The stages without Flink: watermarks at random instants, and within each all keys in random order. */
 final class MotionSimulation {
     private final MotionRules rules;
     private final Cubes cubes;
-    private final Navigator navigator;
+    private final LegBuilder navigator;
     private final Random random;
     private final Map<String, KnownMotion> motions = new HashMap<>();
     private final Map<Long, Neighbourhood> neighbourhoods = new HashMap<>();
-    private final Map<String, Foretold> foretold = new HashMap<>();
+    private final Map<String, OngoingPrediction> foretold = new HashMap<>();
     private final Map<String, Contact> contacts = new HashMap<>();
     private final List<Approach> approaches = new ArrayList<>();
 
@@ -27,7 +29,7 @@ final class MotionSimulation {
         this.rules = rules;
         this.random = random;
         cubes = new Cubes(rules);
-        navigator = new Navigator(rules);
+        navigator = new LegBuilder(rules);
     }
 
     static List<Approach> approaches(Collection<PositionFix> fixes, MotionRules rules, Random random) {
@@ -56,12 +58,12 @@ final class MotionSimulation {
         grouped(updates, LegUpdate::cube).forEach((cube, all) -> {
             all.sort(LegUpdate.SEQUENCE);
             Neighbourhood here = neighbourhoods.computeIfAbsent(cube, id -> Neighbourhood.empty());
-            here.apply(all, new Watch(rules, cubes, cube, predictions::add, found::add));
+            here.apply(all, new ApproachDetector(rules, cubes, cube, predictions::add, found::add));
             here.forget(until, rules.timeToLive());
         });
         grouped(predictions, Finding::pair).forEach((pair, findings) -> {
             findings.sort(Finding.SEQUENCE);
-            foretold.put(pair, Foretold.follow(foretold.get(pair), findings, rules, approaches::add));
+            foretold.put(pair, OngoingPrediction.follow(foretold.get(pair), findings, rules, approaches::add));
         });
         grouped(found, Finding::pair).forEach((pair, findings) -> {
             findings.sort(Finding.SEQUENCE);

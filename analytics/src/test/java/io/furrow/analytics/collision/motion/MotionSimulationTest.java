@@ -9,8 +9,10 @@ import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
-import io.furrow.analytics.collision.Phase;
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.motion.space.Courses;
+import io.furrow.analytics.collision.motion.space.MotionOracle;
+import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.fail;

@@ -15,11 +15,11 @@ import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
 import org.apache.flink.streaming.util.KeyedOneInputStreamOperatorTestHarness;
 import org.apache.flink.util.OutputTag;
 
-import io.furrow.analytics.collision.PositionFix;
 import io.furrow.analytics.eventtime.Timed;
-import io.furrow.flink.KeyedLatenessOperator;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.KeyedLatenessOperator;
 
-/** One keyed stage alone, with time as data; can be stopped with a snapshot and go on from it. */
+/** One keyed stage alone, with time as data; can be stopped with a snapshot and continue from it. */
 final class MotionStage<K, I extends Timed, O> {
     private final Supplier<OneInputStreamOperator<I, O>> operator;
     private final KeySelector<I, K> key;
@@ -47,7 +47,7 @@ final class MotionStage<K, I extends Timed, O> {
 
     static MotionStage<String, Finding, Approach> predict(MotionRules rules) throws Exception {
         return new MotionStage<>(
-                () -> new KeyedProcessOperator<>(new FollowPredictions(rules)), Finding::pair, Types.STRING);
+                () -> new KeyedProcessOperator<>(new TrackPredictions(rules)), Finding::pair, Types.STRING);
     }
 
     static MotionStage<String, Finding, Approach> join(MotionRules rules) throws Exception {

@@ -14,8 +14,10 @@ import org.apache.flink.core.memory.DataOutputSerializer;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
 
-import io.furrow.analytics.collision.Phase;
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.motion.space.Courses;
+import io.furrow.analytics.collision.motion.space.Neighbourhood;
+import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -30,11 +32,11 @@ class MotionTypesTest {
             new LegUpdate(-7, 1000, LegUpdate.Change.NO_LEG_AHEAD, LEG),
             new KnownMotion(FIX, LEG),
             new KnownMotion(FIX, null),
-            new Mover(LEG, List.of(LEG, LEG)),
-            new Mover(null, List.of()),
-            new Neighbourhood(Map.of(FIX.key(), new Mover(null, List.of(LEG)))),
+            new MovingDevice(LEG, List.of(LEG, LEG)),
+            new MovingDevice(null, List.of()),
+            new Neighbourhood(Map.of(FIX.key(), new MovingDevice(null, List.of(LEG)))),
             FINDING,
-            new Foretold(1, 2, 3),
+            new OngoingPrediction(1, 2, 3),
             new Contact(FINDING, 1, 2, true),
             new Approach(Phase.CROSSED, FIX, FIX, 1, 2, 3, 4, 5)
         };

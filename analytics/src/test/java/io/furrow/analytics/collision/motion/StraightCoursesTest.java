@@ -9,12 +9,14 @@ import java.util.Set;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.analytics.collision.CollisionRules;
-import io.furrow.analytics.collision.Phase;
-import io.furrow.analytics.collision.PositionFix;
+import io.furrow.analytics.collision.encounter.Phase;
+import io.furrow.analytics.collision.motion.space.Courses;
+import io.furrow.analytics.collision.motion.space.Place;
+import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-/** Machines on great circles at a steady speed, stepped through in small steps, against what was told of their reports. */
+/** Machines on great circles at a steady speed, stepped through in small steps, against what was notified of their reports. */
 class StraightCoursesTest {
     private static final long HORIZON = 10_000;
     private static final long STEP = 10;
@@ -131,7 +133,7 @@ class StraightCoursesTest {
             double aside = 4.9 * random.nextDouble();
             List<PositionFix> fixes = new ArrayList<>();
             for (int second = 0; second <= 10; second++) {
-                // At the whole seconds the one is at least five metres past or short of the other.
+                // At the whole seconds the one is at least five meters past or short of the other.
                 double east = 20 * (second - 5) + phase;
                 fixes.add(Courses.fix("a", Courses.place(centre, east, 0), Courses.START + 1000 * second));
                 fixes.add(Courses.fix("b", Courses.place(centre, 0, aside), Courses.START + 1000 * second));
@@ -165,7 +167,7 @@ class StraightCoursesTest {
                 .noneMatch(approach -> approach.phase() == Phase.CROSSED);
     }
 
-    /** Passes near the place of the case after so many seconds, so that many meet. */
+    /** Passes near the place of the case after this many seconds, so that many meet. */
     private Machine machine(String id, int i, double seconds) {
         double[] centre = Courses.CENTRES[i % Courses.CENTRES.length];
         double speed = random.nextInt(10) == 0 ? 0 : 1 + 29 * random.nextDouble();

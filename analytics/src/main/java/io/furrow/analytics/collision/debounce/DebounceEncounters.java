@@ -1,0 +1,61 @@
+package io.furrow.analytics.collision.debounce;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.streaming.api.functions.KeyedProcessFunction;
+import org.apache.flink.util.Collector;
+
+import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.encounter.Encounter;
+import io.furrow.analytics.collision.encounter.Pair;
+import io.furrow.analytics.eventtime.OneTimer;
+
+/**
+ * Suppresses encounters that flicker. Key: the pair.
+ *
+ * <p><b>State</b>: the encounter under way, whether it was emitted.
+ *
+ * <p><b>Cleared</b>: when the exact stages see its end.
+ *
+ * <p><b>Late</b>: nothing can be, the stage before reports a pair in the order of time and before the watermark.
+ *
+ * <p><b>Emits</b>: records of the encounters that started within the threshold and lasted for the dwell.
+ */
+public final class DebounceEncounters extends KeyedProcessFunction<Pair, Encounter, Encounter> {
+    private static final long serialVersionUID = 1L;
+
+    private final EncounterDebouncer steadier;
+
+    private transient OneTimer timer;
+    private transient ValueState<SteadyState> course;
+
+    public DebounceEncounters(CollisionRules rules) {
+        steadier = new EncounterDebouncer(rules);
+    }
+
+    @Override
+    public void open(OpenContext context) {
+        timer = new OneTimer(getRuntimeContext());
+        course = getRuntimeContext().getState(new ValueStateDescriptor<>("course", SteadyState.class));
+    }
+
+    @Override
+    public void processElement(Encounter seen, Context context, Collector<Encounter> out) throws Exception {
+        keep(steadier.next(course.value(), seen, out::collect), context);
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<Encounter> out) throws Exception {
+        timer.rang();
+        keep(steadier.advance(course.value(), context.timerService().currentWatermark(), out::collect), context);
+    }
+
+    private void keep(SteadyState now, Context context) throws Exception {
+        course.update(now); // null clears
+        Long due = steadier.due(now);
+        if (due != null) {
+            timer.ask(due, context.timerService());
+        }
+    }
+}

@@ -1,0 +1,46 @@
+package io.furrow.analytics.collision.encounter;
+
+import java.io.IOException;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.analytics.position.PositionFixSerializer;
+import io.furrow.flink.format.Format;
+
+/** How a {@link PairObservation} is written. */
+public final class PairObservationSerializer extends Format<PairObservation> {
+    private static final long serialVersionUID = 1L;
+    /** Both fixes as parts, time, change. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
+
+    @Override
+    public Class<PairObservation> type() {
+        return PairObservation.class;
+    }
+
+    @Override
+    public int version() {
+        return VERSION;
+    }
+
+    @Override
+    public void write(PairObservation sighting, DataOutputView out) throws IOException {
+        PositionFixSerializer.INSTANCE.writePart(sighting.first(), out);
+        PositionFixSerializer.INSTANCE.writePart(sighting.second(), out);
+        out.writeLong(sighting.time());
+        out.writeByte(sighting.change());
+    }
+
+    @Override
+    public PairObservation read(int version, DataInputView in) throws IOException {
+        if (version < 1 || version > VERSION) {
+            throw unknown(version);
+        }
+        return new PairObservation(
+                PositionFixSerializer.INSTANCE.readPart(version, in),
+                PositionFixSerializer.INSTANCE.readPart(version, in),
+                in.readLong(),
+                in.readByte());
+    }
+}

@@ -1,0 +1,43 @@
+package io.furrow.analytics.collision.encounter;
+
+import java.io.IOException;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.flink.format.Format;
+import io.furrow.flink.format.Text;
+
+/** How a {@link Pair} is written. */
+public final class PairSerializer extends Format<Pair> {
+    public static final PairSerializer INSTANCE = new PairSerializer();
+
+    private static final long serialVersionUID = 1L;
+    /** Topic, identities of the first and the second. */
+    private static final int VERSION = 1;
+
+    @Override
+    public Class<Pair> type() {
+        return Pair.class;
+    }
+
+    @Override
+    public int version() {
+        return VERSION;
+    }
+
+    @Override
+    public void write(Pair pair, DataOutputView out) throws IOException {
+        Text.write(pair.topic(), out);
+        Text.write(pair.first(), out);
+        Text.write(pair.second(), out);
+    }
+
+    @Override
+    public Pair read(int version, DataInputView in) throws IOException {
+        if (version != VERSION) {
+            throw unknown(version);
+        }
+        return new Pair(Text.read(in), Text.read(in), Text.read(in));
+    }
+}

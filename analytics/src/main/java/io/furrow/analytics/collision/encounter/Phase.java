@@ -1,0 +1,24 @@
+package io.furrow.analytics.collision.encounter;
+
+import java.util.Locale;
+
+/** The part of an encounter's life that a record reports. */
+public enum Phase {
+    STARTED,
+    /** The devices are still close; reported at a limited rate. */
+    ONGOING,
+    ENDED,
+    /** The devices are on courses that will bring them close. */
+    PREDICTED,
+    /** The devices came close between their reports, though no report shows it. */
+    CROSSED,
+    /** Close by what has arrived; will be confirmed by a start, or withdrawn. */
+    PROVISIONAL,
+    /** What was provisional has not come true. */
+    WITHDRAWN;
+
+    /** The name as it stands in messages, for instance {@code started}. */
+    public String code() {
+        return name().toLowerCase(Locale.ROOT);
+    }
+}

@@ -1,0 +1,22 @@
+package io.furrow.analytics.collision.grid;
+
+import java.util.Comparator;
+
+import org.apache.flink.api.common.typeinfo.TypeInfo;
+
+import io.furrow.analytics.eventtime.Timed;
+import io.furrow.analytics.position.PositionFix;
+
+/**
+ * What becomes of a device in one grid cell.
+ *
+ * @param cell id of the cell
+ * @param time when, in epoch milliseconds
+ * @param presence what the device is to the cell from then on
+ * @param fix where it is from then on; where {@link Presence#GONE}, its last position in the cell
+ */
+@TypeInfo(CellUpdateSerializer.class)
+public record CellUpdate(long cell, long time, Presence presence, PositionFix fix) implements Timed {
+    public static final Comparator<CellUpdate> SEQUENCE = Comparator.comparingLong(CellUpdate::time)
+            .thenComparing(update -> update.fix().identity());
+}

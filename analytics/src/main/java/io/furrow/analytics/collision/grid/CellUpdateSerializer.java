@@ -1,0 +1,46 @@
+package io.furrow.analytics.collision.grid;
+
+import java.io.IOException;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.analytics.position.PositionFixSerializer;
+import io.furrow.flink.format.Format;
+
+/** How a {@link CellUpdate} is written. */
+public final class CellUpdateSerializer extends Format<CellUpdate> {
+    private static final long serialVersionUID = 1L;
+    /** Cell, time, code of the presence, fix as a part. In version 1 fixes are without their version, which was 1. */
+    private static final int VERSION = 2;
+
+    @Override
+    public Class<CellUpdate> type() {
+        return CellUpdate.class;
+    }
+
+    @Override
+    public int version() {
+        return VERSION;
+    }
+
+    @Override
+    public void write(CellUpdate cellUpdate, DataOutputView out) throws IOException {
+        out.writeLong(cellUpdate.cell());
+        out.writeLong(cellUpdate.time());
+        out.writeByte(cellUpdate.presence().code());
+        PositionFixSerializer.INSTANCE.writePart(cellUpdate.fix(), out);
+    }
+
+    @Override
+    public CellUpdate read(int version, DataInputView in) throws IOException {
+        if (version < 1 || version > VERSION) {
+            throw unknown(version);
+        }
+        return new CellUpdate(
+                in.readLong(),
+                in.readLong(),
+                Presence.of(in.readByte()),
+                PositionFixSerializer.INSTANCE.readPart(version, in));
+    }
+}

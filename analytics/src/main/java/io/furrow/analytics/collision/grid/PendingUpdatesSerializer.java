@@ -1,0 +1,12 @@
+package io.furrow.analytics.collision.grid;
+
+import io.furrow.analytics.eventtime.PendingFormat;
+
+/** What waits for a grid cell and is remembered of it. */
+public final class PendingUpdatesSerializer extends PendingFormat<CellUpdate, Cell> {
+    private static final long serialVersionUID = 1L;
+
+    public PendingUpdatesSerializer() {
+        super(new CellUpdateSerializer(), new CellSerializer());
+    }
+}

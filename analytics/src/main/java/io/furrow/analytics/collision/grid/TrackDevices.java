@@ -1,0 +1,166 @@
+package io.furrow.analytics.collision.grid;
+
+import java.util.Comparator;
+import java.util.List;
+
+import org.apache.flink.api.common.state.ListState;
+import org.apache.flink.api.common.state.ListStateDescriptor;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.runtime.state.StateInitializationContext;
+import org.apache.flink.runtime.state.StateSnapshotContext;
+import org.apache.flink.streaming.api.watermark.Watermark;
+import org.apache.flink.streaming.runtime.streamrecord.StreamRecord;
+import org.apache.flink.util.Collector;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.analytics.clock.LaggingPosition;
+import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.matching.KnownRules;
+import io.furrow.analytics.collision.matching.KnownRulesSerializer;
+import io.furrow.analytics.collision.position.PendingFixesSerializer;
+import io.furrow.analytics.eventtime.EventTimeOperator;
+import io.furrow.analytics.position.Device;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.format.FormatType;
+import io.furrow.flink.time.EventTimeReached;
+
+/**
+ * Puts each device into the grid cells that have to know of it. Key: the device.
+ *
+ * <p><b>State</b>: positions that wait for the watermark, the newest that counts with its cells; how far event time
+ * has come, because a restored job starts without a watermark and must not go back behind what it has emitted; the rules,
+ * because restored with others it notifies all cells again.
+ *
+ * <p><b>Cleared</b>: when the position's time-to-live ends and none waits.
+ *
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
+ * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code crowdedOut}.
+ *
+ * <p><b>Emits</b>: updates of cells, a device's in the order of their time, before the watermark that brings them about.
+ */
+public final class TrackDevices extends EventTimeOperator<Device, PositionFix, Track, CellUpdate> {
+    public static final OutputTag<PositionFix> LATE = new OutputTag<>("late") {
+        private static final long serialVersionUID = 1L;
+    };
+
+    public static final OutputTag<LaggingPosition> LAGGING = new OutputTag<>("lagging") {
+        private static final long serialVersionUID = 1L;
+    };
+
+    /** As soon as it arrives, every position that is not late, and the newest of a device that is, as long as it counts. */
+    public static final OutputTag<PositionFix> ACCEPTED = new OutputTag<>("accepted") {
+        private static final long serialVersionUID = 1L;
+    };
+
+    /** Positions of a device. */
+    static final int MAX_WAITING = 100_000;
+
+    private static final long serialVersionUID = 1L;
+
+    private final boolean eager;
+    private final Tracker tracker;
+    private final KnownRules rules;
+
+    private transient ListState<KnownRules> knownRules;
+    private transient boolean rulesChanged;
+    private transient EventTimeReached reached;
+    private transient Counter accepted;
+    private transient Counter late;
+    private transient Counter crowdedOut;
+
+    public TrackDevices(CollisionRules rules) {
+        this(rules, false);
+    }
+
+    /** @param eager whether {@link #ACCEPTED} is requested */
+    public TrackDevices(CollisionRules rules, boolean eager) {
+        super(new PendingFixesSerializer());
+        this.eager = eager;
+        this.rules = KnownRules.of(rules.exact());
+        tracker = new Tracker(rules.exact());
+    }
+
+    @Override
+    protected Comparator<PositionFix> sequence() {
+        return PositionFix.SEQUENCE;
+    }
+
+    @Override
+    public void initializeState(StateInitializationContext context) throws Exception {
+        super.initializeState(context);
+        reached = EventTimeReached.restore(
+                context.getOperatorStateStore(), getRuntimeContext().getTaskInfo());
+        knownRules = context.getOperatorStateStore()
+                .getUnionListState(new ListStateDescriptor<>("rules", new FormatType<>(new KnownRulesSerializer())));
+        for (KnownRules each : knownRules.get()) {
+            rulesChanged |= !each.equals(rules);
+        }
+    }
+
+    @Override
+    public void open() throws Exception {
+        super.open();
+        accepted = getMetricGroup().counter("accepted");
+        late = getMetricGroup().counter("late");
+        crowdedOut = getMetricGroup().counter("crowdedOut");
+        if (rulesChanged) {
+            long now = reached.furthest();
+            revise((track, out) -> tracker.renew(track, now, out::collect));
+        }
+    }
+
+    @Override
+    public void processElement(StreamRecord<PositionFix> record) throws Exception {
+        PositionFix fix = record.getValue();
+        if (reached.hasPassed(fix.time(), fix.device())) {
+            late.inc();
+            seeLagging(fix);
+            output.collect(LATE, record);
+        } else if (!offer(fix, MAX_WAITING)) {
+            crowdedOut.inc();
+            output.collect(LATE, record);
+        } else {
+            accepted.inc();
+            if (eager) {
+                output.collect(ACCEPTED, record);
+            }
+        }
+    }
+
+    private void seeLagging(PositionFix fix) {
+        long counted = newest(fix.device(), track -> track.last().time());
+        if (fix.time() <= counted) {
+            return;
+        }
+        long passed = reached.of(fix.device());
+        LaggingPosition lagging =
+                new LaggingPosition(fix.topic(), fix.identity(), fix.id(), fix.mission(), fix.time(), passed, counted);
+        output.collect(LAGGING, new StreamRecord<>(lagging, fix.time()));
+        if (eager && tracker.expiry(fix) > passed) {
+            output.collect(ACCEPTED, new StreamRecord<>(fix, fix.time()));
+        }
+    }
+
+    @Override
+    public void processWatermark(Watermark mark) throws Exception {
+        reached.advance(mark.getTimestamp());
+        super.processWatermark(mark);
+    }
+
+    @Override
+    protected Track apply(Device device, Track before, List<PositionFix> due, long until, Collector<CellUpdate> out) {
+        return tracker.advance(before, due, until, out::collect);
+    }
+
+    @Override
+    protected long expiry(Track track) {
+        return tracker.expiry(track);
+    }
+
+    @Override
+    public void snapshotState(StateSnapshotContext context) throws Exception {
+        super.snapshotState(context);
+        reached.snapshot();
+        knownRules.update(List.of(rules));
+    }
+}

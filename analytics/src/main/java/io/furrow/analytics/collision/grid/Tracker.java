@@ -1,0 +1,114 @@
+package io.furrow.analytics.collision.grid;
+
+import java.io.Serializable;
+import java.util.List;
+import java.util.function.Consumer;
+
+import io.furrow.analytics.collision.CollisionRules;
+import io.furrow.analytics.collision.matching.ExclusionZones;
+import io.furrow.analytics.position.PositionFix;
+
+/** Moves a device through the grid: what its positions, and their end, mean for which cell at which instant. */
+public final class Tracker implements Serializable {
+    private static final long serialVersionUID = 1L;
+    private static final long[] NO_CELLS = {};
+
+    private final Grid grid;
+    private final ExclusionZones zones;
+    private final long timeToLive;
+
+    public Tracker(CollisionRules rules) {
+        zones = rules.positions().zones();
+        grid = new Grid(rules);
+        timeToLive = rules.timeToLive().toMillis();
+    }
+
+    /**
+     * The track after all positions of one device up to an instant; null for none, as before the first.
+     *
+     * @param due in the order of {@link PositionFix#SEQUENCE}, none later than {@code until}
+     * @param out takes the updates of cells in the order of time
+     */
+    public Track advance(Track track, List<PositionFix> due, long until, Consumer<CellUpdate> out) {
+        Track now = track;
+        for (int i = 0; i < due.size(); i++) {
+            PositionFix fix = due.get(i);
+            boolean outdone = i + 1 < due.size() && due.get(i + 1).time() == fix.time();
+            if (!outdone) {
+                now = move(expire(now, fix.time() - 1, out), fix, out);
+            }
+        }
+        return expire(now, until, out);
+    }
+
+    /** The first instant at which the track's position counts no more. */
+    public long expiry(Track track) {
+        return expiry(track.last());
+    }
+
+    /** The same of a position. */
+    long expiry(PositionFix fix) {
+        return fix.time() + timeToLive;
+    }
+
+    private Track expire(Track track, long until, Consumer<CellUpdate> out) {
+        if (track == null || expiry(track) > until) {
+            return track;
+        }
+        leave(track, expiry(track), out);
+        return null;
+    }
+
+    private static void leave(Track track, long time, Consumer<CellUpdate> out) {
+        for (long cell : track.cells()) {
+            out.accept(new CellUpdate(cell, time, Presence.GONE, track.last()));
+        }
+    }
+
+    /**
+     * The track of a device that is somewhere else now.
+     *
+     * @param track null if it was nowhere
+     */
+    public Track move(Track track, PositionFix fix, Consumer<CellUpdate> out) {
+        return place(track, fix, fix.time(), out);
+    }
+
+    /**
+     * The same track in this grid, with all its cells notified again; null if its position counts no more.
+     *
+     * @param track made by other rules
+     * @param time of the updates
+     */
+    Track renew(Track track, long time, Consumer<CellUpdate> out) {
+        if (expiry(track) <= time) {
+            leave(track, time, out);
+            return null;
+        }
+        return place(track, track.last(), time, out);
+    }
+
+    private Track place(Track track, PositionFix fix, long time, Consumer<CellUpdate> out) {
+        boolean excluded = zones.cover(fix.latitude(), fix.longitude());
+        long[] cells = excluded ? NO_CELLS : grid.cells(fix.latitude(), fix.longitude());
+        for (long left : track == null ? NO_CELLS : track.cells()) {
+            if (!contains(cells, left)) {
+                out.accept(new CellUpdate(left, time, Presence.GONE, track.last()));
+            }
+        }
+        for (int i = 0; i < cells.length; i++) {
+            Presence presence = i == 0 ? Presence.RESIDENT : Presence.HALO;
+            out.accept(new CellUpdate(cells[i], time, presence, fix));
+        }
+        return new Track(fix, cells);
+    }
+
+    private static boolean contains(long[] cells, long cell) {
+        for (long each : cells) {
+            if (each == cell) {
+                return true;
+            }
+        }
+        return false;
+    }
+}

@@ -1,0 +1,91 @@
+package io.furrow.analytics.collision.matching;
+
+import java.io.Serializable;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.function.Consumer;
+
+import io.furrow.analytics.collision.grid.Cell;
+import io.furrow.analytics.collision.grid.Grid;
+import io.furrow.analytics.collision.grid.Member;
+import io.furrow.analytics.position.PositionFix;
+
+/**
+ * Reports the crowds of a grid cell: at the first instant at which a device makes a shortlist, then each minute of event time
+ * while one has it, and once, at a full minute too, when none has it any more. What is emitted is the state of that instant, so
+ * that it is the same whatever the watermarks.
+ */
+public final class ReportCrowds implements Serializable {
+    private static final long serialVersionUID = 1L;
+    /** Of the members with a shortlist, the one by whose place and scope a cell is reported. */
+    private static final Comparator<Member> BY_NAME = Comparator.comparing(Member::resident, Comparator.reverseOrder())
+            .thenComparing(Member::fix, PositionFix.NAMING);
+
+    private final Matching matching;
+    private final Grid grid;
+
+    public ReportCrowds(Matching matching, Grid grid) {
+        this.matching = matching;
+        this.grid = grid;
+    }
+
+    /** All minutes that are full at an instant, whose updates have been applied if there are any. */
+    public void advance(long id, Cell cell, long until, Consumer<CellOverflow> out) {
+        while (cell.report() != null && cell.report().next() <= until) {
+            CrowdReport report = cell.report();
+            if (cell.isCrowded() || report.over()) {
+                tell(id, cell, report.next(), out);
+            } else {
+                cell.report(null);
+            }
+        }
+    }
+
+    /** The updates of an instant have been applied. */
+    public void applied(long id, Cell cell, long time, Consumer<CellOverflow> out) {
+        if (cell.isCrowded() && cell.report() == null) {
+            tell(id, cell, time, out);
+        }
+    }
+
+    private void tell(long id, Cell cell, long time, Consumer<CellOverflow> out) {
+        PositionFix witness = cell.members().stream()
+                .filter(member -> member.shortlist() != null)
+                .min(BY_NAME)
+                .map(Member::fix)
+                .orElseGet(() -> cell.report().witness());
+        out.accept(describe(id, cell, witness, time));
+        cell.report(new CrowdReport(time, cell.isCrowded(), witness));
+    }
+
+    /** Looks at all pairs of the cell, once a minute. */
+    private CellOverflow describe(long id, Cell cell, PositionFix witness, long time) {
+        long ends = 0;
+        long followed = 0;
+        int most = 0;
+        List<Member> near = new ArrayList<>();
+        for (Member member : cell.members()) {
+            cell.near(member, matching.proximity(), near);
+            most = Math.max(most, near.size());
+            for (Member other : near) {
+                if (Matching.meet(member, other)) {
+                    ends++;
+                    followed += Matching.follows(member, other) ? 1 : 0;
+                }
+            }
+            near.clear();
+        }
+        double[] center = grid.center(id);
+        return new CellOverflow(
+                witness,
+                id,
+                center[0],
+                center[1],
+                cell.devices(),
+                ends / 2,
+                (ends - followed) / 2,
+                matching.chosenOf(most),
+                time);
+    }
+}

@@ -1,0 +1,84 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.function.Consumer;
+
+import io.furrow.analytics.collision.motion.space.Cubes;
+import io.furrow.analytics.collision.motion.space.Place;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.time.Epochs;
+
+/**
+ * Finds out whether two legs come within the threshold, for one cube.
+ *
+ * @param cube only what is closest in it is emitted, so that everything is reported in one cube
+ * @param predictions takes findings about legs ahead
+ * @param contacts takes findings about legs behind
+ */
+public record ApproachDetector(
+        MotionRules rules, Cubes cubes, long cube, Consumer<Finding> predictions, Consumer<Finding> contacts) {
+
+    /** Two legs from the newest positions on; {@code now} is the instant at which one of them was reported. */
+    public void ahead(Leg one, Leg other, long now) {
+        long oldest = Math.min(one.from(), other.from());
+        Place start = one.start();
+        if (now - oldest < rules.timeToLive()
+                && mayMeet(one, other)
+                && start.distance(other.start()) > threshold(one, other)) {
+            tell(one, other, new Span(now, Math.min(one.until(), other.until()), now), false, predictions);
+        }
+    }
+
+    /** Two legs up to a position each. */
+    public void behind(Leg one, Leg other) {
+        long from = Math.max(one.from(), other.from());
+        long until = Math.min(one.until(), other.until());
+        if (from < until && mayMeet(one, other)) {
+            double reported = Math.min(
+                    one.start().distance(other.start()), held(one, until).distance(held(other, until)));
+            long now = Math.max(one.until(), other.until());
+            tell(one, other, new Span(from, until, now), reported <= threshold(one, other), contacts);
+        }
+    }
+
+    /** From when to when two legs are compared, and when that is known. */
+    private record Span(long from, long until, long known) {
+        /** What lies ahead begins now; what lies behind began before. */
+        boolean isAhead() {
+            return known == from;
+        }
+    }
+
+    /** The newest position reported by then, which is what the encounters are found by. */
+    private static Place held(Leg leg, long time) {
+        return leg.until() == time ? leg.at(Epochs.original(time)) : leg.start();
+    }
+
+    private double threshold(Leg one, Leg other) {
+        return rules.common().thresholds().between(one.fix().type(), other.fix().type());
+    }
+
+    private static boolean mayMeet(Leg one, Leg other) {
+        return one.fix().topic().equals(other.fix().topic()) && !one.fix().sharesAggregateWith(other.fix());
+    }
+
+    private void tell(Leg one, Leg other, Span span, boolean reportedClose, Consumer<Finding> out) {
+        boolean inOrder = PositionFix.NAMING.compare(one.fix(), other.fix()) < 0;
+        Leg first = inOrder ? one : other;
+        Leg second = inOrder ? other : one;
+        long epoch = Epochs.begin(span.from);
+        ClosestApproach.within(threshold(first, second), first, second, span.from - epoch, span.until - epoch)
+                .filter(approach -> cubes.cube(first.fix().topic(), first.at(approach.time())) == cube)
+                .ifPresent(approach -> out.accept(new Finding(
+                        span.isAhead() ? first.fix() : first.fixAt(approach.time()),
+                        span.isAhead() ? second.fix() : second.fixAt(approach.time()),
+                        span.known,
+                        first.start().distance(second.start()),
+                        approach.distance(),
+                        approach.time(),
+                        span.from,
+                        span.until,
+                        epoch + (long) Math.floor(approach.contactFrom()),
+                        epoch + (long) Math.floor(approach.contactUntil()),
+                        reportedClose)));
+    }
+}

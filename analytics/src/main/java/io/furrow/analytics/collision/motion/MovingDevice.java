@@ -1,0 +1,48 @@
+package io.furrow.analytics.collision.motion;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * A device whose legs touch a cube.
+ *
+ * @param ahead the leg from its newest position on; null if none is known or it does not touch the cube
+ * @param behind the legs up to its newest position, the oldest first
+ */
+public record MovingDevice(Leg ahead, List<Leg> behind) {
+    public static final MovingDevice UNKNOWN = new MovingDevice(null, List.of());
+
+    public MovingDevice with(LegUpdate update) {
+        return switch (update.change()) {
+            case LEG_AHEAD -> new MovingDevice(update.leg(), behind);
+            case NO_LEG_AHEAD -> new MovingDevice(null, behind);
+            case LEG_BEHIND -> {
+                List<Leg> all = new ArrayList<>(behind);
+                all.add(update.leg());
+                yield new MovingDevice(ahead, all);
+            }
+        };
+    }
+
+    /** Without what can meet nothing any more that is reported after the instant. */
+    public MovingDevice without(long until, long timeToLive) {
+        Leg counting = ahead != null && aheadEnd(timeToLive) > until ? ahead : null;
+        List<Leg> recent =
+                behind.stream().filter(leg -> leg.until() + timeToLive > until).toList();
+        return counting == ahead && recent.size() == behind.size() ? this : new MovingDevice(counting, recent);
+    }
+
+    public boolean isGone() {
+        return ahead == null && behind.isEmpty();
+    }
+
+    /** The first instant at which something of it is to be forgotten. */
+    public long nextEnd(long timeToLive) {
+        long end = ahead == null ? Long.MAX_VALUE : aheadEnd(timeToLive);
+        return behind.isEmpty() ? end : Math.min(end, behind.get(0).until() + timeToLive);
+    }
+
+    private long aheadEnd(long timeToLive) {
+        return Math.min(ahead.until() + 1, ahead.from() + timeToLive);
+    }
+}

@@ -1,2 +1,0 @@
-/** Hand-written serializers: compact, with a version for each form that state was ever written in. */
-package io.furrow.analytics.format;

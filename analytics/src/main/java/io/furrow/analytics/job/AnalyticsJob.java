@@ -1,0 +1,33 @@
+package io.furrow.analytics.job;
+
+import java.util.Set;
+import java.util.function.BiFunction;
+
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.kafka.KafkaInput;
+import io.furrow.flink.kafka.KafkaOutput;
+import io.furrow.flink.record.TopicRecord;
+
+/** Puts an analytics job between its Kafka topics. */
+public final class AnalyticsJob {
+    private AnalyticsJob() {}
+
+    /**
+     * Returns the job, ready to be executed.
+     *
+     * @param definition from entities with event time as their timestamp to records that name their topic
+     */
+    public static StreamExecutionEnvironment assemble(
+            AnalyticsOptions options,
+            BiFunction<StreamExecutionEnvironment, DataStream<TopicRecord>, DataStream<TopicRecord>> definition) {
+        StreamExecutionEnvironment env =
+                options.eager() ? JobEnvironment.createPrompt(options) : JobEnvironment.create(options);
+        DataStream<TopicRecord> records = KafkaInput.reportedChanges(env, options, options.maxDrift());
+        KafkaOutput.writeAll(
+                definition.apply(env, records), options, options.topics().settings(Set.of()));
+        return env;
+    }
+}

@@ -1,0 +1,50 @@
+package io.furrow.analytics.job;
+
+import java.time.Duration;
+import java.util.Optional;
+
+import picocli.CommandLine.Mixin;
+
+import io.furrow.flink.job.AlignmentOptions;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TopicOptions;
+
+/** Options of every analytics job. An accessor rejects a value that no job could start with. */
+public abstract class AnalyticsOptions extends JobOptions {
+    @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Mixin
+    private final AlignmentOptions alignment = new AlignmentOptions();
+
+    @Mixin
+    private final ResultTopics results;
+
+    /** The arguments are default topics. */
+    protected AnalyticsOptions(String output, String lateOutput) {
+        results = new ResultTopics(output, lateOutput);
+    }
+
+    /** Whether results are also emitted before event time has reached them. */
+    public boolean eager() {
+        return false;
+    }
+
+    /** Settings of the topics that the job creates. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** How far partitions may be apart in event time; empty for any distance. */
+    public Optional<Duration> maxDrift() {
+        return alignment.maxDrift(eager());
+    }
+
+    public String output() {
+        return results.output;
+    }
+
+    public String lateOutput() {
+        return results.lateOutput;
+    }
+}

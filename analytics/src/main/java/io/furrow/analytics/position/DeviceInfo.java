@@ -1,0 +1,172 @@
+package io.furrow.analytics.position;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.util.Arrays;
+
+import org.apache.flink.core.memory.DataInputDeserializer;
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputSerializer;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.flink.format.SharedByTasks;
+import io.furrow.flink.format.Text;
+
+/**
+ * What the positions of a device have in common. Texts are empty, never null, where nothing is known.
+ *
+ * <p>It is written as one block of bytes and read by comparing that with what was read before: the same devices come again
+ * and again, and to make their texts again each time costs more than all that is done with a position.
+ */
+public final class DeviceInfo {
+    private static final int SLOT_BITS = 19;
+    /** Places for those of one slot: of 100,000 devices one in 1,000 finds them all taken. */
+    private static final int WAYS = 4;
+
+    private static final int SPREAD = 0x9E3779B9;
+    private static final SharedByTasks<DeviceInfo[]> KNOWN = new SharedByTasks<>(() -> new DeviceInfo[1 << SLOT_BITS]);
+
+    private final Device device;
+    private final String id;
+    private final String type;
+    private final String mission;
+    private final String carrier;
+    private final byte[] block;
+
+    private DeviceInfo(Device device, String id, String type, String mission, String carrier, byte[] block) {
+        this.device = device;
+        this.id = id;
+        this.type = type;
+        this.mission = mission;
+        this.carrier = carrier;
+        this.block = block;
+    }
+
+    /**
+     * @param device topic and identity
+     * @param id the entity id
+     * @param type the entity type
+     * @param mission the mission it works for
+     * @param carrier identity of the device that carries it
+     */
+    public static DeviceInfo of(Device device, String id, String type, String mission, String carrier) {
+        int slot = slot(device.hashCode());
+        DeviceInfo[] all = KNOWN.get();
+        for (int way = 0; way < WAYS; way++) {
+            DeviceInfo known = all[slot ^ way];
+            if (known != null && known.has(device, id, type, mission, carrier)) {
+                return known;
+            }
+        }
+        return keep(
+                new DeviceInfo(device, id, type, mission, carrier, block(device, id, type, mission, carrier)),
+                slot,
+                all);
+    }
+
+    private boolean has(Device device, String id, String type, String mission, String carrier) {
+        return this.device.equals(device)
+                && this.id.equals(id)
+                && this.type.equals(type)
+                && this.mission.equals(mission)
+                && this.carrier.equals(carrier);
+    }
+
+    /** In an empty place, else in the first. Of two threads that take one place the later is remembered; either is right. */
+    private static DeviceInfo keep(DeviceInfo reporter, int slot, DeviceInfo[] all) {
+        int way = WAYS - 1;
+        while (way > 0 && all[slot ^ way] != null) {
+            way--;
+        }
+        all[slot ^ way] = reporter;
+        return reporter;
+    }
+
+    private static int slot(int hash) {
+        return hash * SPREAD >>> Integer.SIZE - SLOT_BITS;
+    }
+
+    /** The texts in their order; of an id that the identity ends with only its length, else -1 before it. */
+    private static byte[] block(Device device, String id, String type, String mission, String carrier) {
+        DataOutputSerializer out = new DataOutputSerializer(Byte.MAX_VALUE);
+        try {
+            Text.write(device.topic(), out);
+            Text.write(device.identity(), out);
+            boolean isEnd = device.identity().endsWith(id);
+            out.writeInt(isEnd ? id.length() : -1);
+            if (!isEnd) {
+                Text.write(id, out);
+            }
+            Text.write(type, out);
+            Text.write(mission, out);
+            Text.write(carrier, out);
+        } catch (IOException e) {
+            throw new UncheckedIOException(e); // it is memory
+        }
+        return out.getCopyOfBuffer();
+    }
+
+    void write(DataOutputView out) throws IOException {
+        out.writeInt(device.hashCode());
+        out.writeInt(block.length);
+        out.write(block);
+    }
+
+    static DeviceInfo read(DataInputView in) throws IOException {
+        int slot = slot(in.readInt());
+        byte[] block = new byte[in.readInt()];
+        in.readFully(block);
+        DeviceInfo[] all = KNOWN.get();
+        for (int way = 0; way < WAYS; way++) {
+            DeviceInfo known = all[slot ^ way];
+            if (known != null && Arrays.equals(known.block, block)) {
+                return known;
+            }
+        }
+        return keep(decoded(block), slot, all);
+    }
+
+    private static DeviceInfo decoded(byte[] block) throws IOException {
+        DataInputDeserializer in = new DataInputDeserializer(block);
+        Device device = new Device(Text.read(in), Text.read(in));
+        int length = in.readInt();
+        String identity = device.identity();
+        String id = length < 0 ? Text.read(in) : Text.shared(identity.substring(identity.length() - length));
+        return new DeviceInfo(device, id, Text.read(in), Text.read(in), Text.read(in), block);
+    }
+
+    Device device() {
+        return device;
+    }
+
+    public String id() {
+        return id;
+    }
+
+    public String type() {
+        return type;
+    }
+
+    public String mission() {
+        return mission;
+    }
+
+    public String carrier() {
+        return carrier;
+    }
+
+    @Override
+    public boolean equals(Object other) {
+        return other instanceof DeviceInfo reporter && Arrays.equals(block, reporter.block);
+    }
+
+    @Override
+    public int hashCode() {
+        return device.hashCode();
+    }
+
+    @Override
+    public String toString() {
+        return "%s, id %s, type %s, mission %s, carrier %s".formatted(device, id, type, mission, carrier);
+    }
+}

@@ -1,0 +1,40 @@
+package io.furrow.analytics.position;
+
+import java.io.IOException;
+
+import org.apache.flink.core.memory.DataInputView;
+import org.apache.flink.core.memory.DataOutputView;
+
+import io.furrow.flink.format.Format;
+import io.furrow.flink.format.Text;
+
+/** How a {@link Device} is written. */
+public final class DeviceSerializer extends Format<Device> {
+    private static final long serialVersionUID = 1L;
+    /** Topic, identity. */
+    private static final int VERSION = 1;
+
+    @Override
+    public Class<Device> type() {
+        return Device.class;
+    }
+
+    @Override
+    public int version() {
+        return VERSION;
+    }
+
+    @Override
+    public void write(Device device, DataOutputView out) throws IOException {
+        Text.write(device.topic(), out);
+        Text.write(device.identity(), out);
+    }
+
+    @Override
+    public Device read(int version, DataInputView in) throws IOException {
+        if (version != VERSION) {
+            throw unknown(version);
+        }
+        return new Device(Text.read(in), Text.read(in));
+    }
+}

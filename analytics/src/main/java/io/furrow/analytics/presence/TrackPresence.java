@@ -1,0 +1,152 @@
+package io.furrow.analytics.presence;
+
+import java.io.IOException;
+import java.util.List;
+
+import org.apache.flink.api.common.functions.OpenContext;
+import org.apache.flink.api.common.state.ValueState;
+import org.apache.flink.api.common.state.ValueStateDescriptor;
+import org.apache.flink.metrics.Counter;
+import org.apache.flink.streaming.api.TimerService;
+import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
+import org.apache.flink.util.Collector;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.analytics.clock.LaggingPosition;
+import io.furrow.analytics.eventtime.Inbox;
+import io.furrow.analytics.eventtime.OneTimer;
+import io.furrow.analytics.field.KnownFields;
+import io.furrow.analytics.position.PositionFix;
+import io.furrow.flink.kafka.TopicSnapshot;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.time.EventTimeReached;
+import io.furrow.flink.time.JudgesLateness;
+
+/**
+ * Emits when devices enter and leave fields. Key: the device of a topic.
+ *
+ * <p><b>State</b>: positions that wait for the watermark, the whereabouts; how far event time has come, because a restored job
+ * starts without a watermark and must not go back behind what it has emitted. Fields: see {@link KnownFields}.
+ *
+ * <p><b>Cleared</b>: when the position's time-to-live has ended, the last {@code left} is emitted and no position waits.
+ *
+ * <p><b>Late</b>: a position not after the watermark goes to {@link #LATE}, and to {@link #LAGGING} if the device has reported no newer one.
+ * So does, to {@code LATE}, a position of which {@value #MAX_WAITING} wait, counted as {@code crowdedOut}. A version of a field that comes after its time has passed for a
+ * device shows when the device is next looked at: with its next position, or within {@link #AGAIN} of event time.
+ *
+ * <p><b>Emits</b>: passages, a device's in the order of the times at which they are certain, before the watermark of that time.
+ */
+public final class TrackPresence
+        extends KeyedBroadcastProcessFunction<String, PositionFix, TopicRecord, PresenceTransition>
+        implements JudgesLateness {
+    static final OutputTag<PositionFix> LATE = new OutputTag<>("late") {
+        private static final long serialVersionUID = 1L;
+    };
+    static final OutputTag<LaggingPosition> LAGGING = new OutputTag<>("lagging") {
+        private static final long serialVersionUID = 1L;
+    };
+    /** Positions of a device. */
+    static final int MAX_WAITING = 100_000;
+    /** How long a device that says nothing is left alone, ms. A new version reaches no timer of a key by itself. */
+    static final long AGAIN = 5_000;
+
+    private static final long serialVersionUID = 1L;
+
+    private final PresenceTracker judge;
+    private final TopicSnapshot atStart;
+
+    private transient KnownFields fields;
+    private transient OneTimer timer;
+    private transient Inbox<PositionFix> inbox;
+    private transient ValueState<PresenceState> whereabouts;
+    private transient EventTimeReached reached;
+    private transient Counter accepted;
+    private transient Counter late;
+    private transient Counter crowdedOut;
+    private transient Counter changes;
+
+    public TrackPresence(PresenceRules rules, TopicSnapshot atStart) {
+        this.judge = new PresenceTracker(rules);
+        this.atStart = atStart;
+    }
+
+    @Override
+    public void judgeBy(EventTimeReached reached) {
+        this.reached = reached;
+    }
+
+    @Override
+    public void open(OpenContext context) throws IOException {
+        fields = KnownFields.read(atStart);
+        timer = new OneTimer(getRuntimeContext());
+        inbox = new Inbox<>(getRuntimeContext(), PositionFix.class, PositionFix.SEQUENCE, timer);
+        whereabouts = getRuntimeContext().getState(new ValueStateDescriptor<>("whereabouts", PresenceState.class));
+        accepted = getRuntimeContext().getMetricGroup().counter("accepted");
+        late = getRuntimeContext().getMetricGroup().counter("late");
+        crowdedOut = getRuntimeContext().getMetricGroup().counter("crowdedOut");
+        changes = getRuntimeContext().getMetricGroup().counter("fieldChanges");
+    }
+
+    @Override
+    public void processElement(PositionFix fix, ReadOnlyContext context, Collector<PresenceTransition> out)
+            throws Exception {
+        if (reached.hasPassed(fix.time(), context.getCurrentKey())) {
+            late.inc();
+            context.output(LATE, fix);
+            seeLagging(fix, context);
+        } else if (inbox.offer(fix, MAX_WAITING, context.timerService())) {
+            accepted.inc();
+        } else {
+            crowdedOut.inc();
+            context.output(LATE, fix);
+        }
+    }
+
+    private void seeLagging(PositionFix fix, ReadOnlyContext context) throws Exception {
+        PresenceState known = whereabouts.value();
+        long last = known == null || known.last() == null
+                ? Long.MIN_VALUE
+                : known.last().time();
+        long counted = Math.max(last, inbox.newest());
+        if (fix.time() > counted) {
+            context.output(
+                    LAGGING,
+                    new LaggingPosition(
+                            fix.topic(),
+                            fix.identity(),
+                            fix.id(),
+                            fix.mission(),
+                            fix.time(),
+                            reached.of(context.getCurrentKey()),
+                            counted));
+        }
+    }
+
+    @Override
+    public void processBroadcastElement(TopicRecord version, Context context, Collector<PresenceTransition> out) {
+        if (fields.take(version)) {
+            changes.inc();
+        }
+    }
+
+    @Override
+    public void onTimer(long time, OnTimerContext context, Collector<PresenceTransition> out) throws Exception {
+        timer.rang();
+        TimerService timers = context.timerService();
+        long until = timers.currentWatermark();
+        List<PositionFix> due = inbox.takeDue(timers);
+        PresenceState before = whereabouts.value();
+        PresenceState now =
+                judge.advance(before == null ? PresenceState.NOWHERE : before, due, until, fields, out::collect);
+        if (due.isEmpty()) {
+            now = judge.again(now, until, fields, out::collect);
+        }
+        if (now.isNowhere()) {
+            whereabouts.clear();
+        } else {
+            whereabouts.update(now);
+            timer.ask(judge.nextInstant(now, fields), timers);
+            timer.ask(until + AGAIN, timers);
+        }
+    }
+}

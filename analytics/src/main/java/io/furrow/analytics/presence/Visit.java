@@ -1,0 +1,44 @@
+package io.furrow.analytics.presence;
+
+import io.furrow.analytics.position.PositionFix;
+
+/**
+ * A device in a field, or just out of it.
+ *
+ * @param field the field's id
+ * @param name the field's name at the entry; empty if it has none
+ * @param domain the field's domain at the entry; empty if it has none
+ * @param since when the device came in, epoch ms
+ * @param told whether the stay was as long as the dwell, and {@code entered} said
+ * @param left since when the device is out, epoch ms; {@link #INSIDE} while it is in
+ * @param cause of the last going in or out
+ * @param fix the position with which it went in or out
+ */
+public record Visit(
+        String field, String name, String domain, long since, boolean told, long left, Cause cause, PositionFix fix) {
+    static final long INSIDE = Long.MAX_VALUE;
+
+    boolean isInside() {
+        return left == INSIDE;
+    }
+
+    /** The instant at which there is something to emit unless the device goes in or out before; none where that is done. */
+    long deadline(long dwell) {
+        if (!isInside()) {
+            return left + dwell;
+        }
+        return told ? Long.MAX_VALUE : since + dwell;
+    }
+
+    Visit leaving(long time, Cause why, PositionFix where) {
+        return new Visit(field, name, domain, since, told, time, why, where);
+    }
+
+    Visit back() {
+        return new Visit(field, name, domain, since, told, INSIDE, cause, fix);
+    }
+
+    Visit entered() {
+        return new Visit(field, name, domain, since, true, left, cause, fix);
+    }
+}

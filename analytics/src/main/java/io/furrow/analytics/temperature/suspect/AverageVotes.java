@@ -1,0 +1,71 @@
+package io.furrow.analytics.temperature.suspect;
+
+import java.util.HashMap;
+import java.util.Map;
+
+import org.apache.flink.streaming.api.functions.windowing.ProcessWindowFunction;
+import org.apache.flink.streaming.api.windowing.windows.TimeWindow;
+import org.apache.flink.util.Collector;
+import org.apache.flink.util.OutputTag;
+
+import io.furrow.analytics.temperature.window.FieldAverage;
+import io.furrow.analytics.temperature.window.RobustMean;
+
+/**
+ * Computes a field's result from the votes of its devices.
+ *
+ * <p>State: the votes of each field and window. Cleared: with the window, when the watermark passes its end and the allowed
+ * lateness. Late: a vote cast again replaces the device's earlier one, and the result is made again. Emits: one result per
+ * field and window in which a device voted, when the watermark passes the end of the window; where there were devices enough,
+ * what it thinks of each to {@link #VERDICTS}.
+ */
+public final class AverageVotes extends ProcessWindowFunction<DeviceVote, FieldAverage, String, TimeWindow> {
+    public static final OutputTag<Verdict> VERDICTS = new OutputTag<>("verdicts") {
+        private static final long serialVersionUID = 1L;
+    };
+
+    private static final long serialVersionUID = 1L;
+
+    private final double suspectFloor;
+    private final boolean judges;
+
+    /** @param judges whether anybody reads the verdicts */
+    AverageVotes(double suspectFloor, boolean judges) {
+        this.suspectFloor = suspectFloor;
+        this.judges = judges;
+    }
+
+    @Override
+    public void process(String field, Context context, Iterable<DeviceVote> votes, Collector<FieldAverage> out) {
+        Map<String, Double> latest = new HashMap<>();
+        DeviceVote newest = null; // by the version of the field: whose domain counts
+        for (DeviceVote vote : votes) {
+            latest.put(vote.device(), vote.value());
+            newest = newest == null || vote.validFrom() > newest.validFrom() ? vote : newest;
+        }
+        FieldAverage result = new FieldAverage(
+                newest.field(),
+                newest.domain(),
+                newest.scope(),
+                newest.windowStart(),
+                newest.windowEnd(),
+                RobustMean.of(latest, suspectFloor));
+        out.collect(result);
+        if (judges && result.average().verified()) {
+            latest.forEach((device, value) -> context.output(VERDICTS, verdict(result, device, value)));
+        }
+    }
+
+    private static Verdict verdict(FieldAverage result, String device, double value) {
+        return new Verdict(
+                device,
+                result.scope(),
+                result.field(),
+                result.domain(),
+                result.average().suspects().contains(device),
+                value,
+                result.average().mean(),
+                result.windowStart(),
+                result.windowEnd());
+    }
+}

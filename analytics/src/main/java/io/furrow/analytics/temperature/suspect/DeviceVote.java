@@ -1,0 +1,28 @@
+package io.furrow.analytics.temperature.suspect;
+
+import io.furrow.analytics.temperature.InputScope;
+
+/**
+ * The one value that a device has in a field's window.
+ *
+ * @param domain of the field, as of its newest version that a reading knows
+ * @param validFrom of that version, epoch ms
+ * @param device entity id
+ * @param value the median of its readings, in the attribute's unit
+ * @param windowStart first instant of the window, epoch ms
+ * @param windowEnd first instant after the window, epoch ms
+ */
+public record DeviceVote(
+        String field,
+        String domain,
+        long validFrom,
+        InputScope scope,
+        String device,
+        double value,
+        long windowStart,
+        long windowEnd) {
+    /** The field among those of all topics and tenants: devices of two tenants are never averaged together. */
+    public String fieldIdentity() {
+        return scope.identity(field);
+    }
+}

@@ -1,0 +1,20 @@
+package io.furrow.analytics.temperature.window;
+
+import io.furrow.analytics.temperature.InputScope;
+
+/**
+ * The average of a field in one window.
+ *
+ * @param domain empty if the field belongs to none
+ * @param scope of the devices that were averaged
+ * @param windowStart first instant of the window, epoch ms
+ * @param windowEnd first instant after the window, epoch ms
+ * @param average of no devices in a window without a reading
+ */
+public record FieldAverage(
+        String field, String domain, InputScope scope, long windowStart, long windowEnd, RobustMean average) {
+    /** The field among those of all topics and tenants. */
+    public String fieldIdentity() {
+        return scope.identity(field);
+    }
+}

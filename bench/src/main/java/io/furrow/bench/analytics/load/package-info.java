@@ -1,0 +1,2 @@
+/** Fleets of devices as input of the measurements. */
+package io.furrow.bench.analytics.load;

@@ -1,0 +1,194 @@
+package io.furrow.bench.command;
+
+import java.io.PrintWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.bench.load.LoadMeasurement;
+import io.furrow.bench.load.LoadReport;
+import io.furrow.bench.mongo.MongoMeasurement;
+import io.furrow.cli.option.HelpOption;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.launcher.Furrow;
+import io.furrow.launcher.Progress;
+import io.furrow.launcher.suite.RunDirectory;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.simulators.load.LoadPlan;
+
+/** {@code ./furrow bench}. */
+@Command(
+        name = "bench",
+        description = "Measures the suite on this machine.",
+        synopsisSubcommandLabel = "COMMAND",
+        subcommands = {
+            NotificationBench.class,
+            SinkBench.class,
+            ImageBench.class,
+            IngestBench.class,
+            AnalyticsBench.class,
+            ReplayBench.class,
+            ControlBench.class,
+            FleetBench.class,
+            MissionBench.class
+        })
+public final class BenchCommand {
+    private static final String DOMAIN = "bench";
+    /** A cold JVM cannot take what a warm one takes: it gets a quarter of the load, a half, then all of it. */
+    private static final int WARM_UP_STEPS = 4;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private HelpOption help;
+
+    public static void main(String... args) {
+        System.setProperty("java.awt.headless", "true");
+        System.exit(Furrow.commandLine().addSubcommand(new BenchCommand()).execute(args));
+    }
+
+    @Command(
+            name = "mongo",
+            abbreviateSynopsis = true,
+            description = "Writes events of a mission into MongoDB as the job ingest does, and in a bare loop around"
+                    + " MongoDB's driver, by turns, and prints documents per second of both.")
+    int mongo(
+            @Option(
+                            names = "--documents",
+                            paramLabel = "N",
+                            defaultValue = "50000",
+                            description = "Documents a turn. Default: ${DEFAULT-VALUE}.")
+                    int documents,
+            @Option(
+                            names = "--payload",
+                            paramLabel = "BYTES",
+                            defaultValue = "1000",
+                            description = "Length of an event's JSON. Default: ${DEFAULT-VALUE}.")
+                    int payload,
+            @Option(
+                            names = "--turns",
+                            paramLabel = "N",
+                            defaultValue = "5",
+                            description = "Turns that count. Default: ${DEFAULT-VALUE}.")
+                    int turns,
+            @Option(
+                            names = "--mongo",
+                            paramLabel = "URI",
+                            description =
+                                    "MongoDB, whose database persistence is EMPTIED. Default: an embedded server in"
+                                            + " memory.")
+                    String uri,
+            @Option(
+                            names = {"-h", "--help"},
+                            usageHelp = true,
+                            description = "Show this text.")
+                    boolean wantsHelp)
+            throws Exception {
+        PrintWriter out = spec.commandLine().getOut();
+        try (EmbeddedMongo embedded = uri == null ? EmbeddedMongo.inMemory() : null) {
+            List<MongoMeasurement.Turn> all = new MongoMeasurement(
+                            uri == null ? embedded.uri() : uri, documents, payload)
+                    .run(turns, turn -> {
+                        out.printf(
+                                Locale.ROOT,
+                                "  bare loop %,8.0f/s   sink writer %,8.0f/s   ratio %.2f%n",
+                                turn.bare(),
+                                turn.writer(),
+                                turn.writer() / turn.bare());
+                        out.flush();
+                    });
+            double ratio = all.stream()
+                    .mapToDouble(turn -> turn.writer() / turn.bare())
+                    .sorted()
+                    .skip(turns / 2)
+                    .findFirst()
+                    .orElse(0);
+            out.printf(Locale.ROOT, "median of the ratios: %.2f%n", ratio);
+        }
+        return 0;
+    }
+
+    @Command(
+            name = "load",
+            abbreviateSynopsis = true,
+            description =
+                    "Sends the load of many devices over MQTT through the embedded suite and prints what arrived, and"
+                            + " how long each hop took.")
+    int load(
+            @Option(
+                            names = "--devices",
+                            paramLabel = "N",
+                            defaultValue = "625",
+                            description = "Devices. Default: ${DEFAULT-VALUE}.")
+                    int devices,
+            @Option(
+                            names = "--period",
+                            paramLabel = "MS",
+                            defaultValue = "1000",
+                            description = "Milliseconds between two messages of a device. Default: ${DEFAULT-VALUE}.")
+                    long period,
+            @Option(
+                            names = "--payload",
+                            paramLabel = "BYTES",
+                            defaultValue = "1000",
+                            description = "Length of a message's payload. Default: ${DEFAULT-VALUE}.")
+                    int payload,
+            @Option(
+                            names = "--seconds",
+                            paramLabel = "S",
+                            defaultValue = "60",
+                            description = "How long to send. Default: ${DEFAULT-VALUE}.")
+                    long seconds,
+            @Option(
+                            names = "--warmup",
+                            paramLabel = "S",
+                            defaultValue = "40",
+                            description =
+                                    "Seconds before it that are not counted: a quarter, half and all of the load. "
+                                            + "Default: ${DEFAULT-VALUE}.")
+                    long warmup,
+            @Option(names = "--csv", paramLabel = "FILE", description = "Also write the figures here.") Path csv,
+            @Option(
+                            names = {"-h", "--help"},
+                            usageHelp = true,
+                            description = "Show this text.")
+                    boolean wantsHelp)
+            throws Exception {
+        PrintWriter out = spec.commandLine().getOut();
+        try (RunDirectory directory = RunDirectory.open(null);
+                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+            LoadMeasurement measurement =
+                    new LoadMeasurement(suite.devices(), suite.kafka().clientProperties(), line -> {
+                        out.println("  " + line);
+                        out.flush();
+                    });
+            Duration between = Duration.ofMillis(period);
+            for (int share = WARM_UP_STEPS; warmup > 0 && share >= 1; share /= 2) {
+                measurement.run(new LoadPlan(
+                        Math.max(1, devices / share),
+                        between,
+                        payload,
+                        Duration.ofSeconds(Math.max(1, warmup / WARM_UP_STEPS)),
+                        DOMAIN,
+                        "warmup-" + share));
+            }
+            LoadReport report = measurement.run(
+                    new LoadPlan(devices, between, payload, Duration.ofSeconds(seconds), DOMAIN, "load"));
+            report.print(out);
+            if (csv != null) {
+                Files.writeString(csv, report.csv());
+            }
+            return report.delivered() == report.sent() ? 0 : 1;
+        }
+    }
+}

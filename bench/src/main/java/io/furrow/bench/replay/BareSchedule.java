@@ -1,0 +1,63 @@
+package io.furrow.bench.replay;
+
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicReference;
+import java.util.concurrent.locks.LockSupport;
+
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+
+import io.furrow.mission.StoredEvent;
+
+/** Writes the events of replays when they are due: one thread, one producer, and sleep until the next. */
+final class BareSchedule {
+    private final List<Turn> turns = new ArrayList<>();
+
+    private record Turn(long due, ScheduledReplay replay, StoredEvent event, long sequence) {
+        ProducerRecord<byte[], byte[]> record(long now) {
+            return PlayedRecord.written(event, replay.replay(), sequence, now);
+        }
+    }
+
+    /** @param until event time before which all is written, epoch ms */
+    BareSchedule(List<ScheduledReplay> replays, long until) {
+        Map<StoredMission, List<StoredEvent>> events = new HashMap<>();
+        for (ScheduledReplay replay : replays) {
+            long sequence = 0;
+            for (StoredEvent event : events.computeIfAbsent(replay.mission(), StoredMission::all)) {
+                if (event.time() < until) {
+                    turns.add(new Turn(replay.due(event.time()), replay, event, sequence++));
+                }
+            }
+        }
+        turns.sort(Comparator.comparingLong(Turn::due));
+    }
+
+    void write(KafkaProducer<byte[], byte[]> producer) {
+        AtomicReference<Exception> lost = new AtomicReference<>();
+        for (Turn turn : turns) {
+            long wait = TimeUnit.MILLISECONDS.toNanos(turn.due()) - epochNanos();
+            while (wait > 0) {
+                LockSupport.parkNanos(wait);
+                wait = TimeUnit.MILLISECONDS.toNanos(turn.due()) - epochNanos();
+            }
+            producer.send(
+                    turn.record(System.currentTimeMillis()), (done, failure) -> lost.compareAndSet(null, failure));
+        }
+        producer.flush();
+        if (lost.get() != null) {
+            throw new IllegalStateException("a record was not written", lost.get());
+        }
+    }
+
+    private static long epochNanos() {
+        Instant now = Instant.now();
+        return TimeUnit.SECONDS.toNanos(now.getEpochSecond()) + now.getNano();
+    }
+}

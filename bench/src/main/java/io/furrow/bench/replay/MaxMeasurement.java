@@ -1,0 +1,179 @@
+package io.furrow.bench.replay;
+
+import java.util.ArrayList;
+import java.util.BitSet;
+import java.util.List;
+import java.util.Locale;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+import java.util.function.Function;
+import java.util.function.ToDoubleFunction;
+import java.util.stream.Stream;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+import org.apache.kafka.clients.producer.KafkaProducer;
+
+import io.furrow.bench.analytics.Figures;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Plays one mission as fast as possible, by the job and by a bare loop: a cursor of MongoDB's driver by event time,
+ * each document decoded, made a record and sent by a producer with the job's settings; in turns. The loop does so
+ * twice: with queries of as many documents as the job's, and with one query.
+ */
+public final class MaxMeasurement {
+    private static final int PER_SECOND = 1_000;
+    private static final int WARM_UP_EVENTS = 50_000;
+    private static final double NANOS = 1e9;
+    private static final double MILLIS = 1_000;
+
+    private final ReplayCluster cluster;
+    private final ReplayBenchPlan plan;
+    private final StoredMission mission;
+    private final Consumer<String> progress;
+
+    /**
+     * One of both in one turn.
+     *
+     * @param perSecond events, between the first and the last on the topic
+     * @param seconds from the request, or the loop's beginning, to the last
+     */
+    private record Run(double perSecond, double seconds, long missing) {}
+
+    private record Turn(Run replay, Run parts, Run whole) {}
+
+    public MaxMeasurement(ReplayCluster cluster, ReplayBenchPlan plan, int events, Consumer<String> progress) {
+        this.cluster = cluster;
+        this.plan = plan;
+        this.mission = new StoredMission("max", events, PER_SECOND, 1);
+        this.progress = progress;
+    }
+
+    /** @return whether every event was written */
+    public boolean run(Consumer<Figures> out) throws Exception {
+        progress.accept("%,d events into MongoDB".formatted(mission.events()));
+        store();
+        List<Turn> turns = new ArrayList<>();
+        for (int turn = 0; turn <= plan.turns(); turn++) {
+            int events = turn == 0 ? Math.min(WARM_UP_EVENTS, mission.events()) : mission.events();
+            Turn measured = new Turn(
+                    replay(3 * turn, events),
+                    bare(3 * turn + 1, events, BareCursor.PART),
+                    bare(3 * turn + 2, events, mission.events()));
+            progress.accept(String.format(
+                    Locale.ROOT,
+                    "%s  replay %,9.0f/s   bare loop in parts %,9.0f/s   bare loop %,9.0f/s",
+                    turn == 0 ? "warm-up" : "turn " + turn,
+                    measured.replay().perSecond(),
+                    measured.parts().perSecond(),
+                    measured.whole().perSecond()));
+            if (turn > 0) {
+                turns.add(measured);
+            }
+        }
+        out.accept(figures(turns));
+        return turns.stream()
+                .flatMap(turn -> Stream.of(turn.replay(), turn.parts(), turn.whole()))
+                .allMatch(run -> run.missing() == 0);
+    }
+
+    /** Plays it once. @return heap in use after collections while it was played, less than before, MiB at most */
+    public long heldWhilePlayed() throws Exception {
+        store();
+        try (HeldHeap heap = HeldHeap.start(progress)) {
+            Run run = replay(0, mission.events());
+            progress.accept(String.format(
+                    Locale.ROOT, "%,d events in %.1f s, %d missing", mission.events(), run.seconds(), run.missing()));
+            return heap.most();
+        }
+    }
+
+    private void store() {
+        try (MongoClient client = MongoClients.create(cluster.mongo())) {
+            mission.store(client);
+        }
+    }
+
+    private Run replay(int number, int events) throws Exception {
+        Long to = events == mission.events() ? null : Long.valueOf(StoredMission.BEGIN + events * 1_000L / PER_SECOND);
+        ReplayPlan part =
+                new ReplayPlan(null, null, to, false, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
+        WantedReplay wanted = wanted(number, part);
+        long asked = System.currentTimeMillis();
+        cluster.want(List.of(wanted));
+        cluster.awaitEnd(List.of(wanted));
+        return run(wanted.topic(), asked, to == null ? events : -1);
+    }
+
+    private WantedReplay wanted(int number, ReplayPlan part) {
+        String topic = Topics.replay(mission.name(), "%08x".formatted(number));
+        return WantedReplay.started(mission.name(), topic, part, ReplayCommand.MAX, 0, 1);
+    }
+
+    private Run bare(int number, int events, int perQuery) throws Exception {
+        WantedReplay replay = wanted(number, ReplayPlan.PLAIN);
+        cluster.make(List.of(replay.topic()));
+        long begun = System.currentTimeMillis();
+        try (KafkaProducer<byte[], byte[]> producer = cluster.producer()) {
+            new BareCursor(cluster.mongo(), replay, events, perQuery).write(producer);
+        }
+        return run(replay.topic(), begun, events);
+    }
+
+    /** @param expected −1 where that is not known */
+    private Run run(String topic, long asked, int expected) throws Exception {
+        BitSet found = new BitSet();
+        long[] appended = {Long.MAX_VALUE, Long.MIN_VALUE};
+        cluster.read(List.of(topic), (name, event) -> {
+            found.set((int) event.sequence());
+            appended[0] = Math.min(appended[0], event.appended());
+            appended[1] = Math.max(appended[1], event.appended());
+        });
+        cluster.delete(List.of(topic));
+        int count = found.cardinality();
+        double seconds = TimeUnit.MILLISECONDS.toNanos(appended[1] - appended[0]) / NANOS;
+        return new Run(count / seconds, (appended[1] - asked) / MILLIS, expected < 0 ? 0 : expected - count);
+    }
+
+    private Figures figures(List<Turn> turns) {
+        Figures figures =
+                new Figures("One mission of %,d events at speed max, medians of %d turns; a checkpoint every %d ms"
+                        .formatted(
+                                mission.events(),
+                                turns.size(),
+                                plan.checkpointInterval().toMillis()));
+        add(figures, "replay", turns, Turn::replay);
+        add(figures, "bare, in parts", turns, Turn::parts);
+        add(figures, "bare loop", turns, Turn::whole);
+        return figures;
+    }
+
+    private static void add(Figures figures, String who, List<Turn> turns, Function<Turn, Run> which) {
+        figures.add(
+                "by",
+                who,
+                "events/s",
+                median(turns, turn -> which.apply(turn).perSecond()),
+                "of in parts",
+                median(
+                        turns,
+                        turn -> which.apply(turn).perSecond() / turn.parts().perSecond()),
+                "of bare",
+                median(
+                        turns,
+                        turn -> which.apply(turn).perSecond() / turn.whole().perSecond()),
+                "seconds",
+                median(turns, turn -> which.apply(turn).seconds()),
+                "missing",
+                (int) turns.stream().map(which).mapToLong(Run::missing).sum());
+    }
+
+    /** Of an even number the upper one. */
+    private static double median(List<Turn> turns, ToDoubleFunction<Turn> figure) {
+        return turns.stream().mapToDouble(figure).sorted().toArray()[turns.size() / 2];
+    }
+}

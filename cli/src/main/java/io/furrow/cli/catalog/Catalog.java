@@ -1,0 +1,67 @@
+package io.furrow.cli.catalog;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.common.KafkaException;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** The topic {@code data.catalog}, read to its end. */
+public final class Catalog {
+    private static final Duration TIMEOUT = Duration.ofSeconds(10);
+
+    private Catalog() {}
+
+    /**
+     * The newest entry of each tenant, domain, mission and type, in this order; none where the topic is not there.
+     *
+     * @throws IOException if Kafka does not answer, or the topic holds something else; the message says what to do
+     */
+    public static List<JsonNode> read(String bootstrapServers, Properties client) throws IOException {
+        Properties properties = new Properties();
+        properties.putAll(client);
+        properties.setProperty("bootstrap.servers", bootstrapServers);
+        properties.setProperty("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
+        Map<String, byte[]> newest = new TreeMap<>();
+        try (CommittedReader<String> reader = CommittedReader.openExisting(properties, Topics.CATALOG)) {
+            reader.readToEnd(record -> {
+                if (record.value() == null) {
+                    newest.remove(record.key());
+                } else {
+                    newest.put(record.key(), record.value());
+                }
+            });
+        } catch (KafkaException e) {
+            throw new IOException(
+                    "Kafka at %s cannot be read (%s). Check the address given with --kafka."
+                            .formatted(bootstrapServers, e.getMessage()),
+                    e);
+        }
+        List<JsonNode> entries = new ArrayList<>();
+        for (Map.Entry<String, byte[]> one : newest.entrySet()) {
+            entries.add(entry(one.getKey(), one.getValue()));
+        }
+        return entries;
+    }
+
+    private static JsonNode entry(String key, byte[] value) throws IOException {
+        try {
+            return NgsiJson.read(value);
+        } catch (UnreadableException e) {
+            throw new IOException(
+                    "%s holds something else than a catalog at key %s. Check who else writes to it."
+                            .formatted(Topics.CATALOG, key),
+                    e);
+        }
+    }
+}

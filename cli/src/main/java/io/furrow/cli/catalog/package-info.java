@@ -1,0 +1,2 @@
+/** The data catalog, read and printed. */
+package io.furrow.cli.catalog;

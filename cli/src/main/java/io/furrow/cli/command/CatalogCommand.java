@@ -1,0 +1,159 @@
+package io.furrow.cli.command;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.io.Reader;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Properties;
+import java.util.concurrent.Callable;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.CommandException;
+import io.furrow.cli.catalog.Catalog;
+import io.furrow.cli.catalog.CatalogTable;
+import io.furrow.cli.catalog.StoredAssets;
+import io.furrow.cli.catalog.StoredTable;
+import io.furrow.cli.option.HelpOption;
+import io.furrow.flink.job.FileSystemOptions;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** {@code ./furrow catalog}. */
+@Command(
+        name = "catalog",
+        abbreviateSynopsis = true,
+        description =
+                "Lists what has passed, from the topic data.catalog that ingest keeps: missions, types of entities, their "
+                        + "attributes with type, unit, range and rate, first and last seen, sizes, images; and what is "
+                        + "stored: missions with --mongo, images with --images.")
+public final class CatalogCommand implements Callable<Integer> {
+    private enum Output {
+        TABLE,
+        JSON
+    }
+
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for the Kafka client, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            description = "Also list the missions in this MongoDB, for instance mongodb://127.0.0.1:27017.")
+    private String mongo;
+
+    @Option(
+            names = "--images",
+            paramLabel = "URI",
+            description = "Also count the images in this folder, the one that ingest was given with --images.")
+    private String images;
+
+    @Mixin
+    private final FileSystemOptions fileSystems = new FileSystemOptions();
+
+    @Option(
+            names = "--output",
+            paramLabel = "FORM",
+            defaultValue = "table",
+            description = "table or json. Default: ${DEFAULT-VALUE}.")
+    private Output output;
+
+    @Option(names = "--domain", paramLabel = "NAME", description = "Only this domain.")
+    private String domain;
+
+    @Option(names = "--mission", paramLabel = "NAME", description = "Only this mission.")
+    private String mission;
+
+    @Mixin
+    private HelpOption help;
+
+    @Override
+    public Integer call() {
+        try {
+            show();
+            return 0;
+        } catch (IOException e) {
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    private void show() throws IOException {
+        List<JsonNode> types = entries(Catalog.read(kafka, properties()));
+        List<JsonNode> missions = mongo == null ? null : entries(StoredAssets.missions(mongo));
+        List<JsonNode> stored = images == null ? null : entries(storedImages());
+        PrintWriter out = spec.commandLine().getOut();
+        if (output == Output.JSON) {
+            ObjectNode all = NgsiJson.mapper().createObjectNode();
+            put(all, "types", types);
+            put(all, "missions", missions);
+            put(all, "images", stored);
+            out.println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(all));
+        } else {
+            CatalogTable.lines(types).forEach(out::println);
+            if (missions != null) {
+                StoredTable.missions(missions).forEach(out::println);
+            }
+            if (stored != null) {
+                StoredTable.images(stored).forEach(out::println);
+            }
+        }
+        out.flush();
+    }
+
+    private List<JsonNode> storedImages() throws IOException {
+        fileSystems.initialize();
+        return StoredAssets.images(images);
+    }
+
+    /** Those asked for; MongoDB knows no domains. */
+    private List<JsonNode> entries(List<JsonNode> all) {
+        return all.stream()
+                .filter(entry -> domain == null
+                        || !entry.has("domain")
+                        || domain.equals(entry.path("domain").asText()))
+                .filter(entry ->
+                        mission == null || mission.equals(entry.path("mission").asText()))
+                .toList();
+    }
+
+    private static void put(ObjectNode all, String name, List<JsonNode> entries) {
+        if (entries != null) {
+            all.putArray(name).addAll(entries);
+        }
+    }
+
+    private Properties properties() {
+        Properties properties = new Properties();
+        if (kafkaProperties == null) {
+            return properties;
+        }
+        try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
+            properties.load(reader);
+            return properties;
+        } catch (IOException e) {
+            throw new CommandException(
+                    "--kafka-properties %s cannot be read; name a readable properties file".formatted(kafkaProperties),
+                    e);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+package io.furrow.cli.command;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.time.Instant;
+import java.util.List;
+import java.util.concurrent.Callable;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.ParentCommand;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.CommandException;
+import io.furrow.cli.field.FieldReport;
+import io.furrow.fields.FieldChange;
+import io.furrow.fields.FieldsTopic;
+import io.furrow.fields.ImportOptions;
+import io.furrow.fields.ImportedField;
+import io.furrow.fields.file.FieldFile;
+import io.furrow.fields.file.UnusableFileException;
+import io.furrow.model.field.FieldVersion;
+
+/** {@code ./furrow fields import}. */
+@Command(
+        name = "import",
+        description = {
+            "Reads fields from GeoJSON, a Shapefile or a GeoPackage in any coordinate system and writes them to"
+                    + " service.fields as longitude and latitude in WGS 84. Edges stay straight between their corners; how"
+                    + " far that is off is said.",
+            "What can be mended is mended and said; a feature that cannot is refused with the reason, and the exit"
+                    + " code is 1. A field that is as it was is not written again."
+        })
+final class FieldsImportCommand implements Callable<Integer> {
+    @ParentCommand
+    private FieldsCommand fields;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Parameters(paramLabel = "FILE", description = "A .geojson, .shp (with .dbf and .prj beside it) or .gpkg file.")
+    private Path file;
+
+    @Option(
+            names = "--id-property",
+            paramLabel = "NAME",
+            description = "Attribute that holds the ids. Default: the feature's own id, else the attribute id.")
+    private String idProperty;
+
+    @Option(
+            names = "--name-property",
+            paramLabel = "NAME",
+            description = "Attribute that holds the names. Default: name.")
+    private String nameProperty;
+
+    @Option(
+            names = "--domain",
+            paramLabel = "NAME",
+            description = "The domain of all of them. Default: the attribute Domain.")
+    private String domain;
+
+    @Option(
+            names = "--valid-from",
+            paramLabel = "TIME",
+            converter = FieldsCommand.TimeConverter.class,
+            description =
+                    "Event time from which on the fields are so, for instance 2026-03-01T00:00:00Z. Default: now.")
+    private Instant validFrom = Instant.now();
+
+    @Option(names = "--layer", paramLabel = "NAME", description = "Layer of a GeoPackage that has several.")
+    private String layer;
+
+    @Option(
+            names = "--crs",
+            paramLabel = "CODE",
+            description =
+                    "Coordinate system of the file, instead of what it says itself, for instance EPSG:25830. Easting"
+                            + " or longitude come first, whatever the system defines.")
+    private String crs;
+
+    @Option(names = "--replace", description = "Ends each field that the file does not hold.")
+    private boolean replace;
+
+    @Option(names = "--dry-run", description = "Shows what would be done, and writes nothing.")
+    private boolean dryRun;
+
+    @Override
+    public Integer call() {
+        FieldFile read = read();
+        boolean unsafe = replace && !read.refused().isEmpty();
+        try {
+            List<FieldChange> changes = changes(read);
+            if (!dryRun && !unsafe) {
+                write(changes);
+            }
+            FieldReport report = new FieldReport(read, changes, validFrom, !dryRun && !unsafe);
+            fields.print(report.lines(), report.json());
+        } catch (IOException e) {
+            throw new CommandException(e.getMessage(), e);
+        }
+        if (unsafe) {
+            spec.commandLine()
+                    .getErr()
+                    .println("With --replace nothing is written while features are refused, because their fields would"
+                            + " end. Mend the file, or leave out --replace.");
+        }
+        return read.refused().isEmpty() ? 0 : 1;
+    }
+
+    private FieldFile read() {
+        try {
+            return FieldFile.read(file, new ImportOptions(layer, crs, idProperty, nameProperty, domain, validFrom));
+        } catch (UnusableFileException e) {
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    private List<FieldChange> changes(FieldFile read) throws IOException {
+        List<FieldVersion> versions =
+                read.fields().stream().map(ImportedField::version).toList();
+        return FieldChange.of(versions, fields.topic().read(), replace, validFrom.toEpochMilli());
+    }
+
+    private void write(List<FieldChange> changes) throws IOException {
+        FieldsTopic topic = fields.topic();
+        topic.write(changes.stream()
+                .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
+                .map(FieldChange::version)
+                .toList());
+    }
+}

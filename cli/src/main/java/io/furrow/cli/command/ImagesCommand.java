@@ -1,0 +1,18 @@
+package io.furrow.cli.command;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+
+import io.furrow.cli.option.HelpOption;
+import io.furrow.ingest.image.PurgeImages;
+
+/** {@code ./furrow images}. */
+@Command(
+        name = "images",
+        description = "Looks after stored images.",
+        synopsisSubcommandLabel = "COMMAND",
+        subcommands = PurgeImages.class)
+public final class ImagesCommand {
+    @Mixin
+    private HelpOption help;
+}

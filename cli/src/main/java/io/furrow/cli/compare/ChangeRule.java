@@ -1,0 +1,54 @@
+package io.furrow.cli.compare;
+
+import java.util.ArrayList;
+import java.util.List;
+
+/**
+ * Determines in what two results of the same subject differ. Distances and means count as moved from a thousandth of
+ * their unit on: sums of the same readings in another order differ far less. The end of what is open is not known and
+ * counts as the same, and so does what lies outside of the range.
+ */
+final class ChangeRule {
+    private static final double MIN = 0.001;
+
+    private final TimeRange range;
+
+    ChangeRule(TimeRange range) {
+        this.range = range;
+    }
+
+    List<Change> changes(Span a, Span b) {
+        List<Change> changes = new ArrayList<>();
+        if (a instanceof Average first && b instanceof Average second) {
+            average(first, second, changes);
+            return changes;
+        }
+        if (a instanceof Encounter first && b instanceof Encounter second) {
+            moved("closest", first.closest(), second.closest(), changes);
+        }
+        if (range.start(a) != range.start(b)) {
+            changes.add(new Change("start", a.start(), b.start()));
+        }
+        if (!a.isOpen() && !b.isOpen() && range.end(a) != range.end(b)) {
+            changes.add(new Change("end", a.end(), b.end()));
+        }
+        return changes;
+    }
+
+    private static void average(Average a, Average b, List<Change> changes) {
+        moved("mean", a.mean(), b.mean(), changes);
+        if (!a.suspects().equals(b.suspects())) {
+            changes.add(new Change("suspects", a.suspects(), b.suspects()));
+        }
+        if (!a.quality().equals(b.quality())) {
+            changes.add(new Change("quality", a.quality(), b.quality()));
+        }
+    }
+
+    private static void moved(String member, double a, double b, List<Change> changes) {
+        boolean same = Double.isNaN(a) ? Double.isNaN(b) : Math.abs(a - b) < MIN;
+        if (!same) {
+            changes.add(new Change(member, Double.isNaN(a) ? null : a, Double.isNaN(b) ? null : b));
+        }
+    }
+}

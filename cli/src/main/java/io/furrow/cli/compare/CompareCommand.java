@@ -1,0 +1,198 @@
+package io.furrow.cli.compare;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.OptionalLong;
+import java.util.Properties;
+import java.util.concurrent.Callable;
+
+import com.fasterxml.jackson.databind.node.TextNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.KafkaClient;
+import io.furrow.cli.compare.report.ComparisonJson;
+import io.furrow.cli.compare.report.ComparisonSvg;
+import io.furrow.cli.compare.report.ComparisonTable;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.time.Instants;
+
+/** {@code ./furrow replay compare}. */
+@Command(
+        name = "compare",
+        abbreviateSynopsis = true,
+        exitCodeOnExecutionException = 2,
+        description = {
+            "Shows how what analytics found in one replay differs from what it found in another, or live: encounters by pair, averages by "
+                    + "field and window, stays by device and field, all in original event time. Reads from Kafka what is there now, of a "
+                    + "replay the newest epoch.",
+            "Exit code: 0 where both are the same, 1 where they differ, 2 where they cannot be compared."
+        })
+public final class CompareCommand implements Callable<Integer> {
+    private static final String SIDE = "A replay, MISSION.ID; its topic; or live.";
+
+    private enum Format {
+        TABLE,
+        JSON
+    }
+
+    @Spec
+    private CommandSpec spec;
+
+    @Parameters(index = "0", paramLabel = "A", description = SIDE)
+    private String a;
+
+    @Parameters(index = "1", paramLabel = "B", description = SIDE)
+    private String b;
+
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka to read from. Default: ${DEFAULT-VALUE}.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for the Kafka client, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--from",
+            paramLabel = "TIME",
+            description =
+                    "Only what holds at or after this original event time, ISO 8601 or epoch ms. Needed with live.")
+    private String from;
+
+    @Option(
+            names = "--to",
+            paramLabel = "TIME",
+            description = "Only what holds before this original event time. Needed with live.")
+    private String to;
+
+    @Option(
+            names = "--epoch-a",
+            paramLabel = "N",
+            description = "Epoch of A, from 0. Default: that of --epoch, else the newest.")
+    private Long epochA;
+
+    @Option(names = "--epoch-b", paramLabel = "N", description = "Epoch of B, likewise.")
+    private Long epochB;
+
+    @Option(names = "--epoch", paramLabel = "N", description = "Epoch of both. Default: the newest of each.")
+    private Long epoch;
+
+    @Option(
+            names = "--mission",
+            paramLabel = "NAME",
+            description =
+                    "Of live encounters and stays only those of devices of this mission; averages are those of all devices in a field. "
+                            + "Default: that which the replay is called after.")
+    private String mission;
+
+    @Option(
+            names = "--format",
+            paramLabel = "FORM",
+            defaultValue = "table",
+            description = "table or json. Default: ${DEFAULT-VALUE}.")
+    private Format format;
+
+    @Option(
+            names = "--limit",
+            paramLabel = "N",
+            defaultValue = "40",
+            description = "Most differences of each kind in the table. Default: ${DEFAULT-VALUE}.")
+    private int limit;
+
+    @Option(names = "--svg", paramLabel = "FILE", description = "Also draw both over time into this file.")
+    private Path svg;
+
+    @Override
+    public Integer call() {
+        TimeRange range = range();
+        Properties client = KafkaClient.settings(kafka, kafkaProperties);
+        try (ResultReader reader = new ResultReader(client)) {
+            Comparison comparison = compare(reader, range);
+            if (svg != null) {
+                Files.writeString(svg, ComparisonSvg.of(comparison));
+            }
+            print(comparison);
+            return comparison.isSame() ? 0 : 1;
+        } catch (UnreadableResultsException e) {
+            spec.commandLine().getErr().println(e.getMessage());
+        } catch (IOException e) {
+            spec.commandLine().getErr().println("cannot write: " + e.getMessage() + "; check --svg");
+        }
+        return spec.exitCodeOnExecutionException();
+    }
+
+    private Comparison compare(ResultReader reader, TimeRange range) throws UnreadableResultsException {
+        Side first = Side.of(a, reader.topics());
+        Side second = Side.of(b, reader.topics());
+        String named = mission != null ? mission : first.isLive() ? second.mission() : first.mission();
+        return Comparison.of(
+                found(reader.read(first, epoch(epochA), first.isLive() ? named : null)),
+                found(reader.read(second, epoch(epochB), second.isLive() ? named : null)),
+                range);
+    }
+
+    private static FoundResults found(FoundResults results) throws UnreadableResultsException {
+        if (results.missing().containsAll(List.of(ResultKind.values()))) {
+            throw new UnreadableResultsException(
+                    "There are no results of %s: start analytics on it (./furrow replay start --analytics), and wait for them"
+                            .formatted(results.name()));
+        }
+        return results;
+    }
+
+    private OptionalLong epoch(Long ofSide) {
+        Long wanted = ofSide == null ? epoch : ofSide;
+        return wanted == null ? OptionalLong.empty() : OptionalLong.of(wanted);
+    }
+
+    private void print(Comparison comparison) throws IOException {
+        PrintWriter out = spec.commandLine().getOut();
+        if (format == Format.JSON) {
+            out.println(NgsiJson.mapper()
+                    .writerWithDefaultPrettyPrinter()
+                    .writeValueAsString(ComparisonJson.of(comparison)));
+        } else {
+            new ComparisonTable(limit).lines(comparison).forEach(out::println);
+        }
+        out.flush();
+    }
+
+    private TimeRange range() {
+        boolean live = a.equals(Side.LIVE) || b.equals(Side.LIVE);
+        if (live && (from == null || to == null)) {
+            throw refused("live goes on all the time: say which part of it with --from and --to");
+        } else if (a.equals(b) && epochA == null && epochB == null) {
+            throw refused("A and B are the same; name two of them, or two epochs with --epoch-a and --epoch-b");
+        }
+        TimeRange range = new TimeRange(
+                from == null ? TimeRange.ALL.from() : time("--from", from),
+                to == null ? TimeRange.ALL.to() : time("--to", to));
+        if (range.from() >= range.to()) {
+            throw refused("--to must be after --from");
+        }
+        return range;
+    }
+
+    private long time(String option, String text) {
+        return Instants.of(TextNode.valueOf(text))
+                .orElseThrow(() -> refused(option + " '" + text + "' is no time: give ISO 8601 or epoch ms"))
+                .toEpochMilli();
+    }
+
+    private ParameterException refused(String reason) {
+        return new ParameterException(spec.commandLine(), reason);
+    }
+}

@@ -1,0 +1,147 @@
+package io.furrow.cli.compare;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.result.CollisionResult;
+import io.furrow.model.result.FieldResult;
+import io.furrow.model.result.PresenceResult;
+
+/**
+ * Puts records of analytics together, in any order: those of one encounter or stay become one, and of those of a window the last that
+ * came counts. Of a newer epoch than before it starts over. Predictions, crossings, what is provisional, and reports of suspects are
+ * skipped.
+ */
+final class ResultCollector {
+    private static final Set<String> PHASES =
+            Set.of(CollisionResult.STARTED, CollisionResult.ONGOING, CollisionResult.ENDED);
+
+    private final String mission;
+    private final Map<String, Encounter> encounters = new HashMap<>();
+    private final Map<String, Stay> stays = new HashMap<>();
+    private final Map<Window, Average> averages = new HashMap<>();
+    private long epoch;
+
+    private record Window(Subject subject, long start, long end) {}
+
+    /** @param mission what devices of other missions found is skipped; null for all */
+    ResultCollector(String mission) {
+        this.mission = mission;
+    }
+
+    long epoch() {
+        return epoch;
+    }
+
+    /** @param scope tenant and service path */
+    void add(ResultKind kind, long ofEpoch, String scope, Entity entity) {
+        if (ofEpoch < epoch) {
+            return;
+        }
+        if (ofEpoch > epoch) {
+            encounters.clear();
+            stays.clear();
+            averages.clear();
+            epoch = ofEpoch;
+        }
+        switch (kind) {
+            case ENCOUNTERS -> encounter(scope, entity);
+            case AVERAGES -> average(scope, entity);
+            case STAYS -> stay(scope, entity);
+        }
+    }
+
+    List<Span> spans(ResultKind kind) {
+        return new ArrayList<>(
+                switch (kind) {
+                    case ENCOUNTERS -> encounters.values();
+                    case AVERAGES -> averages.values();
+                    case STAYS -> stays.values();
+                });
+    }
+
+    private void encounter(String scope, Entity entity) {
+        String phase = entity.text(CollisionResult.PHASE).orElse("");
+        if (!PHASES.contains(phase)
+                || isOther(entity, CollisionResult.FIRST.mission())
+                || isOther(entity, CollisionResult.SECOND.mission())) {
+            return;
+        }
+        Optional<Long> start = time(entity, CollisionResult.START_TIME);
+        Optional<Long> time = time(entity, CollisionResult.TIME);
+        Optional<Double> closest = entity.number(CollisionResult.MIN_DISTANCE);
+        if (start.isPresent() && time.isPresent() && closest.isPresent()) {
+            String pair = entity.text(CollisionResult.FIRST.id()).orElse("?") + " – "
+                    + entity.text(CollisionResult.SECOND.id()).orElse("?");
+            encounters.merge(
+                    entity.text(CollisionResult.ENCOUNTER).orElse(entity.id()),
+                    new Encounter(
+                            new Subject(scope, pair),
+                            start.get(),
+                            time.get(),
+                            !phase.equals(CollisionResult.ENDED),
+                            closest.get()),
+                    Encounter::and);
+        }
+    }
+
+    private void stay(String scope, Entity entity) {
+        Optional<Long> start = time(entity, PresenceResult.START_TIME);
+        Optional<Long> time = time(entity, PresenceResult.TIME);
+        if (start.isEmpty() || time.isEmpty() || isOther(entity, "Mission")) {
+            return;
+        }
+        Subject subject = new Subject(
+                scope,
+                entity.text(PresenceResult.DEVICE).orElse("?") + " in "
+                        + entity.text(PresenceResult.FIELD).orElse("?"));
+        boolean left = entity.text(PresenceResult.PHASE)
+                .filter(PresenceResult.LEFT::equals)
+                .isPresent();
+        stays.merge(
+                entity.text(PresenceResult.STAY).orElse(entity.id()),
+                left ? new Stay(subject, start.get(), time.get(), false) : Stay.open(subject, start.get()),
+                Stay::and);
+    }
+
+    private void average(String scope, Entity entity) {
+        Optional<Long> start = time(entity, FieldResult.WINDOW_START);
+        Optional<Long> end = time(entity, FieldResult.WINDOW_END);
+        if (!entity.type().startsWith(FieldResult.TYPE_PREFIX) || start.isEmpty() || end.isEmpty()) {
+            return;
+        }
+        String attribute = entity.type().substring(FieldResult.TYPE_PREFIX.length());
+        Subject subject = new Subject(scope, entity.text(FieldResult.FIELD).orElse("?") + " " + attribute);
+        Set<String> suspects = new HashSet<>();
+        for (JsonNode suspect : entity.value(FieldResult.SUSPECTS).map(List::of).orElse(List.of())) {
+            suspect.forEach(device -> suspects.add(device.asText()));
+        }
+        averages.put(
+                new Window(subject, start.get(), end.get()),
+                new Average(
+                        subject,
+                        start.get(),
+                        end.get(),
+                        entity.number(FieldResult.average(attribute)).orElse(Double.NaN),
+                        suspects,
+                        entity.text(FieldResult.QUALITY).orElse("")));
+    }
+
+    /** Whether the device says that it has another mission. */
+    private boolean isOther(Entity entity, String attribute) {
+        return mission != null
+                && entity.text(attribute).filter(one -> !one.equals(mission)).isPresent();
+    }
+
+    private static Optional<Long> time(Entity entity, String attribute) {
+        return entity.number(attribute).map(Double::longValue);
+    }
+}

@@ -1,0 +1,173 @@
+package io.furrow.cli.compare;
+
+import java.time.Duration;
+import java.util.Collection;
+import java.util.EnumMap;
+import java.util.EnumSet;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.OptionalLong;
+import java.util.Properties;
+import java.util.Set;
+
+import org.apache.kafka.clients.consumer.ConsumerConfig;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+
+/** Reads results from the beginning of their topics to where they ended when the reading began; committed records only. */
+final class ResultReader implements AutoCloseable {
+    private static final Duration POLL = Duration.ofMillis(200);
+    private static final Duration TIMEOUT = Duration.ofSeconds(20);
+    /** The last offsets of a partition may be a transaction's marks. */
+    private static final int LAST_RECORDS = 50;
+
+    private final KafkaConsumer<byte[], byte[]> consumer;
+    /** By topic. */
+    private final Map<String, Integer> partitions = new HashMap<>();
+
+    /** Takes one record. */
+    private interface RecordReader {
+        void read(ConsumerRecord<byte[], byte[]> record) throws UnreadableResultsException;
+    }
+
+    /** @param client of Kafka, with {@code bootstrap.servers} */
+    ResultReader(Properties client) throws UnreadableResultsException {
+        Properties properties = new Properties();
+        properties.putAll(client);
+        properties.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
+        properties.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
+        properties.setProperty(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
+        try {
+            consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+            consumer.listTopics().forEach((topic, all) -> partitions.put(topic, all.size()));
+        } catch (KafkaException e) {
+            throw away(client.getProperty("bootstrap.servers"), e);
+        }
+    }
+
+    private static UnreadableResultsException away(String servers, KafkaException cause) {
+        return new UnreadableResultsException(
+                "Kafka at %s cannot be read (%s). Check the address given with --kafka."
+                        .formatted(servers, cause.getMessage()),
+                cause);
+    }
+
+    /** Names of all topics. */
+    Collection<String> topics() {
+        return Set.copyOf(partitions.keySet());
+    }
+
+    /**
+     * @param wanted epoch of a replay; empty for its newest
+     * @param mission see {@link ResultCollector}
+     * @throws UnreadableResultsException if a record is no entity, or Kafka does not answer
+     */
+    FoundResults read(Side side, OptionalLong wanted, String mission) throws UnreadableResultsException {
+        try {
+            OptionalLong epoch = side.isLive() ? OptionalLong.of(0) : wanted.isPresent() ? wanted : newestEpoch(side);
+            ResultCollector collector = new ResultCollector(mission);
+            Set<ResultKind> missing = EnumSet.noneOf(ResultKind.class);
+            for (ResultKind kind : ResultKind.values()) {
+                if (partitions.containsKey(side.results(kind))) {
+                    read(side, kind, epoch, collector);
+                } else {
+                    missing.add(kind);
+                }
+            }
+            Map<ResultKind, List<Span>> spans = new EnumMap<>(ResultKind.class);
+            for (ResultKind kind : ResultKind.values()) {
+                spans.put(kind, collector.spans(kind));
+            }
+            return new FoundResults(side.name(), epoch.orElse(collector.epoch()), spans, missing);
+        } catch (KafkaException e) {
+            throw new UnreadableResultsException(
+                    "The results of %s cannot be read: %s".formatted(side.name(), e.getMessage()), e);
+        }
+    }
+
+    private void read(Side side, ResultKind kind, OptionalLong epoch, ResultCollector collector)
+            throws UnreadableResultsException {
+        List<TopicPartition> all = assign(side.results(kind));
+        consumer.seekToBeginning(all);
+        toEnd(all, record -> {
+            long ofEpoch = side.isLive() ? 0 : epoch(record);
+            if (record.value() != null && (epoch.isEmpty() || epoch.getAsLong() == ofEpoch)) {
+                collector.add(kind, ofEpoch, scope(record), entity(record));
+            }
+        });
+    }
+
+    /** That of the last record that was played: an epoch in which nothing was found has no result. */
+    private OptionalLong newestEpoch(Side side) throws UnreadableResultsException {
+        if (!partitions.containsKey(side.topic())) {
+            return OptionalLong.empty();
+        }
+        List<TopicPartition> all = assign(side.topic());
+        Map<TopicPartition, Long> begins = consumer.beginningOffsets(all);
+        consumer.endOffsets(all)
+                .forEach((one, end) -> consumer.seek(one, Math.max(begins.get(one), end - LAST_RECORDS)));
+        long[] newest = {-1};
+        toEnd(all, record -> newest[0] = Math.max(newest[0], epoch(record)));
+        return newest[0] < 0 ? OptionalLong.empty() : OptionalLong.of(newest[0]);
+    }
+
+    private List<TopicPartition> assign(String topic) {
+        List<TopicPartition> all = java.util.stream.IntStream.range(0, partitions.get(topic))
+                .mapToObj(number -> new TopicPartition(topic, number))
+                .toList();
+        consumer.assign(all);
+        return all;
+    }
+
+    private static Entity entity(ConsumerRecord<byte[], byte[]> record) throws UnreadableResultsException {
+        try {
+            return Entity.parse(record.value());
+        } catch (UnreadableException e) {
+            throw new UnreadableResultsException(
+                    "%s-%d@%d is no entity: %s. Check who else writes to the topic."
+                            .formatted(record.topic(), record.partition(), record.offset(), e.getMessage()),
+                    e);
+        }
+    }
+
+    private void toEnd(List<TopicPartition> all, RecordReader reader) throws UnreadableResultsException {
+        Map<TopicPartition, Long> ends = consumer.endOffsets(all);
+        while (all.stream().anyMatch(one -> consumer.position(one) < ends.get(one))) {
+            for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
+                if (record.offset() < ends.get(new TopicPartition(record.topic(), record.partition()))) {
+                    reader.read(record);
+                }
+            }
+        }
+    }
+
+    private static long epoch(ConsumerRecord<byte[], byte[]> record) {
+        String text = text(record, HeaderNames.REPLAY_EPOCH);
+        return text.matches("[0-9]{1,18}") ? Long.parseLong(text) : 0;
+    }
+
+    private static String scope(ConsumerRecord<byte[], byte[]> record) {
+        return text(record, HeaderNames.SERVICE) + "|" + text(record, HeaderNames.SERVICE_PATH);
+    }
+
+    private static String text(ConsumerRecord<byte[], byte[]> record, String name) {
+        Header header = record.headers().lastHeader(name);
+        return header == null || header.value() == null ? "" : new String(header.value(), UTF_8);
+    }
+
+    @Override
+    public void close() {
+        consumer.close();
+    }
+}

@@ -1,0 +1,72 @@
+package io.furrow.cli.compare;
+
+import java.util.Collection;
+import java.util.List;
+import java.util.regex.Pattern;
+
+import io.furrow.model.topic.Topics;
+
+/**
+ * One side of a comparison: a replay, or what was found live.
+ *
+ * @param name as tables call it
+ * @param topic of the replay; null of live results
+ */
+public record Side(String name, String topic) {
+    public static final String LIVE = "live";
+
+    private static final Pattern NAME = Pattern.compile("([A-Za-z0-9_-]{1,64})\\.([0-9a-f]{8})");
+
+    /**
+     * @param word {@code live}, a replay's name, or a replay's topic
+     * @param topics that there are: a replay may play on a topic that is not called after its mission
+     * @throws UnreadableResultsException if it is none of these, or the replay has no topic
+     */
+    static Side of(String word, Collection<String> topics) throws UnreadableResultsException {
+        if (word.equals(LIVE)) {
+            return new Side(LIVE, null);
+        } else if (Topics.isReplay(word)) {
+            return new Side(Topics.replayOf(word).orElseThrow(), required(word, topics));
+        } else if (!NAME.matcher(word).matches()) {
+            throw new UnreadableResultsException(
+                    "'%s' is no replay: name one as MISSION.ID, its topic as data.MISSION.replay.ID, or say live."
+                            .formatted(word));
+        }
+        int dot = word.indexOf('.');
+        String named = Topics.replay(word.substring(0, dot), word.substring(dot + 1));
+        if (hasAnyOf(named, topics)) {
+            return new Side(word, named);
+        }
+        return new Side(word, required(named, topics));
+    }
+
+    private static String required(String topic, Collection<String> topics) throws UnreadableResultsException {
+        if (!hasAnyOf(topic, topics)) {
+            throw new UnreadableResultsException(
+                    "There is no topic %s, and none of its results: check the name with ./furrow replay list, and --kafka. One that is played on a topic of another name is named by it."
+                            .formatted(topic));
+        }
+        return topic;
+    }
+
+    /** The replay's topic may be deleted before those of its results. */
+    private static boolean hasAnyOf(String topic, Collection<String> topics) {
+        Side side = new Side(topic, topic);
+        return topics.contains(topic)
+                || List.of(ResultKind.values()).stream().anyMatch(kind -> topics.contains(side.results(kind)));
+    }
+
+    boolean isLive() {
+        return topic == null;
+    }
+
+    /** The topic of its results. */
+    String results(ResultKind kind) {
+        return isLive() ? kind.liveTopic() : Topics.resultOf(topic, kind.liveTopic());
+    }
+
+    /** The mission that a replay's name begins with; null of live results. */
+    String mission() {
+        return isLive() ? null : name.substring(0, name.lastIndexOf('.'));
+    }
+}

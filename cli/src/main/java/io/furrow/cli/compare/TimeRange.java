@@ -1,0 +1,29 @@
+package io.furrow.cli.compare;
+
+/**
+ * Which results count, by original event time.
+ *
+ * @param from epoch ms
+ * @param to epoch ms, after the last instant
+ */
+public record TimeRange(long from, long to) {
+    /** All that there is. */
+    public static final TimeRange ALL = new TimeRange(Long.MIN_VALUE, Long.MAX_VALUE);
+
+    boolean overlaps(Span span) {
+        return span.start() < to && (span.end() >= from || span.isOpen());
+    }
+
+    /** Whether a window lies within; one that is cut has other readings than a whole one. */
+    boolean contains(Average window) {
+        return window.start() >= from && window.end() <= to;
+    }
+
+    public long start(Span span) {
+        return Math.max(span.start(), from);
+    }
+
+    public long end(Span span) {
+        return Math.min(span.end(), to);
+    }
+}

@@ -1,0 +1,104 @@
+package io.furrow.cli.control;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.stream.Collectors;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.command.CommandGroup;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
+
+/** {@code ./furrow device}. */
+@Command(
+        name = "device",
+        description = "Lists devices with their status, sends them commands, and gives them credentials.",
+        synopsisSubcommandLabel = "COMMAND")
+public final class DeviceCommand extends CommandGroup {
+    private static final String DEVICES = "/api/devices";
+    private static final String ID = "Id of the device's entity, as in urn:ngsi-ld:Thermometer:weeding-1.";
+
+    @Command(name = "list", description = "Lists devices: status, when last heard of, battery, whether silent.")
+    int list(
+            @Mixin ControlOptions control,
+            @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
+                    String domain,
+            @Option(names = "--mission", paramLabel = "MISSION", description = "Only those of this mission.")
+                    String mission) {
+        Map<String, String> only = new LinkedHashMap<>();
+        only.put("domain", domain);
+        only.put("mission", mission);
+        String query = only.entrySet().stream()
+                .filter(each -> each.getValue() != null)
+                .map(each ->
+                        each.getKey() + "=" + ControlApi.part(each.getValue()).substring(1))
+                .collect(Collectors.joining("&"));
+        return control.show(
+                query.isEmpty() ? DEVICES : DEVICES + "?" + query,
+                new ControlTable("There is no such device.")
+                        .text("DEVICE", "/id")
+                        .text("TYPE", "/type")
+                        .text("MISSION", "/mission")
+                        .text("WANTED", "/wanted")
+                        .text("STATE", "/status/state")
+                        .time("LAST SEEN", "/health/lastSeen")
+                        .text("BATTERY", "/health/battery")
+                        .text("SILENT", "/health/silent")
+                        .text("REASON", "/status/reason"));
+    }
+
+    @Command(name = "show", description = "Shows one device.")
+    int show(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return control.showOne(DEVICES + ControlApi.part(device));
+    }
+
+    @Command(
+            name = "credentials",
+            description = "Shows the API key, user and password with which a device reaches the MQTT broker.")
+    int credentials(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return control.showOne(DEVICES + ControlApi.part(device) + "/credentials");
+    }
+
+    @Command(
+            name = "rotate",
+            description = {
+                "Gives a device a new password and shows its credentials. The old password is refused at once, and a connection that",
+                "was made with it is cut off; other devices are not affected."
+            })
+    int rotate(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return control.commandShown("POST", DEVICES + ControlApi.part(device) + "/credentials");
+    }
+
+    @Command(name = "on", description = "Switches a device on.")
+    int on(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return command(control, device, "on", null);
+    }
+
+    @Command(name = "off", description = "Switches a device off.")
+    int off(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return command(control, device, "off", null);
+    }
+
+    @Command(name = "restart", description = "Restarts a device.")
+    int restart(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
+        return command(control, device, "restart", null);
+    }
+
+    @Command(name = "command", description = "Sends a device any command, as Stop to a robot.")
+    int command(
+            @Mixin ControlOptions control,
+            @Parameters(index = "0", paramLabel = "DEVICE", description = ID) String device,
+            @Parameters(index = "1", paramLabel = "COMMAND", description = "The command.") String command,
+            @Parameters(index = "2", paramLabel = "VALUE", arity = "0..1", description = "What it says beside.")
+                    String value) {
+        Map<String, String> body = new LinkedHashMap<>();
+        body.put("command", command);
+        body.put("value", value);
+        return control.command("POST", DEVICES + ControlApi.part(device) + "/commands", ControlOptions.object(body));
+    }
+}

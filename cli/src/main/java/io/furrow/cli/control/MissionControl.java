@@ -1,0 +1,177 @@
+package io.furrow.cli.control;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.command.CommandGroup;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.control.table.DeviceListParts;
+import io.furrow.cli.control.table.JsonFile;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** The commands of {@code ./furrow mission} that speak with the control plane. */
+public class MissionControl extends CommandGroup {
+    private static final String MISSIONS = "/api/missions";
+    private static final String NAME = "Name of the mission: 1 to 64 of A-Z a-z 0-9 _ -.";
+
+    /** Of what devices a mission is made. */
+    static final class Plan {
+        @Option(names = "--template", paramLabel = "NAME", description = "Template, NAME or NAME@VERSION.")
+        private String template;
+
+        @Option(names = "--devices", paramLabel = "FILE", description = "JSON list of its devices.")
+        private Path devices;
+
+        ObjectNode json(String mission, String domain) throws IOException {
+            ObjectNode json = NgsiJson.mapper().createObjectNode().put("mission", mission);
+            if (domain != null) {
+                json.put("domain", domain);
+            }
+            if (template != null) {
+                json.put("template", template);
+            }
+            if (devices != null) {
+                json.set("devices", JsonFile.read(devices));
+            }
+            return json;
+        }
+    }
+
+    @Command(name = "list", description = "Lists missions and how far they are.")
+    int list(
+            @Mixin ControlOptions control,
+            @Option(names = "--domain", paramLabel = "DOMAIN", description = "Only those of this domain.")
+                    String domain) {
+        return control.show(
+                domain == null
+                        ? MISSIONS
+                        : MISSIONS + "?domain=" + ControlApi.part(domain).substring(1),
+                new ControlTable("There is no mission; ./furrow mission create makes one.")
+                        .text("MISSION", "/mission")
+                        .text("DOMAIN", "/domain")
+                        .text("TEMPLATE", "/template")
+                        .text("STATE", "/status/state")
+                        .text("UP", "/status/confirmed")
+                        .text("DEVICES", "/status/devices")
+                        .time("SINCE", "/status/since")
+                        .text("REASON", "/status/reason"));
+    }
+
+    @Command(name = "show", description = "Shows one mission.")
+    int show(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
+        return control.showOne(MISSIONS + ControlApi.part(mission));
+    }
+
+    @Command(name = "create", description = "Creates a mission, which does not run yet.")
+    int create(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", description = NAME) String mission,
+            @Option(names = "--domain", paramLabel = "DOMAIN", required = true, description = "Its domain.")
+                    String domain,
+            @Mixin Plan plan) {
+        return control.run(api -> control.answered(create(api, plan.json(mission, domain))));
+    }
+
+    /** A list that is too long for one request goes in several. */
+    private static JsonNode create(ControlApi api, ObjectNode plan) {
+        List<ObjectNode> parts = DeviceListParts.requests(plan);
+        if (parts.size() == 1) {
+            return api.send("POST", MISSIONS, plan);
+        }
+        JsonNode answer = api.send("POST", MISSIONS, plan.deepCopy().without("devices"));
+        String path = MISSIONS + ControlApi.part(plan.path("mission").asText()) + "/devices";
+        parts.forEach(part -> api.send("POST", path, part));
+        return answer;
+    }
+
+    @Command(
+            name = "add-devices",
+            description = "Adds devices to a mission that does not run. What it has already stays.")
+    int addDevices(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", description = NAME) String mission,
+            @Parameters(paramLabel = "FILE", description = "JSON list of devices.") Path devices) {
+        return control.run(api -> {
+            ObjectNode list = NgsiJson.mapper().createObjectNode().set("devices", JsonFile.read(devices));
+            JsonNode answer = null;
+            for (ObjectNode part : DeviceListParts.requests(list)) {
+                answer = api.send("POST", MISSIONS + ControlApi.part(mission) + "/devices", part);
+            }
+            control.answered(answer);
+        });
+    }
+
+    @Command(name = "start", description = "Starts a mission; creates it if it does not exist.")
+    int start(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", description = NAME) String mission,
+            @Mixin Begin begin,
+            @Mixin Plan plan) {
+        return control.run(api -> {
+            ObjectNode json = plan.json(mission, begin.domain);
+            if (DeviceListParts.requests(json).size() > 1) {
+                create(api, json);
+                json.remove("devices");
+            }
+            control.answered(api.send("POST", MISSIONS + ControlApi.part(mission) + "/start", begin.in(json)));
+        });
+    }
+
+    /** When it starts, for how long, and to which domain it belongs. */
+    static final class Begin {
+        @Option(names = "--domain", paramLabel = "DOMAIN", description = "Its domain; needed for a new mission.")
+        private String domain;
+
+        @Option(names = "--at", paramLabel = "TIME", description = "When: ISO 8601 or epoch ms. Default: now.")
+        private String at;
+
+        @Option(names = "--duration", paramLabel = "DURATION", description = "Stopped after this: ISO 8601, as PT2H.")
+        private String duration;
+
+        ObjectNode in(ObjectNode json) {
+            if (at != null) {
+                json.put("start", at);
+            }
+            return duration == null ? json : json.put("duration", duration);
+        }
+    }
+
+    @Command(name = "stop", description = "Stops a mission.")
+    int stop(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
+        return control.command("POST", MISSIONS + ControlApi.part(mission) + "/stop", null);
+    }
+
+    @Command(name = "delete", description = "Deletes a mission that does not run. What was kept of it stays.")
+    int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
+        return control.command("DELETE", MISSIONS + ControlApi.part(mission), null);
+    }
+
+    @Command(
+            name = "watch",
+            description = {
+                "Shows how a mission goes on, a line for each change, until it has stopped or failed.",
+                "Exit code 0 means that it came to the state that was waited for."
+            })
+    int watch(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "MISSION", description = NAME) String mission,
+            @Option(
+                            names = "--until",
+                            paramLabel = "STATE",
+                            defaultValue = "stopped",
+                            description = "Ends with this state, as running. Default: ${DEFAULT-VALUE}.")
+                    String until) {
+        MissionWatch watch = new MissionWatch(control, MISSIONS + ControlApi.part(mission), until);
+        return control.run(watch) == 0 && watch.isReached() ? 0 : 1;
+    }
+}

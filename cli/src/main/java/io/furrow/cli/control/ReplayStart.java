@@ -1,0 +1,164 @@
+package io.furrow.cli.control;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.model.topic.Topics;
+
+/** What {@code ./furrow replay start} asks for. */
+final class ReplayStart {
+    @Parameters(
+            arity = "0..*",
+            paramLabel = "MISSION",
+            description = "Name of the mission; several are played as a group, by one clock.")
+    private List<String> named = List.of();
+
+    @Option(
+            names = "--mission",
+            paramLabel = "NAME",
+            split = ",",
+            hideParamSyntax = true,
+            description = "The same as an option, which may be given several times.")
+    private List<String> missions = List.of();
+
+    @Option(
+            names = "--topic",
+            paramLabel = "TOPIC",
+            description =
+                    "Topic to play on, data.NAME.replay.<8 hexadecimal digits>. Default: one that is called after the mission.")
+    private String topic;
+
+    @Option(names = "--from", paramLabel = "TIME", description = "Event time of the first event: " + ReplayWords.TIME)
+    private String from;
+
+    @Option(names = "--to", paramLabel = "TIME", description = "Event time after the last event: " + ReplayWords.TIME)
+    private String to;
+
+    @Option(names = "--speed", paramLabel = "X", description = "0.1 to 1000, or max. Default: 1.")
+    private String speed;
+
+    @Option(names = "--loop", description = "Begin anew at the end.")
+    private boolean loop;
+
+    @Option(
+            names = "--range",
+            paramLabel = "A..B",
+            description = "Play what is between these event times over and over.")
+    private String range;
+
+    @Option(
+            names = "--devices",
+            paramLabel = "ID",
+            split = ",",
+            description = "Ids of the entities to play back, parted by commas. Default: all.")
+    private List<String> devices;
+
+    @Option(
+            names = "--max-gap",
+            paramLabel = "DURATION",
+            description =
+                    "Shorten stretches in which nothing happens to this, for instance 30s. Default: as they were.")
+    private Duration maxGap;
+
+    @Option(
+            names = "--stamps",
+            paramLabel = "WHICH",
+            description =
+                    "Timestamps of records: original, or now, the time at which an event is played. Default: original.")
+    private String stamps;
+
+    @Option(
+            names = "--start-at",
+            paramLabel = "TIME",
+            description = "When the first event is due, by the clock. Default: at once.")
+    private String startAt;
+
+    @Option(
+            names = "--analytics",
+            paramLabel = "JOB",
+            split = ",",
+            description = "Analytics jobs to run on the replay, parted by commas: collision, presence, temperature.")
+    private List<String> analytics;
+
+    @Option(
+            names = "--source-topic",
+            paramLabel = "TOPIC",
+            description = "Play what this topic has, instead of the mission in MongoDB.")
+    private String sourceTopic;
+
+    @Option(
+            names = "--source-file",
+            paramLabel = "FILE",
+            description = "Play this file of the job's --recordings, instead of the mission in MongoDB.")
+    private String sourceFile;
+
+    /** The request. */
+    ObjectNode body(ControlOptions control) {
+        List<String> all = new ArrayList<>(named);
+        all.addAll(missions);
+        if (all.isEmpty()) {
+            throw control.refused("Name a mission, or several for a group: MISSION, or --mission NAME");
+        } else if (sourceTopic != null && sourceFile != null) {
+            throw control.refused("Name one of --source-topic and --source-file");
+        }
+        Map<String, Object> members = new LinkedHashMap<>();
+        members.put(all.size() == 1 ? "mission" : "missions", all.size() == 1 ? all.get(0) : all);
+        members.put("topic", topic);
+        members.put("from", ReplayWords.time(from));
+        members.put("to", ReplayWords.time(to));
+        members.put("speed", speed == null ? null : ReplayWords.speed(speed));
+        members.put("loop", loop ? true : null);
+        members.put("range", range == null ? null : range(control));
+        members.put("devices", devices);
+        members.put("maxGap", maxGap == null ? null : maxGap.toString());
+        members.put("stamps", stamps);
+        members.put("startAt", ReplayWords.time(startAt));
+        members.put("analytics", analytics);
+        if (sourceTopic != null || sourceFile != null) {
+            members.put("source", sourceTopic == null ? Map.of("file", sourceFile) : Map.of("topic", sourceTopic));
+        }
+        return ControlOptions.object(members);
+    }
+
+    private Map<String, Object> range(ControlOptions control) {
+        String[] ends = range.split("\\.\\.", -1);
+        if (ends.length != 2 || ends[0].isBlank() || ends[1].isBlank()) {
+            throw control.refused("--range '%s' is not A..B, two event times".formatted(range));
+        }
+        return Map.of("from", ReplayWords.time(ends[0]), "to", ReplayWords.time(ends[1]));
+    }
+
+    /**
+     * The lines that start the analytics jobs on a cluster; none without {@code --analytics}.
+     *
+     * @param answer of the control plane: {@code topic} of one replay, or {@code replays} of a group
+     */
+    List<String> commands(JsonNode answer) {
+        if (analytics == null) {
+            return List.of();
+        }
+        List<String> topics = new ArrayList<>();
+        if (answer.hasNonNull("topic")) {
+            topics.add(answer.path("topic").asText());
+        }
+        answer.path("replays").forEach(replay -> {
+            String name = replay.asText();
+            int dot = name.lastIndexOf('.');
+            topics.add(Topics.replay(name.substring(0, dot), name.substring(dot + 1)));
+        });
+        return topics.stream()
+                .flatMap(one -> analytics.stream().map(job -> new AnalyticsJob(job, one)))
+                .map(job -> "flink run -d furrow-analytics-*-job.jar %s %s"
+                        .formatted(job.job(), String.join(" ", job.options())))
+                .toList();
+    }
+}

@@ -1,0 +1,54 @@
+package io.furrow.cli.control;
+
+import java.util.List;
+
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+
+/** What is steered: one replay, or with {@code --group} all of a group; and the words of the command after it. */
+final class ReplayTarget {
+    private static final String REPLAYS = "/api/replays";
+
+    @Option(
+            names = "--group",
+            paramLabel = "GROUP",
+            description = "All replays of this group, as start answers it; then REPLAY is left out.")
+    private String group;
+
+    @Parameters(
+            arity = "0..*",
+            paramLabel = "REPLAY …",
+            hideParamSyntax = true,
+            description = "Name of the replay, as start answers it, MISSION.ID; then what the command needs.")
+    private List<String> words = List.of();
+
+    /** Its path. */
+    String path(ControlOptions control) {
+        if (group != null) {
+            return REPLAYS + "/groups" + ControlApi.part(group);
+        } else if (words.isEmpty() || words.get(0).startsWith("-")) {
+            throw control.refused("Name a replay, MISSION.ID, or a group with --group");
+        }
+        return REPLAYS + ControlApi.part(words.get(0));
+    }
+
+    /**
+     * The words after the replay.
+     *
+     * @param least how many there must be
+     * @param most how many there may be
+     * @param what they are, for who gives others
+     */
+    List<String> words(ControlOptions control, int least, int most, String what) {
+        String path = path(control);
+        List<String> own = group == null ? words.subList(1, words.size()) : words;
+        if (own.size() < least || own.size() > most) {
+            throw control.refused("After %s comes %s; there is '%s'"
+                    .formatted(path.substring(REPLAYS.length() + 1), what, String.join(" ", own)));
+        }
+        return own;
+    }
+}

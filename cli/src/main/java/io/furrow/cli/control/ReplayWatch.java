@@ -1,0 +1,159 @@
+package io.furrow.cli.control;
+
+import java.io.IOException;
+import java.util.List;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.jline.terminal.Attributes;
+import org.jline.terminal.Size;
+import org.jline.terminal.Terminal;
+import org.jline.terminal.TerminalBuilder;
+import org.jline.utils.AttributedString;
+import org.jline.utils.Display;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ControlPlaneException;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** Follows a replay until it is over: at a terminal drawn in place and steered by keys, elsewhere a line per second, where it says something new. */
+final class ReplayWatch implements ControlOptions.Work {
+    private static final long DRAW_MILLIS = 200;
+    private static final long LINE_MILLIS = 1000;
+    private static final int NARROWEST = 20;
+    private static final long FINISH_SECONDS = 5;
+
+    private final ControlOptions control;
+    private final String path;
+    private final ReplayKeys keys = new ReplayKeys();
+    private volatile String failure = "";
+    private String printed = "";
+
+    /** @param path of the replay */
+    ReplayWatch(ControlOptions control, String path) {
+        this.control = control;
+        this.path = path;
+    }
+
+    @Override
+    public void with(ControlApi api) throws IOException {
+        JsonNode first = api.get(path);
+        try (ReplayEvents events = new ReplayEvents(api, path, first)) {
+            events.start();
+            if (System.console() == null) {
+                print(events);
+                return;
+            }
+            try (Terminal terminal =
+                    TerminalBuilder.builder().system(true).dumb(true).build()) {
+                if (terminal.getType().startsWith(Terminal.TYPE_DUMB)) {
+                    print(events);
+                } else {
+                    steer(terminal, events, api);
+                }
+            }
+        }
+    }
+
+    private void print(ReplayEvents events) throws IOException {
+        while (!events.isOver() && pause()) {
+            line(events);
+        }
+        line(events);
+    }
+
+    private void line(ReplayEvents events) throws IOException {
+        String lost = events.isConnected() || events.isOver() ? "" : "  (connection lost)";
+        String line = control.isJson()
+                ? NgsiJson.mapper().writeValueAsString(events.newest())
+                : ReplayView.line(events.newest()) + lost;
+        if (!line.equals(printed)) {
+            printed = line;
+            control.out().println(line);
+            control.out().flush();
+        }
+    }
+
+    private static boolean pause() {
+        try {
+            TimeUnit.MILLISECONDS.sleep(LINE_MILLIS);
+            return true;
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            return false;
+        }
+    }
+
+    /** Returns when the replay is over, or a key asks for it. */
+    void steer(Terminal terminal, ReplayEvents events, ControlApi api) throws IOException {
+        Attributes before = terminal.enterRawMode();
+        ExecutorService requests = Executors.newSingleThreadExecutor();
+        Display display = new Display(terminal, false);
+        KeyReader reader = new KeyReader(timeout -> terminal.reader().read(timeout));
+        try {
+            String key = "";
+            while (!events.isOver()
+                    && !key.equals("end")
+                    && !(key.equals("q") && keys.note().isEmpty())) {
+                if (!key.isEmpty()) {
+                    failure = "";
+                    keys.press(key, events.newest()).ifPresent(request -> requests.execute(() -> send(api, request)));
+                }
+                draw(terminal, display, events);
+                key = reader.read(DRAW_MILLIS);
+            }
+            draw(terminal, display, events);
+        } finally {
+            finish(requests);
+            terminal.setAttributes(before);
+            terminal.writer().println();
+            terminal.flush();
+        }
+    }
+
+    /** What the last keys asked for is sent. */
+    private static void finish(ExecutorService requests) {
+        requests.shutdown();
+        try {
+            if (!requests.awaitTermination(FINISH_SECONDS, TimeUnit.SECONDS)) {
+                requests.shutdownNow();
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    private void send(ControlApi api, ReplayKeys.Request request) {
+        try {
+            String to = request.path().startsWith("/") ? request.path() : path + "/" + request.path();
+            api.send("POST", to, ControlOptions.object(request.body()));
+        } catch (ControlPlaneException e) {
+            failure = e.getMessage();
+        }
+    }
+
+    private void draw(Terminal terminal, Display display, ReplayEvents events) {
+        Size size = terminal.getSize();
+        int width = size.getColumns() <= 0 ? 80 : Math.max(NARROWEST, size.getColumns());
+        display.resize(Math.max(8, size.getRows()), width);
+        List<AttributedString> lines =
+                ReplayView.block(events.newest(), notice(events), keys.isHelp(), width - 1).stream()
+                        .map(AttributedString::new)
+                        .toList();
+        display.update(lines, -1);
+    }
+
+    private String notice(ReplayEvents events) {
+        if (keys.note().isPresent()) {
+            return "marker: " + keys.note().get() + "_   (enter keeps it, escape does not)";
+        } else if (!failure.isEmpty()) {
+            return failure;
+        } else if (!events.isConnected() && !events.isOver()) {
+            return "connecting …";
+        }
+        return keys.message();
+    }
+}

@@ -1,0 +1,205 @@
+package io.furrow.cli.control.client;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.Map;
+import java.util.stream.Collectors;
+import javax.net.ssl.SSLContext;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.option.HttpUri;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** What every command has that speaks with the control plane: where that is, as whom, and how the answer is shown. */
+public final class ControlOptions {
+    private enum Output {
+        TABLE,
+        JSON
+    }
+
+    @Spec(Spec.Target.MIXEE)
+    private CommandSpec spec;
+
+    @Option(
+            names = "--api",
+            paramLabel = "URL",
+            converter = HttpUri.class,
+            defaultValue = "${env:FURROW_API:-http://127.0.0.1:8085}",
+            description = "REST API of the control plane. Default: $FURROW_API, else http://127.0.0.1:8085.")
+    private URI api;
+
+    @Option(
+            names = "--token-file",
+            paramLabel = "FILE",
+            description =
+                    "File of the token that the control plane asks for: its first line is a token, or '<name> <token> <role>' as in "
+                            + "the file of the control plane. Default: the token in $FURROW_TOKEN, else the file $FURROW_TOKEN_FILE.")
+    private Path tokenFile;
+
+    @Option(
+            names = "--api-ca",
+            paramLabel = "FILE",
+            defaultValue = "${env:FURROW_API_CA}",
+            description =
+                    "PEM file with the certificates to trust where the control plane is reached over https. Default: "
+                            + "$FURROW_API_CA, else those that Java trusts.")
+    private Path ca;
+
+    @Option(
+            names = "--output",
+            paramLabel = "FORM",
+            defaultValue = "table",
+            description = "table or json. Default: ${DEFAULT-VALUE}.")
+    private Output output;
+
+    /** A use of the API. */
+    public interface Work {
+        void with(ControlApi api) throws IOException;
+    }
+
+    /** Prints what a path has as rows of a table; one object is one row. */
+    public int show(String path, ControlTable table) {
+        return run(api -> {
+            JsonNode answer = api.get(path);
+            if (isJson()) {
+                print(answer);
+            } else {
+                table.lines(rows(answer)).forEach(out()::println);
+            }
+        });
+    }
+
+    /** Prints the object that a path has, a member a line. */
+    public int showOne(String path) {
+        return run(api -> shown(api.get(path)));
+    }
+
+    private void shown(JsonNode object) throws IOException {
+        if (isJson()) {
+            print(object);
+        } else {
+            members(object);
+        }
+    }
+
+    /** Sends a command and prints what was answered. */
+    public int command(String method, String path, JsonNode body) {
+        return run(api -> answered(api.send(method, path, body)));
+    }
+
+    /** Sends a command and prints the object that is answered, a member a line. */
+    public int commandShown(String method, String path) {
+        return run(api -> shown(api.send(method, path, null)));
+    }
+
+    /** Prints the answer to a command. */
+    public void answered(JsonNode answer) throws IOException {
+        if (isJson()) {
+            print(answer);
+            return;
+        }
+        String members = answer.properties().stream()
+                .filter(each -> !each.getKey().equals("type")
+                        && !each.getKey().equals("status")
+                        && !each.getKey().equals("requestId"))
+                .map(each -> each.getKey() + " " + text(each.getValue()))
+                .collect(Collectors.joining(", "));
+        out().println(answer.path("status").asText("done") + ": " + members);
+    }
+
+    /** Runs it and prints a sentence if it fails. @return the exit code */
+    public int run(Work work) {
+        try {
+            work.with(new ControlApi(api, token(), trust()));
+            out().flush();
+            return 0;
+        } catch (ControlPlaneException e) {
+            spec.commandLine().getErr().println(e.getMessage());
+        } catch (IOException e) {
+            spec.commandLine().getErr().println("cannot read or write: " + e.getMessage());
+        }
+        return spec.commandLine().getCommandSpec().exitCodeOnExecutionException();
+    }
+
+    /** That a command cannot be run as it was given. */
+    public ParameterException refused(String reason) {
+        return new ParameterException(spec.commandLine(), reason);
+    }
+
+    public boolean isJson() {
+        return output == Output.JSON;
+    }
+
+    public void print(JsonNode json) throws IOException {
+        out().println(NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json));
+    }
+
+    public PrintWriter out() {
+        return spec.commandLine().getOut();
+    }
+
+    /** An object of those that were given. */
+    public static ObjectNode object(Map<String, ?> members) {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        members.forEach((name, value) -> {
+            if (value != null) {
+                json.set(name, NgsiJson.mapper().valueToTree(value));
+            }
+        });
+        return json;
+    }
+
+    private void members(JsonNode object) {
+        int width = object.properties().stream()
+                .mapToInt(each -> each.getKey().length())
+                .max()
+                .orElse(0);
+        object.properties()
+                .forEach(each -> out().println(each.getKey()
+                        + " ".repeat(width - each.getKey().length() + 2)
+                        + text(each.getValue())));
+    }
+
+    public static String text(JsonNode value) {
+        return value.isValueNode() ? value.asText() : value.toString();
+    }
+
+    /** Lists may come bare, or as the one list of an object. */
+    private static JsonNode rows(JsonNode answer) {
+        if (answer.isArray()) {
+            return answer;
+        }
+        for (JsonNode member : answer) {
+            if (member.isArray() && answer.size() == 1) {
+                return member;
+            }
+        }
+        return JsonNodeFactory.instance.arrayNode().add(answer);
+    }
+
+    private String token() {
+        try {
+            return ClientToken.find(tokenFile, System.getenv()).orElse(null);
+        } catch (IOException e) {
+            throw new ParameterException(spec.commandLine(), e.getMessage(), e);
+        }
+    }
+
+    private SSLContext trust() {
+        try {
+            return ca == null ? null : TrustedCertificates.context(ca);
+        } catch (IOException e) {
+            throw new ParameterException(spec.commandLine(), "--api-ca " + e.getMessage(), e);
+        }
+    }
+}

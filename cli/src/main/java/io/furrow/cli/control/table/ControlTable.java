@@ -1,0 +1,124 @@
+package io.furrow.cli.control.table;
+
+import java.time.Clock;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.core.JsonPointer;
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.cli.control.client.ControlOptions;
+
+/** Objects as a table, each column as wide as its widest cell. */
+public final class ControlTable {
+    private final String nothing;
+    private final Clock clock;
+    private final List<Column> columns = new ArrayList<>();
+
+    private enum Kind {
+        TEXT,
+        TIME,
+        AGE,
+        COUNT
+    }
+
+    private record Column(String title, List<JsonPointer> places, Kind kind) {}
+
+    /** @param nothing what is said if there is no row */
+    public ControlTable(String nothing) {
+        this(nothing, Clock.systemUTC());
+    }
+
+    /** @param clock that ages are reported by */
+    ControlTable(String nothing, Clock clock) {
+        this.nothing = nothing;
+        this.clock = clock;
+    }
+
+    /** @param places JSON pointers; the first that has something is shown */
+    public ControlTable text(String title, String... places) {
+        return column(title, Kind.TEXT, places);
+    }
+
+    /** A time, epoch ms or ISO 8601, shown to the second in UTC. */
+    public ControlTable time(String title, String... places) {
+        return column(title, Kind.TIME, places);
+    }
+
+    /** How long ago a time is, epoch ms, in its greatest unit: {@code 42s}, {@code 5m}, {@code 3h}, {@code 12d}. */
+    public ControlTable age(String title, String... places) {
+        return column(title, Kind.AGE, places);
+    }
+
+    /** How many members a list or an object has. */
+    public ControlTable count(String title, String... places) {
+        return column(title, Kind.COUNT, places);
+    }
+
+    private ControlTable column(String title, Kind kind, String... places) {
+        columns.add(new Column(
+                title, java.util.Arrays.stream(places).map(JsonPointer::compile).toList(), kind));
+        return this;
+    }
+
+    /** Title and one line per object. */
+    public List<String> lines(JsonNode rows) {
+        if (rows.isEmpty()) {
+            return List.of(nothing);
+        }
+        List<List<String>> cells = new ArrayList<>();
+        cells.add(columns.stream().map(Column::title).toList());
+        rows.forEach(row ->
+                cells.add(columns.stream().map(column -> cell(column, row)).toList()));
+        int[] widths = new int[columns.size()];
+        for (List<String> line : cells) {
+            for (int i = 0; i < widths.length; i++) {
+                widths[i] = Math.max(widths[i], line.get(i).length());
+            }
+        }
+        return cells.stream().map(line -> line(line, widths)).toList();
+    }
+
+    private static String line(List<String> cells, int[] widths) {
+        StringBuilder line = new StringBuilder();
+        for (int i = 0; i < widths.length; i++) {
+            line.append(cells.get(i)).append(" ".repeat(widths[i] - cells.get(i).length() + 2));
+        }
+        return line.toString().stripTrailing();
+    }
+
+    private String cell(Column column, JsonNode row) {
+        for (JsonPointer place : column.places()) {
+            JsonNode value = row.at(place);
+            if (!value.isMissingNode() && !value.isNull()) {
+                return cell(column.kind(), value);
+            }
+        }
+        return "–";
+    }
+
+    private static String age(Duration age) {
+        if (age.compareTo(Duration.ofMinutes(2)) < 0) {
+            return Math.max(0, age.toSeconds()) + "s";
+        } else if (age.compareTo(Duration.ofHours(2)) < 0) {
+            return age.toMinutes() + "m";
+        }
+        return age.compareTo(Duration.ofDays(2)) < 0 ? age.toHours() + "h" : age.toDays() + "d";
+    }
+
+    private String cell(Kind kind, JsonNode value) {
+        return switch (kind) {
+            case COUNT -> Integer.toString(value.size());
+            case TIME ->
+                (value.isIntegralNumber()
+                                ? Instant.ofEpochMilli(value.longValue()).toString()
+                                : value.asText())
+                        .replaceFirst("\\.\\d+Z$", "Z");
+            case AGE -> age(Duration.ofMillis(clock.millis() - value.asLong()));
+            case TEXT ->
+                ControlOptions.text(value).replaceAll("\\p{Cntrl}", " "); // one line, and nothing that a terminal obeys
+        };
+    }
+}

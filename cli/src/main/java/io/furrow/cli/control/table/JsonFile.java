@@ -1,0 +1,24 @@
+package io.furrow.cli.control.table;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** JSON that a user has in a file. */
+public final class JsonFile {
+    private JsonFile() {}
+
+    /** @throws IOException if there is none; the message names the file */
+    public static JsonNode read(Path file) throws IOException {
+        try {
+            return NgsiJson.read(Files.readAllBytes(file));
+        } catch (UnreadableException e) {
+            throw new IOException(file + " is no JSON: " + e.getMessage(), e);
+        }
+    }
+}

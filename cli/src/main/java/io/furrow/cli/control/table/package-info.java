@@ -1,0 +1,2 @@
+/** Input files and output tables of the control commands. */
+package io.furrow.cli.control.table;

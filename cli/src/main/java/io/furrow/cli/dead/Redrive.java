@@ -1,0 +1,248 @@
+package io.furrow.cli.dead;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.Set;
+import java.util.TreeMap;
+
+import org.apache.kafka.clients.consumer.ConsumerConfig;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerConfig;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.PartitionInfo;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.Original;
+
+/**
+ * Sends dead letters to a topic again, as they were: key, bytes, time and headers, without those that say why they
+ * were set aside; in the place of a letter that stands for a large record, that record from where it is. What is
+ * written and the memory of it are one transaction, so that no letter is fed twice. Reads up to the end that the topic
+ * had at the beginning: a letter that dies again waits for the next time.
+ */
+public final class Redrive {
+    /**
+     * Who sets aside a copy: the event continued without its image, to its topics though not to MongoDB, or to the other jobs.
+     * Fed again it would be there twice, so these letters must be asked for by name.
+     */
+    public static final Set<String> WENT_ON =
+            Set.of("ingest-images", "missions", "temperature", "collision", "presence");
+
+    static final Duration TIMEOUT = Duration.ofSeconds(30);
+    /** Of a transaction with large originals. A broker's own limit is 15 minutes, if not set otherwise. */
+    private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
+
+    private static final String OTHER = "no dead letter";
+    private static final String TRUNCATED = "truncated";
+    private static final String GONE = "original gone";
+
+    /**
+     * What is requested.
+     *
+     * @param from topic of the dead letters
+     * @param to topic to which they go
+     * @param again whether those are fed again that were fed before
+     * @param dryRun whether they are only counted
+     */
+    public record Request(String from, String to, Choice choice, boolean again, boolean dryRun) {}
+
+    /**
+     * Which letters.
+     *
+     * @param reasons those wanted; empty for all
+     * @param stages those wanted; empty for all but {@link #WENT_ON}
+     */
+    public record Choice(Set<String> reasons, Set<String> stages) {
+        boolean isOf(Kind kind) {
+            boolean wanted = stages.isEmpty() ? !WENT_ON.contains(kind.stage()) : stages.contains(kind.stage());
+            return wanted && (reasons.isEmpty() || reasons.contains(kind.reason()));
+        }
+    }
+
+    /** What a letter says of itself. */
+    record Kind(String reason, String stage) {
+        /** For people. */
+        String told() {
+            return WENT_ON.contains(stage)
+                    ? reason + " of " + stage + ", whose event went on"
+                    : reason + " of " + stage;
+        }
+    }
+
+    /** How many were fed, by reason, and how many stayed, by why they did. */
+    public record Outcome(Map<String, Long> fed, Map<String, Long> left) {
+        public long total() {
+            return fed.values().stream().mapToLong(Long::longValue).sum();
+        }
+    }
+
+    private final Properties kafka;
+    private final Request wish;
+    private final Map<String, Long> fed = new TreeMap<>();
+    private final Map<String, Long> left = new TreeMap<>();
+    private RedriveOffsets memory;
+    private Originals originals;
+
+    /** @param kafka what every client needs, {@code bootstrap.servers} at least */
+    public Redrive(Properties kafka, Request wish) {
+        this.kafka = kafka;
+        this.wish = wish;
+    }
+
+    /** @throws IOException if the topic is not there, or its end is not reached */
+    public Outcome run() throws IOException {
+        try (var consumer = consumer();
+                var found = new Originals(consumer());
+                var producer = wish.dryRun() ? null : producer()) {
+            originals = found;
+            assign(consumer);
+            Map<TopicPartition, Long> ends = consumer.endOffsets(consumer.assignment(), TIMEOUT);
+            if (producer != null) {
+                producer.initTransactions(); // another that feeds the same is out from here on, and what it did is
+                // known
+            }
+            memory = RedriveOffsets.read(kafka, wish, producer != null);
+            long until = System.nanoTime() + TIMEOUT.toNanos();
+            while (isBehind(consumer, ends)) {
+                ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
+                if (!records.isEmpty()) {
+                    feed(records, ends, producer);
+                    until = System.nanoTime() + TIMEOUT.toNanos();
+                } else if (System.nanoTime() > until) {
+                    throw new IOException("the end of " + wish.from() + " was not reached; does its broker answer?");
+                }
+            }
+            return new Outcome(fed, left);
+        }
+    }
+
+    private void assign(KafkaConsumer<byte[], byte[]> consumer) throws IOException {
+        List<PartitionInfo> partitions = consumer.partitionsFor(wish.from(), TIMEOUT);
+        if (partitions == null || partitions.isEmpty()) {
+            throw new IOException("there is no topic " + wish.from() + "; name another with --topic");
+        }
+        consumer.assign(partitions.stream()
+                .map(partition -> new TopicPartition(wish.from(), partition.partition()))
+                .toList());
+        consumer.seekToBeginning(consumer.assignment());
+    }
+
+    private static boolean isBehind(KafkaConsumer<byte[], byte[]> consumer, Map<TopicPartition, Long> ends) {
+        return ends.entrySet().stream().anyMatch(end -> consumer.position(end.getKey()) < end.getValue());
+    }
+
+    /** Originals may be large: each is sent before the next is read. */
+    private void feed(
+            ConsumerRecords<byte[], byte[]> records,
+            Map<TopicPartition, Long> ends,
+            KafkaProducer<byte[], byte[]> producer)
+            throws IOException {
+        boolean begun = false;
+        for (ConsumerRecord<byte[], byte[]> letter : records) {
+            boolean isNew = letter.offset() >= ends.get(new TopicPartition(letter.topic(), letter.partition()));
+            Optional<ConsumerRecord<byte[], byte[]>> original =
+                    isNew || !isWanted(letter) ? Optional.empty() : original(letter);
+            if (original.isPresent()) {
+                memory.add(letter.partition(), kind(letter), letter.offset());
+                fed.merge(kind(letter).reason(), 1L, Long::sum);
+                if (producer != null) {
+                    if (!begun) {
+                        producer.beginTransaction();
+                        begun = true;
+                    }
+                    producer.send(broughtBack(original.get()));
+                }
+            }
+        }
+        List<ProducerRecord<byte[], byte[]>> done = memory.changes();
+        if (begun) {
+            done.forEach(producer::send);
+            producer.commitTransaction();
+        }
+    }
+
+    private boolean isWanted(ConsumerRecord<byte[], byte[]> letter) {
+        Kind kind = kind(letter);
+        if (kind.reason().isEmpty()) {
+            left.merge(OTHER, 1L, Long::sum);
+            return false;
+        }
+        if (!wish.again() && memory.holds(letter.partition(), kind, letter.offset())) {
+            return false;
+        }
+        if (!wish.choice().isOf(kind)) {
+            left.merge(kind.told(), 1L, Long::sum);
+            return false;
+        }
+        return true;
+    }
+
+    /** The letter itself, or the record that it stands for; empty, and counted as left, where neither is whole. */
+    private Optional<ConsumerRecord<byte[], byte[]>> original(ConsumerRecord<byte[], byte[]> letter)
+            throws IOException {
+        Optional<Original> elsewhere = Original.of(header(letter, Original.POSITION), header(letter, Original.BYTES));
+        if (elsewhere.isPresent()) {
+            Optional<ConsumerRecord<byte[], byte[]>> found = originals.find(elsewhere.get(), letter);
+            if (found.isEmpty()) {
+                left.merge(GONE, 1L, Long::sum);
+            }
+            return found;
+        }
+        if (header(letter, DeadLetter.MESSAGE).contains("(truncated")) {
+            left.merge(TRUNCATED, 1L, Long::sum);
+            return Optional.empty();
+        }
+        return Optional.of(letter);
+    }
+
+    private static Kind kind(ConsumerRecord<byte[], byte[]> letter) {
+        return new Kind(header(letter, DeadLetter.REASON), header(letter, DeadLetter.STAGE));
+    }
+
+    private ProducerRecord<byte[], byte[]> broughtBack(ConsumerRecord<byte[], byte[]> original) {
+        ProducerRecord<byte[], byte[]> record =
+                new ProducerRecord<>(wish.to(), null, Originals.timeOf(original), original.key(), original.value());
+        for (Header header : original.headers()) {
+            if (!DeadLetter.HEADERS.contains(header.key())) {
+                record.headers().add(header);
+            }
+        }
+        return record;
+    }
+
+    private static String header(ConsumerRecord<byte[], byte[]> letter, String name) {
+        Header header = letter.headers().lastHeader(name);
+        return header == null || header.value() == null ? "" : new String(header.value(), StandardCharsets.UTF_8);
+    }
+
+    private KafkaConsumer<byte[], byte[]> consumer() {
+        Properties settings = new Properties();
+        settings.putAll(kafka);
+        settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
+        settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
+        return new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer());
+    }
+
+    private KafkaProducer<byte[], byte[]> producer() {
+        Properties settings = new Properties();
+        settings.putAll(kafka);
+        settings.setProperty(ProducerConfig.TRANSACTIONAL_ID_CONFIG, "furrow-redrive-" + wish.from() + "-" + wish.to());
+        settings.setProperty(ProducerConfig.TRANSACTION_TIMEOUT_CONFIG, Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        // The topic may have been made just now, see KAFKA-15591.
+        settings.setProperty(ProducerConfig.MAX_IN_FLIGHT_REQUESTS_PER_CONNECTION, "1");
+        settings.setProperty(ProducerConfig.MAX_REQUEST_SIZE_CONFIG, Integer.toString(16 * 1024 * 1024));
+        return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+    }
+}

@@ -1,0 +1,131 @@
+package io.furrow.cli.dead;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.config.TopicConfig;
+import org.apache.kafka.common.errors.TimeoutException;
+import org.apache.kafka.common.errors.TopicExistsException;
+
+import io.furrow.kafka.CommittedReader;
+
+/**
+ * How far the letters of each partition, reason and stage were brought to a topic: the compacted topic {@code <dead
+ * letters>.refed}, written in the transaction that brings them. Whichever reasons and stages are asked for together, no letter
+ * is brought twice; and unlike the offsets of a consumer group this is not forgotten after a week.
+ */
+final class RedriveOffsets {
+    private static final Duration TIMEOUT = Duration.ofSeconds(30);
+
+    private final String topic;
+    private final String prefix;
+    private final Map<String, Long> next = new HashMap<>();
+    private final Map<String, Long> changed = new HashMap<>();
+
+    /** @param dead id of the topic of dead letters, for one that is made again counts from 0 again */
+    private RedriveOffsets(String topic, String dead, String to) {
+        this.topic = topic;
+        this.prefix = dead + "|" + to + "|";
+    }
+
+    /**
+     * @param making whether the topic is made where it is not there; else there is no memory then
+     * @throws IOException if Kafka refuses; the message says what
+     */
+    static RedriveOffsets read(Properties kafka, Redrive.Request wish, boolean making) throws IOException {
+        String topic = wish.from() + ".refed";
+        try (Admin admin = Admin.create(kafka)) {
+            String dead = admin.describeTopics(List.of(wish.from()))
+                    .allTopicNames()
+                    .get()
+                    .get(wish.from())
+                    .topicId()
+                    .toString();
+            RedriveOffsets memory = new RedriveOffsets(topic, dead, wish.to());
+            if (making) {
+                make(admin, topic);
+            }
+            if (making || admin.listTopics().names().get().contains(topic)) {
+                memory.readAll(kafka);
+            }
+            return memory;
+        } catch (ExecutionException e) {
+            throw new IOException("%s: %s".formatted(topic, e.getCause().getMessage()), e.getCause());
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new IOException("interrupted", e);
+        }
+    }
+
+    private static void make(Admin admin, String topic) throws ExecutionException, InterruptedException {
+        NewTopic compacted = new NewTopic(topic, Optional.of(1), Optional.empty())
+                .configs(Map.of(TopicConfig.CLEANUP_POLICY_CONFIG, TopicConfig.CLEANUP_POLICY_COMPACT));
+        try {
+            admin.createTopics(List.of(compacted)).all().get();
+        } catch (ExecutionException e) {
+            if (!(e.getCause() instanceof TopicExistsException)) {
+                throw e;
+            }
+        }
+    }
+
+    private void readAll(Properties kafka) throws IOException {
+        Properties settings = new Properties();
+        settings.putAll(kafka);
+        settings.setProperty("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
+        try (CommittedReader<byte[]> reader = CommittedReader.openBytes(settings, topic)) {
+            reader.readToEnd(this::remember);
+        } catch (TimeoutException e) {
+            throw new IOException("the end of " + topic + " was not reached; does its broker respond?", e);
+        }
+    }
+
+    private void remember(ConsumerRecord<byte[], byte[]> record) {
+        String key = new String(record.key(), StandardCharsets.UTF_8);
+        if (key.startsWith(prefix) && record.value() != null) {
+            next.put(key, Long.parseLong(new String(record.value(), StandardCharsets.UTF_8)));
+        }
+    }
+
+    /** Whether the letter at this offset was brought back before. */
+    boolean holds(int partition, Redrive.Kind kind, long offset) {
+        return offset < next.getOrDefault(key(partition, kind), 0L);
+    }
+
+    /** To be remembered with the next {@link #changes()}. */
+    void add(int partition, Redrive.Kind kind, long offset) {
+        String key = key(partition, kind);
+        if (offset >= next.getOrDefault(key, 0L)) { // what is fed again was remembered before
+            next.put(key, offset + 1);
+            changed.put(key, offset + 1);
+        }
+    }
+
+    /** What was added since the last call, for the transaction that brings these letters. */
+    List<ProducerRecord<byte[], byte[]>> changes() {
+        List<ProducerRecord<byte[], byte[]>> records = new ArrayList<>();
+        changed.forEach((key, offset) -> records.add(new ProducerRecord<>(
+                topic,
+                0,
+                key.getBytes(StandardCharsets.UTF_8),
+                offset.toString().getBytes(StandardCharsets.UTF_8))));
+        changed.clear();
+        return records;
+    }
+
+    private String key(int partition, Redrive.Kind kind) {
+        return prefix + partition + "|" + kind.reason() + "|" + kind.stage();
+    }
+}

@@ -1,0 +1,2 @@
+/** Fields, as {@code ./furrow fields} reports them. */
+package io.furrow.cli.field;

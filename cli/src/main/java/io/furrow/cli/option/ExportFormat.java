@@ -1,0 +1,86 @@
+package io.furrow.cli.option;
+
+import java.io.IOException;
+import java.io.OutputStream;
+import java.util.List;
+import java.util.Optional;
+import java.util.function.LongConsumer;
+
+import org.apache.flink.core.fs.Path;
+
+import io.furrow.ingest.mission.MissionFiles;
+import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.export.Exported;
+import io.furrow.mission.export.GeoJsonExport;
+import io.furrow.mission.export.McapExport;
+import io.furrow.mission.export.MissionExport;
+import io.furrow.mission.marker.Marker;
+import io.furrow.mission.marker.MarkerFile;
+import io.furrow.mission.marker.Markers;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.MongoRecordings;
+
+/** What {@code ./furrow mission export} writes. */
+public enum ExportFormat {
+    JSONL(null),
+    MCAP(new McapExport()),
+    GEOJSON(new GeoJsonExport());
+
+    /** Null for the lines that can be imported again. */
+    private final MissionExport export;
+
+    ExportFormat(MissionExport export) {
+        this.export = export;
+    }
+
+    /**
+     * A mission in MongoDB.
+     *
+     * @param missions where it is known
+     */
+    public record Source(StoredMissions missions, String mongo, String mission) {}
+
+    public Exported write(Source source, OutputStream out, LongConsumer progress) throws IOException {
+        if (export == null) {
+            return new Exported(source.missions().export(source.mission(), out, progress), 0, Optional.empty());
+        }
+        MongoRecordings recordings = new MongoRecordings(source.mongo(), MongoAccess.DATABASE);
+        try (Recording recording = recordings
+                .open(source.mission())
+                .orElseThrow(() ->
+                        new RecordingGoneException("Mission %s has just been deleted".formatted(source.mission())))) {
+            MissionExport.Source mission = new MissionExport.Source(source.mission(), recording, markers(source));
+            return export.write(mission, out, progress);
+        }
+    }
+
+    /**
+     * Writes the markers of a mission beside its file where that has no room for them.
+     *
+     * @param file of the mission
+     * @return the file of the markers; empty if there is none, as there are no markers or the mission's file holds them
+     */
+    public Optional<Path> writeMarkers(Source source, Path file) throws IOException {
+        if (export != null) {
+            return Optional.empty();
+        }
+        Path beside = new Path(MarkerFile.beside(file.toString()));
+        List<Marker> markers = markers(source);
+        if (markers.isEmpty() && !beside.getFileSystem().exists(beside)) {
+            return Optional.empty();
+        }
+        MissionFiles.write(beside, out -> {
+            MarkerFile.write(markers, out);
+            return markers.size();
+        });
+        return Optional.of(beside);
+    }
+
+    private static List<Marker> markers(Source source) throws IOException {
+        try (Markers markers = Markers.open(source.mongo(), MongoAccess.DATABASE)) {
+            return markers.list(source.mission());
+        }
+    }
+}

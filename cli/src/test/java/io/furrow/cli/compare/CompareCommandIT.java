@@ -1,0 +1,142 @@
+package io.furrow.cli.compare;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+import picocli.CommandLine.Model.CommandSpec;
+
+import io.furrow.cli.Commands;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.ngsi.Entity;
+
+import static io.furrow.cli.compare.FoundRecords.encounter;
+import static io.furrow.cli.compare.FoundRecords.entered;
+import static io.furrow.cli.compare.FoundRecords.left;
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
+class CompareCommandIT {
+    private static final String A = "data.weeding.replay.0000000a";
+    private static final String B = "data.weeding.replay.0000000b";
+
+    @TempDir
+    static Path folder;
+
+    private static EmbeddedKafka kafka;
+
+    @BeforeAll
+    static void playsTwoReplays() throws Exception {
+        kafka = EmbeddedKafka.start(folder.resolve("kafka"), 0);
+        kafka.createTopics(List.of(A, A + ".collision", A + ".presence", B, B + ".collision", "data.collision").stream()
+                .map(topic -> new NewTopic(topic, Optional.of(2), Optional.empty()))
+                .toList());
+
+        try (KafkaProducer<byte[], byte[]> producer = new KafkaProducer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers(), "transactional.id", "test"),
+                new ByteArraySerializer(),
+                new ByteArraySerializer())) {
+            producer.initTransactions();
+            producer.beginTransaction();
+            send(producer, A + ".collision", 0, encounter("xy", "ended", 2, 0, 10));
+            send(producer, A + ".collision", 1, encounter("xy", "ended", 2, 5, 10));
+            send(producer, A + ".presence", 0, left("x", "f", 0, 10));
+            send(producer, A, 0, entered("x", "f", 0));
+            send(producer, A, 2, entered("x", "f", 0));
+            send(producer, B, 0, entered("x", "f", 0));
+            send(producer, B + ".collision", 0, encounter("xy", "ended", 2, 0, 10));
+            send(producer, "data.collision", null, encounter("xy", "ended", 2, 0, 10));
+            producer.commitTransaction();
+            producer.beginTransaction();
+            send(producer, B + ".collision", 0, encounter("zz", "ended", 2, 0, 10));
+            producer.flush();
+            producer.abortTransaction();
+        }
+    }
+
+    @AfterAll
+    static void stops() throws Exception {
+        kafka.close();
+    }
+
+    private static void send(KafkaProducer<byte[], byte[]> producer, String topic, Integer epoch, Entity entity) {
+        ProducerRecord<byte[], byte[]> record = new ProducerRecord<>(topic, entity.toBytes());
+        if (epoch != null) {
+            record.headers().add("replay-epoch", epoch.toString().getBytes(UTF_8));
+        }
+        producer.send(record);
+    }
+
+    @Test
+    void comparesTheNewestEpochsOrThoseThatAreNamed() {
+        StringWriter said = new StringWriter();
+
+        // In epoch 2 of A nothing was found.
+        assertThat(run(said, "weeding.0000000a", "weeding.0000000b")).isEqualTo(1);
+        assertThat(said.toString())
+                .contains("A  weeding.0000000a, epoch 2", "ENCOUNTERS  0 same, 0 changed, 0 only in A, 1 only in B")
+                .contains("no topic of averages, stays: nothing was found, or the job did not run")
+                .contains("AVERAGES  none on either side");
+
+        assertThat(run(said, "weeding.0000000a", B, "--epoch-a", "1")).isEqualTo(1);
+        assertThat(said.toString()).contains("1 changed, 0 only in A, 0 only in B", "start 5 s earlier");
+    }
+
+    @Test
+    void comparesAReplayWithWhatWasFoundLive() throws Exception {
+        StringWriter said = new StringWriter();
+        Path svg = folder.resolve("picture.svg");
+
+        assertThat(run(
+                        said,
+                        "weeding.0000000b",
+                        "live",
+                        "--from",
+                        "2026-05-01T01:40:00Z",
+                        "--to",
+                        "1777700000000",
+                        "--svg",
+                        svg.toString()))
+                .isZero();
+
+        assertThat(said.toString()).contains("1 same", "A and B are the same.");
+        assertThat(Files.readString(svg)).startsWith("<svg ").endsWith("</svg>\n");
+    }
+
+    @Test
+    void saysWhatCannotBeCompared() {
+        StringWriter said = new StringWriter();
+
+        assertThat(run(said, "weeding.0000000a", "live")).isEqualTo(2);
+        assertThat(run(said, "weeding.0000000a", "weeding.0000000a")).isEqualTo(2);
+        assertThat(run(said, "weeding.0000000a", "weeding.0000000c")).isEqualTo(2);
+        assertThat(said.toString())
+                .contains(
+                        "say which part of it with --from and --to",
+                        "A and B are the same; name two",
+                        "There is no topic");
+    }
+
+    private static int run(StringWriter said, String... args) {
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+        String[] all = java.util.stream.Stream.of(
+                        List.of("replay", "compare"), List.of(args), List.of("--kafka", kafka.bootstrapServers()))
+                .flatMap(List::stream)
+                .toArray(String[]::new);
+        return line.execute(all);
+    }
+}

@@ -1,0 +1,113 @@
+package io.furrow.cli.compare;
+
+import java.io.StringReader;
+import java.util.List;
+import javax.xml.parsers.DocumentBuilderFactory;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.Test;
+import org.w3c.dom.Document;
+import org.xml.sax.InputSource;
+
+import io.furrow.cli.compare.report.ComparisonJson;
+import io.furrow.cli.compare.report.ComparisonSvg;
+import io.furrow.cli.compare.report.ComparisonTable;
+
+import static io.furrow.cli.compare.FoundRecords.T0;
+import static io.furrow.cli.compare.FoundRecords.average;
+import static io.furrow.cli.compare.FoundRecords.encounter;
+import static io.furrow.cli.compare.FoundRecords.entered;
+import static io.furrow.cli.compare.FoundRecords.left;
+import static io.furrow.cli.compare.FoundRecords.side;
+import static org.assertj.core.api.Assertions.assertThat;
+
+class ComparisonFormsTest {
+    private static final Comparison DIFFERENT = Comparison.of(
+            side(
+                    "weeding.0a1b2c3d",
+                    encounter("xy", "ended", 2, 0, 10),
+                    encounter("<&", "ended", 2, 20, 30),
+                    average("f", 0, 21.5, "robust", "x"),
+                    average("f", 10, 22, "robust"),
+                    left("x", "f", 1, 9)),
+            side(
+                    "live",
+                    encounter("xy", "ended", 2.25, 0, 7),
+                    average("f", 0, 21.25, "unverified"),
+                    average("f", 10, 22, "robust"),
+                    left("x", "f", 1, 9),
+                    entered("z", "f", 61)),
+            TimeRange.ALL);
+
+    @Test
+    void showsWhatDiffersAsATable() {
+        assertThat(new ComparisonTable(40).lines(DIFFERENT))
+                .containsExactly(
+                        "A  weeding.0a1b2c3d, epoch 0",
+                        "B  live",
+                        "",
+                        "ENCOUNTERS  0 same, 1 changed, 1 only in A, 0 only in B",
+                        "  changed    2026-05-01T01:46:40Z  10 s          x – y  closest 2 → 2.25 (+0.25), end 3 s earlier",
+                        "  only in A  2026-05-01T01:47:00Z  10 s          < – &  closest 2 m",
+                        "",
+                        "AVERAGES  1 same, 1 changed, 0 only in A, 0 only in B",
+                        "  changed    2026-05-01T01:46:40Z  10 s          f Temperature  mean 21.5 → 21.25 (−0.25), suspects x → none, "
+                                + "quality robust → unverified",
+                        "",
+                        "STAYS  1 same, 0 changed, 0 only in A, 1 only in B",
+                        "  only in B  2026-05-01T01:47:41Z  open          z in f",
+                        "",
+                        "A and B differ.");
+    }
+
+    @Test
+    void saysHowManyLinesItLeavesOut() {
+        assertThat(new ComparisonTable(1).lines(DIFFERENT))
+                .contains("  … and 1 more; --limit shows more")
+                .noneMatch(line -> line.contains("< – &"));
+    }
+
+    @Test
+    void showsWhatDiffersAsJson() {
+        JsonNode json = ComparisonJson.of(DIFFERENT);
+
+        assertThat(json.at("/same").asBoolean()).isFalse();
+        assertThat(json.at("/stays/same").asInt()).isEqualTo(1);
+        assertThat(json.at("/encounters/differences/0").toString())
+                .isEqualTo(
+                        "{\"verdict\":\"changed\",\"subject\":\"x – y\",\"a\":{\"start\":%d,\"end\":%d,\"closest\":2.0},\"b\":{\"start\":%d,\"end\":%d,\"closest\":2.25},\"changes\":[\"closest\",\"end\"]}"
+                                .formatted(T0, T0 + 10_000, T0, T0 + 7000));
+        assertThat(json.at("/encounters/differences/1/b").isNull()).isTrue();
+        assertThat(json.at("/averages/differences/0/b/suspects").isEmpty()).isTrue();
+    }
+
+    @Test
+    void drawsBothSidesOverTime() throws Exception {
+        Document svg = DocumentBuilderFactory.newInstance()
+                .newDocumentBuilder()
+                .parse(new InputSource(new StringReader(ComparisonSvg.of(DIFFERENT))));
+
+        assertThat(styles(svg, "rect"))
+                .containsSubsequence("lane", "a", "gap", "lane", "a", "b")
+                .contains("mark", "same");
+        assertThat(styles(svg, "path")).containsExactly("curve la", "curve lb");
+    }
+
+    @Test
+    void drawsWhereNothingWasFound() throws Exception {
+        String svg = ComparisonSvg.of(Comparison.of(side("a"), side("b"), TimeRange.ALL));
+
+        assertThat(svg).contains("Analytics found the same in both.").doesNotContain("NaN");
+    }
+
+    private static List<String> styles(Document svg, String element) {
+        return java.util.stream.IntStream.range(
+                        0, svg.getElementsByTagName(element).getLength())
+                .mapToObj(i -> svg.getElementsByTagName(element)
+                        .item(i)
+                        .getAttributes()
+                        .getNamedItem("class")
+                        .getNodeValue())
+                .toList();
+    }
+}

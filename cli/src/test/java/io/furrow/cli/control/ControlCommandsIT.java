@@ -1,0 +1,273 @@
+package io.furrow.cli.control;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+import picocli.CommandLine.Model.CommandSpec;
+
+import io.furrow.cli.Commands;
+import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.control.rest.access.CertificateFiles;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.SelfSignedCertificate;
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ControlCommandsIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+
+    @TempDir
+    static Path directory;
+
+    private static EmbeddedKafka kafka;
+    private static ControlPlane plane;
+    private static RestApi api;
+    private static SelfSignedCertificate certificate;
+    private static FarmSecret secret;
+
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+
+    @BeforeAll
+    static void start() throws Exception {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        ControlSettings settings = ControlSettings.of(client);
+        plane = ControlPlane.start(settings);
+        Path tokens = Files.writeString(directory.resolve("tokens"), "ann a-token-of-some-length admin\n");
+        certificate = SelfSignedCertificate.make(directory, "control-plane");
+        secret = FarmSecret.generate();
+        RestSettings rest = RestSettings.on(0)
+                .withTokens(tokens)
+                .withCertificate(CertificateFiles.pem(certificate.certificate(), certificate.key()))
+                .withSecret(SecretSource.of(secret));
+        api = RestApi.start(settings, rest, new Readiness(Clock.systemUTC()));
+        Files.writeString(directory.resolve("token"), "a-token-of-some-length\n");
+    }
+
+    @AfterAll
+    static void stop() {
+        api.close();
+        plane.close();
+        kafka.close();
+    }
+
+    @Test
+    void createsChangesListsAndDeletesDomains() throws Exception {
+        Path area = Files.writeString(
+                directory.resolve("area.json"),
+                "{\"type\":\"Polygon\",\"coordinates\":[[[-3.49,40.31],[-3.48,40.31],[-3.48,40.32],[-3.49,40.31]]]}");
+
+        assertThat(run("domain", "create", "north", "--name", "North", "--area", area.toString()))
+                .contains("created", "domain north", "data.north.realtime");
+        run("domain", "change", "north", "--description", "Behind the hill", "--fields", "f-1,f-2");
+        await().atMost(TIMEOUT)
+                .untilAsserted(
+                        () -> assertThat(run("domain", "list")).containsPattern("north +North +Behind the hill +2 "));
+        assertThat(json("domain", "show", "north").at("/area/type").asText()).isEqualTo("Polygon");
+        assertThat(refused("domain", "create", "north")).contains("north", "domain-exists");
+        assertThat(run("domain", "delete", "north")).contains("deleted: domain north");
+        assertThat(refused("domain", "delete", "north")).contains("there is no domain 'north'", "unknown-domain");
+    }
+
+    @Test
+    void takesAMissionThroughItsLifeAndFollowsIt() throws Exception {
+        Path devices = Files.writeString(directory.resolve("devices.json"), "[\"urn:ngsi-ld:Robot:7\"]");
+        run("domain", "create", "farm");
+
+        assertThat(run("mission", "create", "weeding", "--domain", "farm", "--devices", devices.toString()))
+                .contains("created: mission weeding");
+        await().atMost(TIMEOUT)
+                .untilAsserted(() -> assertThat(run("mission", "list", "--domain", "farm"))
+                        .containsPattern("weeding +farm +– +created"));
+        run("mission", "start", "weeding");
+        assertThat(run("mission", "watch", "weeding", "--until", "running")).contains("running", "0/0 devices");
+        assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");
+        assertThat(refused("mission", "start", "weeding")).contains("mission-running");
+        run("mission", "stop", "weeding");
+        assertThat(run("mission", "watch", "weeding")).contains("stopped");
+        assertThat(run("mission", "delete", "weeding")).contains("deleted: mission weeding");
+        assertThat(refused("mission", "stop", "weeding")).contains("there is no mission 'weeding'", "unknown-mission");
+        assertThat(refused("mission", "create", "m.1", "--domain", "farm")).contains("illegal-name");
+    }
+
+    @Test
+    void givesADeviceNewCredentials() throws Exception {
+        Path devices = Files.writeString(directory.resolve("thermometers.json"), "[{\"type\":\"Thermometer\"}]");
+        run("domain", "create", "barn");
+        run("mission", "start", "drying", "--domain", "barn", "--devices", devices.toString());
+        String device = "urn:ngsi-ld:Thermometer:drying-1";
+        await().atMost(TIMEOUT)
+                .untilAsserted(() -> assertThat(run("device", "credentials", device))
+                        .contains(secret.device("drying", device).password()));
+
+        assertThat(run("device", "rotate", device))
+                .contains(
+                        secret.device("drying", device, 1).user(),
+                        secret.device("drying", device, 1).password());
+        assertThat(json("device", "credentials", device).path("generation").asInt())
+                .isEqualTo(1);
+        assertThat(refused("device", "rotate", "urn:nosuch")).contains("there is no device", "unknown-device");
+    }
+
+    @Test
+    void carriesATemplateOutAndBackIn() throws Exception {
+        Path file = directory.resolve("template.json");
+        await().atMost(TIMEOUT)
+                .untilAsserted(() -> assertThat(run("template", "list")).contains("thesis-demo"));
+
+        run("template", "export", "thesis-demo", file.toString());
+        assertThat(NgsiJson.read(Files.readAllBytes(file)).path("devices")).isNotEmpty();
+        assertThat(run("template", "import", file.toString())).contains("created: template thesis-demo, version 2");
+        assertThat(run("template", "delete", "thesis-demo@2")).contains("deleted: template thesis-demo");
+        assertThat(refused("template", "export", "nosuch")).contains("unknown-template");
+    }
+
+    @Test
+    void asksForReplaysAndSteersThem() throws Exception {
+        String replay = json("replay", "start", "weeding", "--speed", "10", "--loop")
+                .path("replay")
+                .asText();
+
+        assertThat(replay).matches("weeding\\.[0-9a-f]{8}");
+        assertThat(run("replay", "pause", replay)).contains("paused");
+        assertThat(run("replay", "step", replay, "5")).contains("paused");
+        assertThat(run("replay", "speed", replay, "max")).contains(replay);
+        assertThat(run("replay", "resume", replay)).contains("running");
+        assertThat(refused("replay", "speed", replay, "fast")).contains("speed", "wrong-member");
+        assertThat(run("replay", "stop", replay)).contains("deleted: replay " + replay);
+    }
+
+    @Test
+    void listsOpenAlarmsTheMostSevereFirstAndNoMoreThanAreAskedFor() throws Exception {
+        long hours = System.currentTimeMillis() - Duration.ofHours(3).toMillis();
+        long days = System.currentTimeMillis() - Duration.ofDays(4).toMillis();
+        try (KafkaProducer<String, byte[]> producer = new KafkaProducer<>(
+                Map.of("bootstrap.servers", kafka.bootstrapServers()),
+                new StringSerializer(),
+                new ByteArraySerializer())) {
+            send(producer, "silent-device-1", "minor", "open", hours);
+            send(producer, "collision-2", "critical", "open", days);
+            send(producer, "collision-3", "critical", "open", hours);
+            send(producer, "collision-4", "critical", "closed", hours);
+            send(producer, "collision-5", "critical", "acknowledged", hours);
+        }
+        await().atMost(TIMEOUT)
+                .untilAsserted(() ->
+                        assertThat(json("alarm", "list", "--state", "all")).hasSize(5));
+        assertThat(run("alarm", "list").lines())
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("ALARM"),
+                        line -> assertThat(line).containsPattern("collision-3 +critical +open +3h "),
+                        line -> assertThat(line).containsPattern("collision-2 +critical +open +4d "),
+                        line -> assertThat(line).containsPattern("silent-device-1 +minor +open +3h "));
+        assertThat(run("alarm", "list", "--limit", "1").lines())
+                .satisfiesExactly(
+                        line -> assertThat(line).startsWith("ALARM"),
+                        line -> assertThat(line).startsWith("collision-3"),
+                        line -> assertThat(line).isEqualTo("There are more than 1; --limit shows more of them."));
+        assertThat(json("alarm", "list", "--limit", "2")).hasSize(2);
+        assertThat(run("alarm", "list", "--state", "closed"))
+                .contains("collision-4")
+                .doesNotContain("collision-5");
+        assertThat(run("alarm", "list", "--state", "acknowledged")).contains("collision-5");
+        assertThat(refused("alarm", "list", "--state", "opne")).contains("--state", "opne", "ACKNOWLEDGED");
+        assertThat(refused("alarm", "list", "--limit", "0")).contains("--limit");
+    }
+
+    private static void send(
+            KafkaProducer<String, byte[]> producer, String alarm, String severity, String state, long raised) {
+        String json =
+                "{'alarm':'%s','kind':'collision','subject':'a-b','severity':'%s','state':'%s','text':'close','raised':%d}"
+                        .formatted(alarm, severity, state, raised)
+                        .replace('\'', '"');
+        producer.send(
+                new ProducerRecord<>(Topics.ALARMS, alarm, json.getBytes(java.nio.charset.StandardCharsets.UTF_8)));
+    }
+
+    @Test
+    void saysWhatToDoWhereItIsNotLetInOrNobodyIsThere() {
+        CommandLine furrow = furrow();
+
+        String trusted = certificate.certificate().toString();
+        assertThat(furrow.execute("domain", "list", "--api", api.uri().toString(), "--api-ca", trusted))
+                .isNotZero();
+        assertThat(furrow.execute("domain", "list", "--api", api.uri().toString()))
+                .isNotZero();
+        assertThat(furrow.execute("domain", "list", "--api", "http://127.0.0.1:1"))
+                .isNotZero();
+        assertThat(furrow.execute("domain", "list", "--token-file", "nosuch")).isNotZero();
+
+        assertThat(err.toString().lines().toList())
+                .satisfiesExactly(
+                        line -> assertThat(line).contains("asks who you are", "--token-file"),
+                        line -> assertThat(line).contains(api.uri() + " cannot be trusted", "--api-ca"),
+                        line -> assertThat(line).contains("No control plane answers at http://127.0.0.1:1", "--api"),
+                        line -> assertThat(line).contains("--token-file nosuch cannot be read"),
+                        line -> assertThat(line).startsWith("See: furrow domain list --help"));
+    }
+
+    private JsonNode json(String... words) throws Exception {
+        List<String> all = new ArrayList<>(List.of(words));
+        all.addAll(List.of("--output", "json"));
+        return NgsiJson.read(run(all.toArray(new String[0])).getBytes(java.nio.charset.StandardCharsets.UTF_8));
+    }
+
+    private String run(String... words) {
+        out.getBuffer().setLength(0);
+        assertThat(furrow().execute(withAccess(words))).as("%s", err).isZero();
+        return out.toString();
+    }
+
+    private String refused(String... words) {
+        err.getBuffer().setLength(0);
+        assertThat(furrow().execute(withAccess(words))).as("%s", out).isNotZero();
+        return err.toString();
+    }
+
+    private static String[] withAccess(String... words) {
+        List<String> all = new ArrayList<>(List.of(words));
+        all.addAll(List.of(
+                "--api",
+                api.uri().toString(),
+                "--api-ca",
+                certificate.certificate().toString(),
+                "--token-file",
+                directory.resolve("token").toString()));
+        return all.toArray(new String[0]);
+    }
+
+    private CommandLine furrow() {
+        return Commands.commandLine(CommandSpec.create().name("furrow"))
+                .setOut(new PrintWriter(out, true))
+                .setErr(new PrintWriter(err, true));
+    }
+}

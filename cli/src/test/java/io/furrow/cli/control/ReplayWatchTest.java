@@ -1,0 +1,284 @@
+package io.furrow.cli.control;
+
+import java.io.ByteArrayOutputStream;
+import java.io.PipedInputStream;
+import java.io.PipedOutputStream;
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.util.ArrayDeque;
+import java.util.Deque;
+import java.util.List;
+import java.util.concurrent.BlockingQueue;
+import java.util.concurrent.Executors;
+import java.util.concurrent.LinkedBlockingQueue;
+import java.util.concurrent.atomic.AtomicInteger;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+import org.jline.terminal.Size;
+import org.jline.terminal.impl.ExternalTerminal;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import picocli.CommandLine;
+import picocli.CommandLine.Model.CommandSpec;
+
+import io.furrow.cli.Commands;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ReplayWatchTest {
+    private static final String PATH = "/api/replays/m.0a1b2c3d";
+    private static final String REPLAY =
+            "{\"replay\":\"m.0a1b2c3d\",\"mission\":\"m\",\"speed\":2.0,\"wanted\":\"%s\",\"status\":{\"state\":\"%s\",\"progress\":"
+                    + "{\"epoch\":1,\"position\":1777600030000,\"from\":1777600000000,\"to\":1777600060000,\"lateness\":3,\"rate\":12.5,\"events\":70}}}";
+
+    private final BlockingQueue<String> events = new LinkedBlockingQueue<>();
+    private final BlockingQueue<String> requests = new LinkedBlockingQueue<>();
+    private final AtomicInteger connections = new AtomicInteger();
+    private final AtomicInteger left = new AtomicInteger(1_000_000);
+    private volatile boolean eventless;
+    private HttpServer control;
+
+    @BeforeEach
+    void start() throws Exception {
+        control = HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0);
+        control.setExecutor(Executors.newCachedThreadPool());
+        control.createContext("/", this::answer);
+        control.start();
+    }
+
+    @AfterEach
+    void stop() {
+        control.stop(0);
+    }
+
+    private void answer(HttpExchange exchange) throws java.io.IOException {
+        String path = exchange.getRequestURI().getPath();
+        if (left.get() == 0 || eventless && path.endsWith("/events")) {
+            exchange.sendResponseHeaders(404, -1);
+        } else if (path.endsWith("/events")) {
+            connections.incrementAndGet();
+            exchange.getResponseHeaders().add("Content-Type", "text/event-stream");
+            exchange.sendResponseHeaders(200, 0);
+            try {
+                String event = events.take();
+                while (!event.equals("lost")) {
+                    exchange.getResponseBody().write(event.getBytes(UTF_8));
+                    exchange.getResponseBody().flush();
+                    event = events.take();
+                }
+            } catch (InterruptedException e) {
+                Thread.currentThread().interrupt();
+            }
+        } else {
+            left.decrementAndGet();
+            if (exchange.getRequestMethod().equals("POST")) {
+                requests.add(path + " " + new String(exchange.getRequestBody().readAllBytes(), UTF_8));
+            }
+            byte[] json = replay("running").getBytes(UTF_8);
+            exchange.sendResponseHeaders(200, json.length);
+            exchange.getResponseBody().write(json);
+        }
+        exchange.close();
+    }
+
+    private static String replay(String state) {
+        return REPLAY.formatted(state.equals("paused") ? "paused" : "running", state);
+    }
+
+    private static String event(String name, String data) {
+        return ": a comment\nevent: %s\ndata: %s\n\n".formatted(name, data);
+    }
+
+    private URI api() {
+        return URI.create("http://127.0.0.1:" + control.getAddress().getPort());
+    }
+
+    @Test
+    void printsLinesWhereThereIsNoTerminalAndFollowsAfterALostConnection() {
+        events.add(event("status", replay("running")));
+        events.add("lost");
+        events.add(event("status", replay("paused")));
+        events.add(event("status", replay("ended")));
+        events.add(event("over", replay("ended").replace("\"speed\":2.0,", "")));
+        events.add("lost");
+        StringWriter said = new StringWriter();
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+
+        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
+                .isZero();
+
+        assertThat(connections).hasValue(2);
+        assertThat(said.toString().lines().toList())
+                .doesNotHaveDuplicates()
+                .last()
+                .isEqualTo(
+                        "m.0a1b2c3d  ended  epoch 1  2026-05-01T01:47:10Z  0:00:30 / 0:01:00  12.5 events/s  late 3 ms  70 events");
+    }
+
+    @Test
+    void asksAControlPlaneThatHasNoEventsUntilTheReplayIsForgotten() {
+        eventless = true;
+        left.set(2);
+        StringWriter said = new StringWriter();
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+
+        assertThat(line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()))
+                .isZero();
+
+        assertThat(left).hasValue(0);
+        assertThat(said.toString()).contains("m.0a1b2c3d  running").doesNotContain("connection lost");
+    }
+
+    @Test
+    void isSteeredByKeysAndDrawnInATerminal() throws Exception {
+        PipedInputStream typed = new PipedInputStream();
+        PipedOutputStream keyboard = new PipedOutputStream(typed);
+        ByteArrayOutputStream screen = new ByteArrayOutputStream();
+        ControlApi api = new ControlApi(api(), null);
+        try (ExternalTerminal terminal = new ExternalTerminal("test", "ansi", typed, screen, UTF_8);
+                ReplayEvents status = new ReplayEvents(
+                        api, PATH, NgsiJson.read(replay("running").getBytes(UTF_8)))) {
+            terminal.setSize(new Size(60, 20));
+            status.start();
+            Thread watch = new Thread(() -> steer(terminal, status, api));
+            watch.start();
+
+            type(keyboard, " ");
+            assertThat(requests.take()).isEqualTo(PATH + "/pause {}");
+            type(keyboard, "\033[C");
+            assertThat(requests.take()).isEqualTo(PATH + "/seek {\"to\":1777600040000}");
+            type(keyboard, "m");
+            type(keyboard, "hq\n");
+            assertThat(requests.take())
+                    .startsWith("/api/missions/m/markers ")
+                    .contains("\"note\":\"hq\"", "1777600030000");
+            await().until(() -> screen.toString(UTF_8).contains("0:00:30 / 0:01:00"));
+            type(keyboard, "q");
+            watch.join(60_000);
+            assertThat(watch.isAlive()).isFalse();
+        }
+    }
+
+    private static void steer(ExternalTerminal terminal, ReplayEvents status, ControlApi api) {
+        try {
+            new ReplayWatch(null, PATH).steer(terminal, status, api);
+        } catch (java.io.IOException e) {
+            throw new java.io.UncheckedIOException(e);
+        }
+    }
+
+    private static void type(PipedOutputStream keyboard, String keys) throws java.io.IOException {
+        keyboard.write(keys.getBytes(UTF_8));
+        keyboard.flush();
+    }
+
+    @Test
+    void knowsKeysThatComeAsSeveralCharacters() throws Exception {
+        Deque<Integer> characters = new ArrayDeque<>();
+        "\033[C\033OD\033[1;2C\033\177\rx".chars().forEach(characters::add);
+        KeyReader reader = new KeyReader(timeout -> characters.isEmpty() ? -1 : characters.poll());
+
+        assertThat(List.of(reader.read(1), reader.read(1), reader.read(1)))
+                .containsExactly("right", "left", "shift-right");
+        assertThat(reader.read(1)).isEqualTo("escape");
+        assertThat(List.of(reader.read(1), reader.read(1), reader.read(1))).containsExactly("enter", "x", "end");
+    }
+
+    @Test
+    void asksForNoPlaceBeforeAReplayHasSaidWhereItIs() throws Exception {
+        ReplayKeys keys = new ReplayKeys();
+        JsonNode asked =
+                NgsiJson.read("{\"replay\":\"m.0a1b2c3d\",\"speed\":1,\"wanted\":\"running\"}".getBytes(UTF_8));
+
+        for (String key : List.of("left", "]", "l", "m")) {
+            assertThat(keys.press(key, asked)).as(key).isEmpty();
+            assertThat(keys.message()).as(key).isEqualTo("It has not said yet where it is.");
+        }
+        assertThat(keys.press(" ", asked)).isPresent();
+    }
+
+    @Test
+    void stepsOnlyWhileItIsPaused() throws Exception {
+        ReplayKeys keys = new ReplayKeys();
+
+        assertThat(keys.press(",", json("running"))).isEmpty();
+        assertThat(keys.message()).contains("Pause it first");
+        assertThat(keys.press(",", json("paused"))).get().hasToString("Request[path=step, body={count=-1}]");
+        assertThat(keys.press(" ", json("paused"))).get().hasToString("Request[path=resume, body={}]");
+    }
+
+    @Test
+    void setsARangeByItsTwoEndsAndTakesItAway() throws Exception {
+        ReplayKeys keys = new ReplayKeys();
+        JsonNode later = NgsiJson.read(
+                replay("running").replace("1777600030000", "1777600045000").getBytes(UTF_8));
+
+        assertThat(keys.press("l", later)).isEmpty();
+        assertThat(keys.press("l", json("running")).orElseThrow().body())
+                .containsEntry("from", 1_777_600_030_000L)
+                .containsEntry("to", 1_777_600_045_000L);
+        JsonNode looping = NgsiJson.read(replay("running")
+                .replace("\"mission\"", "\"range\":{\"from\":1,\"to\":2},\"mission\"")
+                .getBytes(UTF_8));
+        assertThat(keys.press("l", looping)).get().hasToString("Request[path=loop, body={}]");
+    }
+
+    @Test
+    void keepsSpeedsAndJumpsWithinTheirBounds() throws Exception {
+        ReplayKeys keys = new ReplayKeys();
+        JsonNode fast = NgsiJson.read(replay("running").replace("2.0", "800").getBytes(UTF_8));
+
+        assertThat(keys.press("+", fast)).get().hasToString("Request[path=speed, body={speed=1000.0}]");
+        assertThat(keys.press("-", json("running"))).get().hasToString("Request[path=speed, body={speed=1.0}]");
+        assertThat(keys.press("]", json("running"))).get().hasToString("Request[path=seek, body={to=1777600060000}]");
+        assertThat(new ReplayKeys().press("shift-left", json("running")))
+                .get()
+                .hasToString("Request[path=seek, body={to=1777600000000}]");
+    }
+
+    @Test
+    void jumpsOnFromWhereTheLastJumpLeads() throws Exception {
+        ReplayKeys keys = new ReplayKeys();
+        keys.press("right", json("running"));
+        assertThat(keys.press("right", json("running")))
+                .get()
+                .hasToString("Request[path=seek, body={to=1777600050000}]");
+
+        JsonNode told = NgsiJson.read(
+                replay("running").replace("1777600030000", "1777600031000").getBytes(UTF_8));
+        assertThat(keys.press("right", told)).get().hasToString("Request[path=seek, body={to=1777600041000}]");
+    }
+
+    @Test
+    void showsAllOfItWithinNarrowTerminals() throws Exception {
+        assertThat(ReplayView.block(json("running"), "", true, 80))
+                .containsExactly(
+                        "m.0a1b2c3d  running  speed 2  epoch 1",
+                        "[" + "#".repeat(30) + "·".repeat(30) + "]  50 %",
+                        "2026-05-01T01:47:10Z  0:00:30 / 0:01:00",
+                        "12.5 events/s  late 3 ms  70 events",
+                        "",
+                        "space pause  ←/→ 10 s  [/] 1 min  ./, step  +/- speed  l loop  m marker  q quit");
+        assertThat(ReplayView.block(json("running"), "a notice that is long", false, 20))
+                .hasSize(6)
+                .allMatch(line -> line.length() <= 20);
+        assertThat(ReplayView.block(NgsiJson.read("{\"replay\":\"m.0a1b2c3d\"}".getBytes(UTF_8)), "", false, 79))
+                .contains("not begun", "? help");
+    }
+
+    private static JsonNode json(String state) throws Exception {
+        return NgsiJson.read(replay(state).getBytes(UTF_8));
+    }
+}

@@ -1,0 +1,263 @@
+package io.furrow.control.alarm;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+import java.util.concurrent.atomic.AtomicInteger;
+import java.util.function.Predicate;
+
+import io.furrow.control.manager.CommandHandler;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.record.Sequence;
+import io.furrow.model.control.AlarmCommand;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Raises alarms, applies causes and commands to them, and publishes them on {@code service.alarms}. There is at most
+ * one alarm per kind and subject that is not closed. A closed alarm is retained for a day, at most the
+ * {@value #MAX_CLOSED} newest, then removed.
+ */
+public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
+    static final Duration CLOSED_KEPT = Duration.ofDays(1);
+    static final int MAX_CLOSED = 10_000;
+
+    private static final long CLEARING_EVERY = Duration.ofMinutes(1).toMillis();
+    private static final String ALL = "";
+
+    private final AlarmRecords records;
+    private final Sequence sequence;
+    private final EventPublisher outbox;
+    private final AlarmLimit limit;
+    private long nextClearing;
+
+    AlarmCommandHandler(AlarmRecords records, Sequence sequence, EventPublisher outbox) {
+        this.records = records;
+        this.sequence = sequence;
+        this.outbox = outbox;
+        this.limit = new AlarmLimit(records.groups(), records.counted());
+    }
+
+    /**
+     * Raises an alarm, or refreshes the existing one. If its group has reached the limit, the cause is only counted.
+     */
+    public void raise(Cause cause, long now) {
+        Alarm known = current(cause.kind(), cause.subject());
+        if (known != null) {
+            records.alarms().put(known.alarm(), sure(known, new AlarmEvent.Repeated(cause.until(now)), now));
+        } else if (!limit.take(cause, now)) {
+            keep(Alarm.raised(cause, mutedUntil(cause.kind(), cause.subject(), now), sequence.next(), now));
+        }
+    }
+
+    /** Closes the alarm of a kind and subject, if there is one. */
+    public void end(AlarmKind kind, String subject, String reason, long now) {
+        Alarm known = current(kind, subject);
+        if (known != null) {
+            change(known, new AlarmEvent.Ended(reason), now);
+        } else {
+            limit.end(kind, subject);
+        }
+    }
+
+    /**
+     * Raises or updates the alarm of a group cause.
+     *
+     * @param inhibitor cause, reported before, whose alarm inhibits the delivery of this one; null if none
+     */
+    public void report(Cause cause, Cause inhibitor, long now) {
+        String by = inhibitor == null ? null : records.current().get(inhibitor.key());
+        Alarm known = current(cause.kind(), cause.subject());
+        if (known == null) {
+            Long muted = mutedUntil(cause.kind(), cause.subject(), now);
+            Alarm raised = Alarm.raised(cause, muted, sequence.next(), now);
+            keep(by == null ? raised : raised.inhibitedFromStart(by));
+        } else {
+            change(known, new AlarmEvent.Reported(cause, by), now);
+        }
+    }
+
+    /** Closes the alarms of the given kinds that have none of the given causes. */
+    public void endOthers(Set<AlarmKind> kinds, List<Cause> causes, String reason, long now) {
+        endOthers(alarm -> kinds.contains(alarm.kind()), causes, reason, now);
+    }
+
+    private void endOthers(Predicate<Alarm> some, List<Cause> causes, String reason, long now) {
+        Set<String> lasting = new HashSet<>();
+        causes.forEach(cause -> lasting.add(cause.key()));
+        for (Alarm alarm : current()) {
+            if (some.test(alarm) && !lasting.contains(alarm.key())) {
+                change(alarm, new AlarmEvent.Ended(reason), now);
+            }
+        }
+    }
+
+    /** Whether there is an alarm of a kind and subject that is not closed. */
+    public boolean isRaised(AlarmKind kind, String subject) {
+        return records.current().get(Cause.key(kind, subject)) != null;
+    }
+
+    /** Whether a kind is muted for one subject. */
+    public boolean isMuted(AlarmKind kind, String subject, long now) {
+        AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, subject));
+        return mute != null && mute.until() > now;
+    }
+
+    @Override
+    public CommandResult answer(AlarmCommand command, long now) throws RefusedException {
+        if (command instanceof AlarmCommand.Acknowledge acknowledge) {
+            return answer(acknowledge.alarm(), new AlarmEvent.Acknowledged(acknowledge.user()), "acknowledged", now);
+        } else if (command instanceof AlarmCommand.Close close) {
+            return answer(close.alarm(), new AlarmEvent.Dismissed(close.user()), "closed", now);
+        } else if (command instanceof AlarmCommand.Mute mute) {
+            long until = now + mute.time().toMillis();
+            return muted(mute.target(), until, now).with("until", until);
+        }
+        return muted(((AlarmCommand.Unmute) command).target(), null, now);
+    }
+
+    private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RefusedException {
+        Alarm alarm = records.alarms().get(id);
+        if (alarm == null) {
+            throw new RefusedException(
+                    ErrorCode.UNKNOWN_ALARM, "there is no alarm '%s', or it was closed long ago".formatted(id));
+        }
+        Alarm next = AlarmLife.next(alarm, event, now);
+        if (next != alarm) {
+            keep(next.numbered(sequence.next()));
+        }
+        return CommandResult.of(status).with(AlarmCommand.ALARM, id);
+    }
+
+    /** @param until null to unmute */
+    private CommandResult muted(AlarmCommand.Target target, Long until, long now) throws RefusedException {
+        AlarmEvent event = until == null ? new AlarmEvent.Unmuted() : new AlarmEvent.Muted(until);
+        String status = until == null ? "unmuted" : "muted";
+        if (target instanceof AlarmCommand.OfAlarm of) {
+            return answer(of.alarm(), event, status, now);
+        }
+        AlarmCommand.OfKind of = (AlarmCommand.OfKind) target;
+        String key = Cause.key(of.kind(), of.subject() == null ? ALL : of.subject());
+        requireRoomFor(key, until);
+        records.mutes().put(key, until == null ? null : new AlarmRecords.Mute(key, until));
+        for (Alarm alarm : current()) {
+            if (alarm.kind() == of.kind()
+                    && (of.subject() == null || of.subject().equals(alarm.subject()))) {
+                change(alarm, event, now);
+            }
+        }
+        return CommandResult.of(status).with("kind", of.kind().code()).with("subject", of.subject());
+    }
+
+    private void requireRoomFor(String key, Long until) throws RefusedException {
+        if (until == null || records.mutes().contains(key)) {
+            return;
+        }
+        AtomicInteger count = new AtomicInteger();
+        records.mutes().forEach(mute -> count.incrementAndGet());
+        if (count.get() >= Limits.MUTES) {
+            throw new RefusedException(
+                    ErrorCode.QUOTA_EXCEEDED,
+                    "%d subjects are muted already; unmute some, or mute all of a kind".formatted(Limits.MUTES));
+        }
+    }
+
+    private Long mutedUntil(AlarmKind kind, String subject, long now) {
+        Long until = null;
+        for (String each : List.of(subject, ALL)) {
+            AlarmRecords.Mute mute = records.mutes().get(Cause.key(kind, each));
+            if (mute != null && mute.until() > now && (until == null || mute.until() > until)) {
+                until = mute.until();
+            }
+        }
+        return until;
+    }
+
+    @Override
+    public void passTime(long now) {
+        for (Alarm alarm : current()) {
+            change(alarm, new AlarmEvent.TimePassed(), now);
+        }
+        List<Cause> beyondLimit = limit.causes(now);
+        beyondLimit.forEach(cause -> report(cause, null, now));
+        endOthers(
+                alarm -> alarm.isOfGroup() && AlarmLimit.KINDS.contains(alarm.kind()),
+                beyondLimit,
+                "no causes beyond the limit",
+                now);
+        if (now >= nextClearing) {
+            nextClearing = now + CLEARING_EVERY;
+            clear(now);
+        }
+    }
+
+    private void clear(long now) {
+        List<Alarm> closed = new ArrayList<>();
+        records.alarms().forEach(alarm -> {
+            if (alarm.state() == AlarmState.CLOSED) {
+                closed.add(alarm);
+            }
+        });
+        closed.sort(Comparator.comparingLong(Alarm::changed).reversed());
+        for (int i = 0; i < closed.size(); i++) {
+            if (i >= MAX_CLOSED || closed.get(i).changed() + CLOSED_KEPT.toMillis() <= now) {
+                records.alarms().put(closed.get(i).alarm(), null);
+                outbox.put(Topics.ALARMS, closed.get(i).alarm(), null);
+            }
+        }
+        List<String> passed = new ArrayList<>();
+        records.mutes().forEach(mute -> {
+            if (mute.until() <= now) {
+                passed.add(mute.key());
+            }
+        });
+        passed.forEach(key -> records.mutes().put(key, null));
+    }
+
+    /** Returns the alarm that is not closed; null if none. */
+    private Alarm current(AlarmKind kind, String subject) {
+        String known = records.current().get(Cause.key(kind, subject));
+        return known == null ? null : records.alarms().get(known);
+    }
+
+    /** Returns a copy, because the store changes during the iteration. */
+    private List<Alarm> current() {
+        List<Alarm> current = new ArrayList<>();
+        records.current().forEach(id -> current.add(records.alarms().get(id)));
+        return current;
+    }
+
+    private void change(Alarm alarm, AlarmEvent event, long now) {
+        Alarm next = sure(alarm, event, now);
+        if (next != alarm) {
+            keep(next.numbered(sequence.next()));
+        }
+    }
+
+    private static Alarm sure(Alarm alarm, AlarmEvent event, long now) {
+        try {
+            return AlarmLife.next(alarm, event, now);
+        } catch (RefusedException e) {
+            throw new IllegalStateException(
+                    "an alarm that is not closed accepts every event except commands of users", e);
+        }
+    }
+
+    private void keep(Alarm alarm) {
+        boolean known = records.alarms().get(alarm.alarm()) != null;
+        boolean closed = alarm.state() == AlarmState.CLOSED;
+        if (!known || closed) {
+            limit.changed(alarm, closed ? -1 : 1);
+        }
+        records.alarms().put(alarm.alarm(), alarm);
+        records.current().put(alarm.key(), closed ? null : alarm.alarm());
+        outbox.put(Topics.ALARMS, alarm.alarm(), alarm.toBytes());
+    }
+}

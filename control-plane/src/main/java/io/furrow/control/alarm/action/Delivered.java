@@ -1,0 +1,19 @@
+package io.furrow.control.alarm.action;
+
+import io.furrow.control.alarm.AlarmState;
+import io.furrow.control.manager.StateJson;
+
+/**
+ * The last delivery of an alarm to the webhook: a record of {@code service.alarms.delivered} keyed by the alarm's id.
+ *
+ * @param sequence sequence number of the delivered alarm
+ * @param state delivered state
+ * @param time when, epoch ms
+ * @param repeats how often that state was repeated because it lasted
+ * @param refused whether the webhook rejected it permanently
+ */
+record Delivered(long sequence, AlarmState state, long time, int repeats, boolean refused) {
+    byte[] toBytes() {
+        return StateJson.write(this);
+    }
+}

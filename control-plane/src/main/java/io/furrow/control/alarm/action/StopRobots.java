@@ -1,0 +1,199 @@
+package io.furrow.control.alarm.action;
+
+import java.io.IOException;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.Executor;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.function.Consumer;
+import java.util.function.Function;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.device.CommandSender;
+
+/**
+ * Sends one {@code Stop} to each robot of a predicted encounter. This is not a safety function: messages may be late or
+ * lost, a robot may not obey, and positions may be wrong. Every result is written to the audit topic, also when no
+ * command was sent because the prediction is older than ten seconds in event time or the type of the device is unknown.
+ * If all attempts failed, the next record of the same prediction starts again.
+ *
+ * <p>Decisions never block; the executor sends the commands.
+ */
+public final class StopRobots {
+    static final Duration FRESH = Duration.ofSeconds(10);
+    static final int ATTEMPTS = 3;
+    static final int MAX_REMEMBERED = 10_000;
+    static final String USER = "alarms";
+    static final String STOP = "Stop";
+    static final String DEVICE = "device";
+    static final String ENCOUNTER = "encounter";
+
+    private static final String PREDICTED = "predicted";
+    private static final Duration PAUSE = Duration.ofMillis(500);
+    private static final String SENT = "sent";
+
+    private final Settings settings;
+    private final Function<String, String> types;
+    private final Consumer<AuditEntry> audit;
+    private final Executor executor;
+    private final Clock clock;
+    /** Result, or reason for not sending, by encounter and device; the eldest entry is evicted. */
+    private final Map<String, String> handled = new LinkedHashMap<>() {
+        private static final long serialVersionUID = 1L;
+
+        @Override
+        protected boolean removeEldestEntry(Map.Entry<String, String> eldest) {
+            return size() > MAX_REMEMBERED;
+        }
+    };
+
+    /**
+     * Which robots are stopped, and how.
+     *
+     * @param types entity types that are robots
+     */
+    public record Settings(CommandSender sender, Set<String> types) {
+        public static Settings of(CommandSender sender) {
+            return new Settings(sender, Set.of("Robot", "ROBOT"));
+        }
+    }
+
+    /** @param types returns the type of an entity by tenant, service path and id; null if unknown */
+    public StopRobots(
+            Settings settings,
+            Function<String, String> types,
+            Consumer<AuditEntry> audit,
+            Executor executor,
+            Clock clock) {
+        this.settings = settings;
+        this.types = types;
+        this.audit = audit;
+        this.executor = executor;
+        this.clock = clock;
+    }
+
+    /** Restores an entry of the audit topic, so that a Stop that any instance has sent is not sent again. */
+    void remember(JsonNode entry) {
+        if (STOP.equals(entry.path("command").textValue())
+                && USER.equals(entry.path("user").textValue())
+                && SENT.equals(entry.path("result").textValue())) {
+            JsonNode about = entry.path("about");
+            put(key(about.path(ENCOUNTER).asText(), about.path(DEVICE).asText()), SENT);
+        }
+    }
+
+    /** @param time event time of the prediction, epoch ms */
+    void take(Encounter encounter, long time) {
+        if (!encounter.phase().equals(PREDICTED)) {
+            return;
+        }
+        for (Encounter.Member member : encounter.members()) {
+            String type = types.apply(encounter.scope().identity(member.id()));
+            if (type == null) {
+                leave(encounter, member, "the type of its entity is unknown; add it to a mission");
+            } else if (settings.types().contains(type)) {
+                decide(encounter, member, type, time);
+            }
+        }
+    }
+
+    private void decide(Encounter encounter, Encounter.Member robot, String type, long time) {
+        if (!isFresh(time)) {
+            leave(encounter, robot, stale());
+        } else if (!SENT.equals(put(key(encounter.id(), robot.id()), SENT))) {
+            try {
+                executor.execute(() -> stop(encounter, robot, type, time));
+            } catch (RejectedExecutionException e) {
+                forget(encounter, robot);
+                leave(encounter, robot, "too many robots are being stopped at once");
+            }
+        }
+    }
+
+    private void stop(Encounter encounter, Encounter.Member robot, String type, long time) {
+        String failure = "no attempt was made";
+        try {
+            failure = tryToStop(robot, type, time);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            failure = "the control plane was stopped meanwhile";
+        } catch (RuntimeException e) { // every failure belongs on the audit topic
+            failure = e.toString();
+        }
+        if (failure != null) {
+            forget(encounter, robot);
+        }
+        note(encounter, robot, failure);
+    }
+
+    /** Returns why it failed; null if the context broker accepted the command. */
+    private String tryToStop(Encounter.Member robot, String type, long time) throws InterruptedException {
+        String failure = null;
+        for (int attempt = 1; attempt <= ATTEMPTS; attempt++) {
+            if (attempt > 1) {
+                Thread.sleep(PAUSE.toMillis());
+            }
+            if (!isFresh(time)) {
+                return failure == null ? stale() : stale() + " after this: " + failure;
+            }
+            try {
+                settings.sender().send(robot.id(), type, STOP, "");
+                return null;
+            } catch (IOException e) {
+                failure = e.getMessage();
+            }
+        }
+        return failure;
+    }
+
+    private boolean isFresh(long time) {
+        return clock.millis() - time <= FRESH.toMillis();
+    }
+
+    private static String stale() {
+        return "the prediction was older than %d s".formatted(FRESH.toSeconds());
+    }
+
+    /** Writes an audit entry, once per reason, that no command was sent. */
+    private void leave(Encounter encounter, Encounter.Member member, String reason) {
+        String key = key(encounter.id(), member.id());
+        synchronized (handled) {
+            String before = handled.get(key);
+            if (SENT.equals(before) || reason.equals(before)) {
+                return;
+            }
+            handled.put(key, reason);
+        }
+        note(encounter, member, reason);
+    }
+
+    private void note(Encounter encounter, Encounter.Member member, String failure) {
+        ObjectNode about = JsonNodeFactory.instance.objectNode();
+        about.put(DEVICE, member.id()).put(ENCOUNTER, encounter.id());
+        audit.accept(AuditEntry.ofDevice(clock.millis(), USER, STOP, about, failure));
+    }
+
+    private void forget(Encounter encounter, Encounter.Member robot) {
+        synchronized (handled) {
+            handled.remove(key(encounter.id(), robot.id()));
+        }
+    }
+
+    private String put(String key, String what) {
+        synchronized (handled) {
+            return handled.put(key, what);
+        }
+    }
+
+    private static String key(String encounter, String device) {
+        return encounter + "|" + device;
+    }
+}

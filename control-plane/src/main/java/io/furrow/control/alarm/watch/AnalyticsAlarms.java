@@ -1,0 +1,106 @@
+package io.furrow.control.alarm.watch;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.function.BiFunction;
+import java.util.function.Function;
+import java.util.stream.Stream;
+
+import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.kstream.KStream;
+import org.apache.kafka.streams.kstream.Named;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+
+import io.furrow.control.alarm.AlarmManager;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.ObserverProcessor;
+import io.furrow.control.manager.ObserverProcessor.Observer;
+import io.furrow.control.manager.OutputRecord;
+import io.furrow.control.manager.record.RecordScope;
+import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Adds the processors that raise alarms from results of analytics. */
+public final class AnalyticsAlarms {
+    private AnalyticsAlarms() {}
+
+    /**
+     * Lookup of device types by tenant, service path and entity id.
+     *
+     * @param opening creates the lookup function
+     * @param stores names of the stores that it needs
+     */
+    public record Types(Function<ProcessorContext<?, ?>, Function<String, String>> opening, List<String> stores) {}
+
+    /** @param collisions the records of {@code data.collision}, in a single partition */
+    public static void addEncounters(KStream<String, byte[]> collisions, Types types, Duration predictionHolds) {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+            WatchEncounters watch = new WatchEncounters(
+                    AlarmManager.handler(context, outbox), types.opening().apply(context), predictionHolds);
+            return (record, now) -> {
+                if (record.value() != null) {
+                    watch.take(Encounter.read(record.value(), RecordScope.of(record)), now);
+                }
+            };
+        };
+        send(collisions, opening, types, "encounters");
+    }
+
+    /** @param temperatures the records of {@code data.temperature}, in a single partition */
+    public static void addSensors(StreamsBuilder builder, KStream<String, byte[]> temperatures, Types types) {
+        builder.addStateStore(StoredRecords.builder(WatchSensors.RUNS));
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+            WatchSensors watch = new WatchSensors(
+                    AlarmManager.handler(context, outbox),
+                    types.opening().apply(context),
+                    StoredRecords.of(context, WatchSensors.RUNS, SuspectRuns.class));
+            return new SensorObserver(watch);
+        };
+        send(temperatures, opening, types, "sensors", WatchSensors.RUNS);
+    }
+
+    /** @param clocks the records of {@code data.clocks}, in a single partition */
+    public static void addClocks(KStream<String, byte[]> clocks, Types types) {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+            WatchClocks watch = new WatchClocks(
+                    AlarmManager.handler(context, outbox), types.opening().apply(context));
+            return (record, now) -> {
+                if (record.value() != null) {
+                    watch.take(record.value(), RecordScope.of(record), now);
+                }
+            };
+        };
+        send(clocks, opening, types, "clocks");
+    }
+
+    private record SensorObserver(WatchSensors watch) implements Observer {
+        @Override
+        public void take(Record<String, byte[]> record, long now) throws UnreadableException {
+            FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
+            if (window != null) {
+                watch.take(window, RecordScope.of(record), now);
+            }
+        }
+
+        @Override
+        public void passTime(long now) {
+            watch.passTime(now);
+        }
+    }
+
+    private static void send(
+            KStream<String, byte[]> results,
+            BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening,
+            Types types,
+            String name,
+            String... own) {
+        String[] stores = Stream.of(AlarmManager.stores(), types.stores(), List.of(own))
+                .flatMap(List::stream)
+                .toArray(String[]::new);
+        OutputRecord.send(
+                results.process(() -> new ObserverProcessor(opening), Named.as("watch-" + name), stores),
+                name + "-out");
+    }
+}

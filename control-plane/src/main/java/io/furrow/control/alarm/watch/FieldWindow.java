@@ -1,0 +1,50 @@
+package io.furrow.control.alarm.watch;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.result.FieldResult;
+
+/**
+ * The window of a field from a record of {@code data.temperature}.
+ *
+ * @param average null if there was nothing to average
+ * @param suspects ids of the excluded entities
+ * @param windowStart epoch ms
+ * @param windowEnd epoch ms
+ * @param domain null if the field belongs to none
+ * @param verified whether there were enough devices to identify suspects
+ */
+public record FieldWindow(
+        String field,
+        Double average,
+        List<String> suspects,
+        long windowStart,
+        long windowEnd,
+        String domain,
+        boolean verified) {
+    /** Returns null if the entity is of another type, such as an excluded device. */
+    public static FieldWindow of(Entity entity) {
+        String field = entity.text(FieldResult.FIELD).orElse(null);
+        if (!entity.type().equals(FieldResult.TEMPERATURE_TYPE) || field == null) {
+            return null;
+        }
+        List<String> suspects = new ArrayList<>();
+        for (JsonNode each : entity.value(FieldResult.SUSPECTS)
+                .map(list -> (Iterable<JsonNode>) list)
+                .orElse(List.of())) {
+            suspects.add(each.asText());
+        }
+        return new FieldWindow(
+                field,
+                entity.number(FieldResult.AVERAGE_TEMPERATURE).orElse(null),
+                suspects,
+                entity.number(FieldResult.WINDOW_START).orElse(0.0).longValue(),
+                entity.number(FieldResult.WINDOW_END).orElse(0.0).longValue(),
+                entity.text("Domain").orElse(null),
+                !entity.text(FieldResult.QUALITY).orElse("").equals(FieldResult.UNVERIFIED));
+    }
+}

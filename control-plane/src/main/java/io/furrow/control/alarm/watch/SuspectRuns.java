@@ -1,0 +1,33 @@
+package io.furrow.control.alarm.watch;
+
+import java.util.HashMap;
+import java.util.Map;
+
+/**
+ * Number of consecutive windows in which each suspect sensor of a field has been excluded.
+ *
+ * @param field tenant, service path and id
+ * @param windowEnd end of the newest window, epoch ms
+ * @param windows number of windows by id of the sensor's entity; contains only the suspects of the newest window
+ */
+record SuspectRuns(String field, long windowEnd, Map<String, Integer> windows) {
+    SuspectRuns {
+        windows = Map.copyOf(windows);
+    }
+
+    /**
+     * Returns the runs after another window. A window that is not newer, or that has too few devices, changes nothing.
+     */
+    SuspectRuns after(FieldWindow window) {
+        if (window.windowEnd() <= windowEnd || !window.verified()) {
+            return this;
+        }
+        Map<String, Integer> now = new HashMap<>();
+        window.suspects().forEach(suspect -> now.put(suspect, of(suspect) + 1));
+        return new SuspectRuns(field, window.windowEnd(), now);
+    }
+
+    int of(String suspect) {
+        return windows.getOrDefault(suspect, 0);
+    }
+}

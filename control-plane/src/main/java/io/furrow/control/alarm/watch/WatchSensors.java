@@ -1,0 +1,82 @@
+package io.furrow.control.alarm.watch;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.function.Function;
+
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmGroup;
+import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * Raises an alarm for a sensor that was excluded in three consecutive windows, because a single window may exclude a
+ * sound sensor by chance. The alarm ends when the sensor was not excluded for three windows.
+ */
+public final class WatchSensors {
+    static final String RUNS = "suspect-runs";
+
+    private static final int WINDOWS = 3;
+    private static final Duration MIN = Duration.ofMinutes(1);
+    /** Runs of a field without windows for this time are discarded. */
+    private static final Duration REMEMBERED = Duration.ofDays(1);
+
+    private static final long CLEARING_EVERY = Duration.ofHours(1).toMillis();
+
+    private final AlarmCommandHandler alarms;
+    private final Function<String, String> types;
+    private final Records<SuspectRuns> runs;
+    private long nextClearing;
+
+    WatchSensors(AlarmCommandHandler alarms, Function<String, String> types, Records<SuspectRuns> runs) {
+        this.alarms = alarms;
+        this.types = types;
+        this.runs = runs;
+    }
+
+    /** @param now epoch ms */
+    public void take(FieldWindow window, FiwareScope scope, long now) {
+        SuspectRuns known = runsOf(scope.identity(window.field()), window.windowEnd());
+        SuspectRuns run = known.after(window);
+        if (run == known) {
+            return;
+        }
+        runs.put(run.field(), run); // also without suspects: a late, earlier window must not count
+        Duration holds = Duration.ofMillis((window.windowEnd() - window.windowStart()) * WINDOWS);
+        for (String suspect : window.suspects()) {
+            if (run.of(suspect) >= WINDOWS || alarms.isRaised(AlarmKind.SUSPECT_SENSOR, suspect)) {
+                String text = "%s deviates from the other sensors in field %s".formatted(suspect, window.field());
+                Cause.Device device = new Cause.Device(suspect, types.apply(scope.identity(suspect)));
+                Duration atLeast = holds.compareTo(MIN) < 0 ? MIN : holds;
+                Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, suspect, text, List.of(device), atLeast);
+                alarms.raise(cause.inGroup(AlarmGroup.ofField(window.field())), now);
+            }
+        }
+    }
+
+    /** Removes the runs of fields that no longer produce windows. */
+    public void passTime(long now) {
+        if (now < nextClearing) {
+            return;
+        }
+        nextClearing = now + CLEARING_EVERY;
+        List<String> passed = new ArrayList<>();
+        runs.forEach(run -> {
+            if (run.windowEnd() + REMEMBERED.toMillis() <= now) {
+                passed.add(run.field());
+            }
+        });
+        passed.forEach(field -> runs.put(field, null));
+    }
+
+    private SuspectRuns runsOf(String field, long time) {
+        SuspectRuns known = runs.get(field);
+        return known == null || known.windowEnd() + REMEMBERED.toMillis() <= time
+                ? new SuspectRuns(field, Long.MIN_VALUE, Map.of())
+                : known;
+    }
+}

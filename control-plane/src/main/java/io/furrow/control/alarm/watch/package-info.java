@@ -1,0 +1,2 @@
+/** Raises alarms from the results of analytics. */
+package io.furrow.control.alarm.watch;

@@ -1,2 +1,0 @@
-/** Fields from the files of geographic information systems to {@code service.fields}. */
-package io.furrow.control.field;

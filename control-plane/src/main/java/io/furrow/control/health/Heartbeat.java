@@ -1,0 +1,30 @@
+package io.furrow.control.health;
+
+/**
+ * A message from {@link HeartbeatProcessor} to {@link DeviceHealthTracker}: a device reported or is silent.
+ *
+ * @param id of the entity; empty in a pulse, which only states that reports arrive
+ * @param type of the entity
+ * @param silent whether the device has not reported for too long; false for a heartbeat
+ * @param heard when its last report arrived, epoch ms, by the clock of the control plane
+ * @param reported event time of that report, epoch ms
+ * @param battery 0 to 1; null if never reported
+ * @param off whether it reported that it is switched off
+ */
+record Heartbeat(String id, String type, boolean silent, long heard, long reported, Double battery, boolean off) {
+    /** Key of a pulse; no device has it, so that earlier versions skip it. */
+    static final String PULSE_KEY = "";
+
+    /**
+     * Creates a pulse: some device reported.
+     *
+     * @param heard when, epoch ms
+     */
+    static Heartbeat pulse(long heard) {
+        return new Heartbeat("", null, false, heard, heard, null, false);
+    }
+
+    boolean isPulse() {
+        return id.isEmpty();
+    }
+}

@@ -1,0 +1,76 @@
+package io.furrow.control.health;
+
+import java.time.Duration;
+import java.util.Set;
+
+import org.apache.kafka.streams.processor.PunctuationType;
+import org.apache.kafka.streams.processor.api.ContextualProcessor;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.record.RecordScope;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.event.Origin;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Derives heartbeats from the reports of devices, with one {@link SilenceDetector} per partition. The detector is not
+ * persisted: after a reassignment it starts again, and {@link DeviceHealthTracker} finds the devices that fell silent
+ * meanwhile.
+ *
+ * <p><b>Skipped</b>: deletions, and entities that were read from the context broker to repair a gap, which are not
+ * heartbeats.
+ */
+final class HeartbeatProcessor extends ContextualProcessor<String, byte[], String, byte[]> {
+    private static final Logger LOG = LoggerFactory.getLogger(HeartbeatProcessor.class);
+    private static final Duration TICK = Duration.ofSeconds(1);
+    /** Resolution of the time since which no report has arrived. */
+    private static final Duration PULSE = Duration.ofSeconds(5);
+
+    private static final Set<String> ATTRIBUTES = Set.of(Battery.ATTRIBUTE, SilenceDetector.STATUS);
+
+    private final HealthOptions options;
+    private SilenceDetector listener;
+    private long pulsed;
+
+    HeartbeatProcessor(HealthOptions options) {
+        this.options = options;
+    }
+
+    @Override
+    public void init(ProcessorContext<String, byte[]> context) {
+        super.init(context);
+        listener = new SilenceDetector(options, HealthWatch.wanted(context), this::forward);
+        context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, listener::passTime);
+    }
+
+    @Override
+    public void process(Record<String, byte[]> record) {
+        boolean mended = Origin.REPAIR.code().equals(RecordScope.header(record, HeaderNames.ORIGIN));
+        if (record.key() == null || record.value() == null || mended) {
+            return;
+        }
+        String key = RecordScope.of(record).identity(record.key());
+        if (!listener.listensTo(key)) {
+            return;
+        }
+        try {
+            Entity entity = Entity.parse(record.value(), ATTRIBUTES);
+            long now = context().currentSystemTimeMs();
+            if (listener.hear(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
+                pulsed = now;
+                forward(Heartbeat.PULSE_KEY, Heartbeat.pulse(now));
+            }
+        } catch (UnreadableException e) {
+            LOG.debug("report of {} cannot be parsed and is skipped", record.key(), e);
+        }
+    }
+
+    private void forward(String key, Heartbeat sign) {
+        context().forward(new Record<>(key, StateJson.write(sign), context().currentSystemTimeMs()));
+    }
+}

@@ -1,0 +1,144 @@
+package io.furrow.control.health;
+
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * Reduces the reports of devices to heartbeats: emits one at the first report of a device, then every 30 seconds, and
+ * one when it has been silent for too long. Ten thousand devices yield some hundred heartbeats a second. Silence is
+ * measured by the clock of the control plane, so that neither a device's clock nor a delayed read causes it.
+ *
+ * <p>A report with the event time of the last one is ignored: the context broker notifies about the unchanged entity
+ * when a command is sent to it.
+ */
+final class SilenceDetector {
+    static final Duration SIGN_EVERY = Duration.ofSeconds(30);
+
+    /** Boolean; false if the device is switched off. */
+    static final String STATUS = "Status";
+
+    private static final Duration MAX_TICK = Duration.ofSeconds(2);
+    private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
+
+    private final HealthOptions options;
+    private final WantedDevices wanted;
+    private final SilenceListener told;
+    private final Map<String, Heard> devices = new HashMap<>();
+    private final Set<String> unwanted = new HashSet<>();
+    private long lookedUp;
+    private long passed;
+
+    /** Receives the heartbeats. */
+    interface SilenceListener {
+        /** @param key of {@code service.devices} */
+        void tell(String key, Heartbeat sign);
+    }
+
+    /** Mutable state of one device. */
+    private static final class Heard {
+        /** Null until the device reports. */
+        private Heartbeat newest;
+
+        private long told;
+        private boolean silent;
+        private long silentAfter;
+    }
+
+    SilenceDetector(HealthOptions options, WantedDevices wanted, SilenceListener told) {
+        this.options = options;
+        this.wanted = wanted;
+        this.told = told;
+    }
+
+    /** Whether the device is desired, so that its reports are parsed. */
+    boolean listensTo(String key) {
+        if (devices.containsKey(key)) {
+            return true;
+        }
+        if (unwanted.contains(key)) {
+            return false;
+        }
+        Heard unheard = new Heard();
+        boolean listens = isWantedStill(key, unheard);
+        if (listens) {
+            devices.put(key, unheard);
+        } else {
+            unwanted.add(key);
+        }
+        return listens;
+    }
+
+    /**
+     * Processes a report of a desired device.
+     *
+     * @param reported event time, epoch ms
+     * @param now epoch ms
+     * @return whether the report counts as a heartbeat
+     */
+    boolean hear(String key, Entity entity, long reported, long now) {
+        Heard known = devices.get(key);
+        boolean first = known.newest == null;
+        if (!first && known.newest.reported() == reported) {
+            return false;
+        }
+        Double battery = Battery.chargeOf(entity);
+        boolean off = entity.value(STATUS)
+                .filter(status -> status.isBoolean() && !status.booleanValue())
+                .isPresent();
+        boolean switched = !first && off != known.newest.off();
+        Double newest = battery == null && !first ? known.newest.battery() : battery;
+        known.newest = new Heartbeat(entity.id(), entity.type(), false, now, reported, newest, off);
+        if (first || known.silent || switched || now - known.told >= SIGN_EVERY.toMillis()) {
+            known.told = now;
+            known.silent = false;
+            told.tell(key, known.newest);
+        }
+        return true;
+    }
+
+    /**
+     * Called about once a second. After a pause, in which no reports were read, detects no silence until the pending
+     * reports are read.
+     */
+    void passTime(long now) {
+        boolean paused = now - passed > MAX_TICK.toMillis();
+        passed = now;
+        if (now - lookedUp >= LOOKUP_INTERVAL.toMillis()) {
+            lookedUp = now;
+            unwanted.clear();
+            devices.entrySet().removeIf(entry -> !isWantedStill(entry.getKey(), entry.getValue()));
+        }
+        if (!paused) {
+            tellSilent(now);
+        }
+    }
+
+    private void tellSilent(long now) {
+        devices.forEach((key, heard) -> {
+            if (!heard.silent
+                    && heard.newest != null
+                    && !heard.newest.off()
+                    && now - heard.newest.heard() > heard.silentAfter) {
+                heard.silent = true;
+                told.tell(key, silence(heard.newest));
+            }
+        });
+    }
+
+    private boolean isWantedStill(String key, Heard heard) {
+        Optional<WantedDevice> device = wanted.of(key);
+        device.ifPresent(found -> heard.silentAfter = options.silentAfter(found));
+        return device.isPresent();
+    }
+
+    private static Heartbeat silence(Heartbeat last) {
+        return new Heartbeat(last.id(), last.type(), true, last.heard(), last.reported(), last.battery(), last.off());
+    }
+}

@@ -1,0 +1,193 @@
+package io.furrow.control.manager;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.Optional;
+import java.util.function.BiFunction;
+
+import org.apache.kafka.streams.processor.PunctuationType;
+import org.apache.kafka.streams.processor.api.ContextualProcessor;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.manager.record.DeadLetters;
+import io.furrow.control.manager.record.OversizedRecordException;
+import io.furrow.control.manager.record.RecordOrigin;
+import io.furrow.model.control.Command;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.Received;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RequestExcerpt;
+import io.furrow.model.control.RequestFingerprint;
+import io.furrow.model.control.Requests;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Gives every request one effect and one answer. The time is that of the control plane's clock, because commands are about now,
+ * whatever the record's timestamp says. A request that makes the manager fail changes nothing, is answered with {@link
+ * ErrorCode#INTERNAL_ERROR} and becomes a dead letter.
+ *
+ * <p><b>State</b>: {@link RequestLog}, and what the handler remembers. <b>Twice</b>: a request whose id was answered is passed
+ * over; another request under that id is refused. <b>Emits</b>: what the handler writes, then the answer on the request's topic, its
+ * key the request's id, else the request's key, and an entry on {@code service.audit}; all in one transaction.
+ *
+ * @param <C> commands of the manager
+ */
+public final class CommandProcessor<C extends Command>
+        extends ContextualProcessor<String, byte[], String, OutputRecord> {
+    private static final Logger LOG = LoggerFactory.getLogger(CommandProcessor.class);
+    private static final Duration TICK = Duration.ofSeconds(1);
+    private static final Duration STEP = Duration.ofMillis(100);
+
+    private final ManagerTopic<C> manager;
+    private final Duration remembered;
+    private final BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<C>> opening;
+    private RequestLog answered;
+    private AtomicContext atomic;
+    private Punctuations punctuations;
+    private CommandHandler<C> handler;
+    private boolean opened;
+
+    /**
+     * @param remembered how long ids of requests are
+     * @param opening makes the handler, whose stores are those of the context
+     */
+    public CommandProcessor(
+            ManagerTopic<C> manager,
+            Duration remembered,
+            BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<C>> opening) {
+        this.manager = manager;
+        this.remembered = remembered;
+        this.opening = opening;
+    }
+
+    @Override
+    public void init(ProcessorContext<String, OutputRecord> context) {
+        super.init(context);
+        answered = new RequestLog(context, manager.answers(), remembered);
+        atomic = new AtomicContext(context);
+        handler = opening.apply(atomic, outbox(atomic));
+        opened = false;
+        punctuations = new Punctuations(atomic);
+        context.schedule(TICK, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.due(now)));
+        context.schedule(STEP, PunctuationType.WALL_CLOCK_TIME, now -> punctuations.run(handler.pending(now)));
+    }
+
+    /** Where handlers write to: on to the next node, under the time of the control plane's clock. */
+    public static EventPublisher outbox(ProcessorContext<String, OutputRecord> context) {
+        return (topic, key, value) ->
+                context.forward(new Record<>(key, new OutputRecord(topic, value), context.currentSystemTimeMs()));
+    }
+
+    @Override
+    public void process(Record<String, byte[]> record) {
+        long now = context().currentSystemTimeMs();
+        if (!opened) {
+            punctuations.run(handler.due(now));
+            opened = true;
+        }
+        long oversized = RequestProcessor.oversizedBytes(record);
+        if (oversized > 0) {
+            refuseOversized(record, oversized, now);
+            return;
+        }
+        Received<C> received = manager.read(record.value());
+        if (received instanceof Received.Request<C> request) {
+            answerOnce(Asked.of(record, request.requestId()), () -> answer(record, request.command(), now), now);
+        } else if (received instanceof Received.Refused<C> refused) {
+            answerOnce(Asked.of(record, refused.requestId()), refused::answer, now);
+        }
+    }
+
+    /** A request as a record, its id, which may be null, and what it asks for. */
+    private record Asked(Record<String, byte[]> record, String id, String fingerprint) {
+        static Asked of(Record<String, byte[]> record, String id) {
+            return new Asked(record, id, id == null ? "" : RequestFingerprint.of(record.value()));
+        }
+    }
+
+    private interface Answering {
+        CommandResult answer();
+    }
+
+    private void answerOnce(Asked asked, Answering answering, long now) {
+        String id = asked.id();
+        Optional<String> known = id == null ? Optional.empty() : answered.fingerprint(id, now);
+        if (known.isPresent()) {
+            // Of requests that an earlier version answered the fingerprint is not known, but the answer.
+            boolean same =
+                    known.get().equals(asked.fingerprint()) || known.get().startsWith("{");
+            if (!same) {
+                send(asked, refusal(asked, ErrorCode.REQUEST_ID_REUSED, "this id was given to another request"), now);
+            }
+            return;
+        }
+        if (id != null && answered.isFull(now)) {
+            String reason = "%d requests of the last %d min are remembered, which is the most; ask again later"
+                    .formatted(Limits.REMEMBERED_REQUESTS, remembered.toMinutes());
+            send(asked, refusal(asked, ErrorCode.OVERLOADED, reason), now);
+            return;
+        }
+        CommandResult given = answering.answer();
+        if (id != null) {
+            answered.add(id, asked.fingerprint(), now);
+        }
+        send(asked, given, now);
+    }
+
+    private void refuseOversized(Record<String, byte[]> record, long bytes, long now) {
+        RequestExcerpt excerpt = RequestExcerpt.of(record.value());
+        String reason =
+                "the request has %d bytes, and may have %d; send a long list of devices in several with 'add-devices'"
+                        .formatted(bytes, Limits.REQUEST_BYTES);
+        answerOnce(Asked.of(record, excerpt.requestId()), () -> excerpt.refusal(ErrorCode.TOO_LARGE, reason), now);
+    }
+
+    private static CommandResult refusal(Asked asked, ErrorCode code, String reason) {
+        return RequestExcerpt.of(asked.record().value()).refusal(code, reason);
+    }
+
+    private void send(Asked asked, CommandResult given, long now) {
+        String id = asked.id();
+        String ownKey = asked.record().key() == null || asked.record().key().isEmpty()
+                ? null
+                : asked.record().key();
+        String key = id == null ? ownKey : id;
+        CommandResult answer = given.to(id);
+        Record<String, OutputRecord> response = new Record<>(
+                key,
+                new OutputRecord(manager.topic(), answer.toBytes()),
+                context().currentSystemTimeMs());
+        if (id != null) {
+            response.headers()
+                    .add(RequestFingerprint.HEADER, asked.fingerprint().getBytes(StandardCharsets.UTF_8));
+        }
+        context().forward(response);
+        AuditEntry entry = AuditEntry.of(manager.topic(), asked.record().value(), answer, now);
+        outbox(context()).put(Topics.AUDIT, key, entry.toBytes());
+    }
+
+    private CommandResult answer(Record<String, byte[]> record, C command, long now) {
+        try {
+            return atomic.call(() -> handler.answer(command, now));
+        } catch (RefusedException e) {
+            return Requests.refusal(e, command);
+        } catch (OversizedRecordException e) {
+            return Requests.refusal(new RefusedException(ErrorCode.TOO_LARGE, e.getMessage()), command);
+        } catch (RuntimeException e) { // a fault of ours, which must not keep the other requests from being answered
+            RecordOrigin origin = RecordOrigin.of(record).orElseThrow();
+            LOG.error("the request {} failed and changed nothing; it is a dead letter", origin, e);
+            context().forward(DeadLetters.of(record, origin, Reason.FAILED, e.toString()));
+            return Requests.refusal(
+                    new RefusedException(
+                            ErrorCode.INTERNAL_ERROR, "the manager failed at it and changed nothing; its log says why"),
+                    command);
+        }
+    }
+}

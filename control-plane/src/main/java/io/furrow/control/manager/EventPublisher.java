@@ -1,0 +1,7 @@
+package io.furrow.control.manager;
+
+/** Receives the records that a manager writes; those of one request become visible together. */
+public interface EventPublisher {
+    /** @param value null deletes what has the key */
+    void put(String topic, String key, byte[] value);
+}

@@ -1,0 +1,46 @@
+package io.furrow.control.manager;
+
+import java.util.function.BiFunction;
+
+import org.apache.kafka.streams.processor.api.ContextualProcessor;
+import org.apache.kafka.streams.processor.api.ProcessorContext;
+import org.apache.kafka.streams.processor.api.Record;
+
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Processes the statuses that hosts and players report. What cannot be read or handled changes nothing and becomes a
+ * dead letter; a record without a value says nothing.
+ */
+public final class StatusProcessor extends ContextualProcessor<String, byte[], String, OutputRecord> {
+    private final BiFunction<ProcessorContext<?, ?>, EventPublisher, Reports> opening;
+    private GuardedWork work;
+    private Reports reports;
+
+    /** Who takes them. */
+    public interface Reports {
+        /** @param now epoch ms */
+        void take(String key, byte[] value, long now) throws UnreadableException;
+    }
+
+    /** @param opening makes who takes them, whose stores are those of the context */
+    public StatusProcessor(BiFunction<ProcessorContext<?, ?>, EventPublisher, Reports> opening) {
+        this.opening = opening;
+    }
+
+    @Override
+    public void init(ProcessorContext<String, OutputRecord> context) {
+        super.init(context);
+        work = new GuardedWork(true, context);
+        reports = opening.apply(work.context(), CommandProcessor.outbox(work.context()));
+    }
+
+    @Override
+    public void process(Record<String, byte[]> record) {
+        if (record.value() != null && record.key() != null) {
+            work.run(
+                    record,
+                    () -> reports.take(record.key(), record.value(), context().currentSystemTimeMs()));
+        }
+    }
+}

@@ -1,0 +1,268 @@
+package io.furrow.control.mission;
+
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Writes the devices of missions to {@code service.devices}, a bounded number at a time: what is left is a {@link Rollout}. A device is
+ * on one mission at a time, also while that is still being written.
+ */
+final class DeviceAssignments {
+    private final MissionRecords records;
+    private final MissionLists lists;
+    private final MissionOptions options;
+    private final FarmContext farm;
+    private final EventPublisher outbox;
+
+    DeviceAssignments(
+            MissionRecords records,
+            MissionLists lists,
+            MissionOptions options,
+            FarmContext farm,
+            EventPublisher outbox) {
+        this.records = records;
+        this.lists = lists;
+        this.options = options;
+        this.farm = farm;
+        this.outbox = outbox;
+    }
+
+    /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many are hosted. */
+    int ask(Mission mission, long now) throws RefusedException {
+        List<WantedDevice> roster = roster(mission, now);
+        Set<String> beingWritten = beingWrittenFor(mission);
+        checkFree(mission, roster, beingWritten);
+        checkRoom(roster, beingWritten);
+        advance(mission, new Rollout(mission.mission(), Rollout.Kind.START, 0, now));
+        return (int) roster.stream().filter(WantedDevice::isHosted).count();
+    }
+
+    private void checkFree(Mission mission, List<WantedDevice> roster, Set<String> beingWritten)
+            throws RefusedException {
+        Set<String> keys = new HashSet<>();
+        for (WantedDevice wanted : roster) {
+            String key = wanted.version().key();
+            String id = wanted.version().id();
+            DeviceState known = records.devices().get(key);
+            boolean taken = known != null
+                    && known.device().running()
+                    && !known.mission().equals(mission.mission());
+            if (taken) {
+                throw new RefusedException(
+                        ErrorCode.DEVICE_TAKEN,
+                        "device '%s' is on mission '%s'; stop that first".formatted(id, known.mission()));
+            }
+            if (beingWritten.contains(key)) {
+                throw new RefusedException(
+                        ErrorCode.DEVICE_TAKEN, "device '%s' is on another mission; stop that first".formatted(id));
+            }
+            if (!keys.add(key)) {
+                throw new RefusedException(ErrorCode.DEVICE_TAKEN, "device '%s' is twice on the mission".formatted(id));
+            }
+        }
+    }
+
+    private void checkRoom(List<WantedDevice> roster, Set<String> beingWritten) throws RefusedException {
+        long fresh = roster.stream()
+                .map(wanted -> wanted.version().key())
+                .filter(key -> !records.devices().contains(key))
+                .count();
+        long unwritten = beingWritten.stream()
+                .filter(key -> !records.devices().contains(key))
+                .count();
+        farm.quota().require((fresh + unwritten) * Limits.DEVICE_BYTES);
+    }
+
+    /** The devices of other missions that have begun to start, of which some are not written yet. */
+    private Set<String> beingWrittenFor(Mission mission) {
+        Set<String> keys = new HashSet<>();
+        records.rollouts().forEach(rollout -> {
+            if (rollout.kind() == Rollout.Kind.START && !rollout.mission().equals(mission.mission())) {
+                Mission other = records.missions().get(rollout.mission());
+                roster(other, 0).forEach(device -> keys.add(device.version().key()));
+            }
+        });
+        return keys;
+    }
+
+    /**
+     * Begins to want none of its devices any more. Their records stay, so that jobs know to whom their past belongs. Answers how
+     * many are hosted and have to go.
+     */
+    int dismiss(Mission mission, long now) {
+        int hosted = 0;
+        for (DeviceState known : of(mission)) {
+            hosted += known.device().running() && known.device().isHosted() ? 1 : 0;
+        }
+        advance(mission, new Rollout(mission.mission(), Rollout.Kind.STOP, 0, now));
+        return hosted;
+    }
+
+    /** Whether devices of a mission are still to be written. */
+    boolean isBeingWritten(String mission) {
+        return records.rollouts().get(mission) != null;
+    }
+
+    /** Writes the next devices of a rollout. Answers whether it is done. */
+    boolean advance(Mission mission, Rollout rollout) {
+        List<WantedDevice> roster = roster(mission, rollout.time());
+        int end = Math.min(roster.size(), rollout.next() + options.devicesPerStep());
+        for (WantedDevice wanted : roster.subList(Math.min(rollout.next(), end), end)) {
+            if (rollout.kind() == Rollout.Kind.START) {
+                put(wanted);
+            } else {
+                stop(mission, wanted.version().key(), rollout.time());
+            }
+        }
+        boolean done = end == roster.size();
+        records.rollouts().put(mission.mission(), done ? null : rollout.at(end));
+        return done;
+    }
+
+    private void stop(Mission mission, String key, long time) {
+        DeviceState known = records.devices().get(key);
+        if (known != null
+                && known.mission().equals(mission.mission())
+                && known.device().running()) {
+            WantedDevice device = known.device();
+            DeviceVersion ended =
+                    device.version().endingAt(Math.max(time, device.version().from()));
+            put(new WantedDevice(
+                    ended,
+                    device.type(),
+                    device.device(),
+                    false,
+                    device.period(),
+                    device.settings(),
+                    device.group(),
+                    device.generation()));
+        }
+    }
+
+    /**
+     * Gives a device new credentials. It counts as up as before: whoever hosts it says whether it is with the new ones.
+     *
+     * @param id of its entity
+     * @return how often that was done
+     */
+    int rotateCredentials(String id) throws RefusedException {
+        DeviceState known = records.devices().get(options.scope().identity(id));
+        if (known == null || known.forgotten()) {
+            throw new RefusedException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id));
+        }
+        if (!known.device().isHosted()) {
+            throw new RefusedException(
+                    ErrorCode.NO_CREDENTIALS,
+                    "device '%s' reports by itself, with credentials of its own".formatted(id));
+        }
+        WantedDevice rotated = known.device().withGeneration(known.device().generation() + 1);
+        String key = rotated.version().key();
+        put(rotated);
+        records.devices().put(key, records.devices().get(key).reported(known.confirmed(), known.reason()));
+        return rotated.generation();
+    }
+
+    /** Forgets its devices, their past too. */
+    void forget(Mission mission) {
+        records.rollouts().put(mission.mission(), null);
+        forget(mission, Set.of());
+    }
+
+    /** Forgets the devices of a mission as it was, but not those that it has as it is now. */
+    void forgetAllBut(List<DeviceState> before, Mission now) {
+        Set<String> kept = new HashSet<>();
+        roster(now, 0).forEach(device -> kept.add(device.version().key()));
+        forget(before, kept);
+    }
+
+    private void forget(Mission mission, Set<String> kept) {
+        forget(of(mission), kept);
+    }
+
+    private void forget(List<DeviceState> devices, Set<String> kept) {
+        for (DeviceState known : devices) {
+            String key = known.device().version().key();
+            if (!kept.contains(key)) {
+                // Else a device of the same name would let the stolen password in again.
+                records.devices().put(key, known.generation() == 0 ? null : known.asForgotten());
+                farm.quota().use(known.generation() == 0 ? -Limits.DEVICE_BYTES : 0);
+                outbox.put(Topics.DEVICES, key, null);
+            }
+        }
+    }
+
+    /** Hosted devices that are not in the desired state. */
+    List<MissionStatus.Missing> missing(Mission mission) {
+        List<MissionStatus.Missing> missing = new ArrayList<>();
+        for (DeviceState known : of(mission)) {
+            WantedDevice device = known.device();
+            if (device.isHosted() && !known.confirmed() && missing.size() < MissionStatus.MAX_NAMED) {
+                missing.add(new MissionStatus.Missing(device.version().id(), known.reason()));
+            }
+        }
+        return missing;
+    }
+
+    /** What the host says of one of the devices; empty if it says nothing. */
+    String saidOfMissing(Mission mission) {
+        return missing(mission).stream()
+                .filter(device -> device.reason() != null)
+                .findFirst()
+                .map(device -> "; %s: %s".formatted(device.id(), device.reason()))
+                .orElse("");
+    }
+
+    /** Those of its devices that are still its own. */
+    List<DeviceState> of(Mission mission) {
+        List<DeviceState> own = new ArrayList<>();
+        for (WantedDevice each : roster(mission, 0)) {
+            DeviceState known = records.devices().get(each.version().key());
+            if (known != null && !known.forgotten() && known.mission().equals(mission.mission())) {
+                own.add(known);
+            }
+        }
+        return own;
+    }
+
+    private List<WantedDevice> roster(Mission mission, long from) {
+        return PlannedDevices.of(mission, lists.groups(mission), options.scope(), from);
+    }
+
+    private void put(WantedDevice device) {
+        DeviceVersion version = device.version();
+        DeviceState known = records.devices().get(version.key());
+        WantedDevice numbered = new WantedDevice(
+                new DeviceVersion(
+                        version.id(),
+                        version.service(),
+                        version.servicePath(),
+                        version.domain(),
+                        version.mission(),
+                        version.from(),
+                        version.until(),
+                        farm.sequence().next(),
+                        version.carriedBy()),
+                device.type(),
+                device.device(),
+                device.running(),
+                device.period(),
+                device.settings(),
+                device.group(),
+                Math.max(device.generation(), known == null ? 0 : known.generation()));
+        if (known == null) {
+            farm.quota().use(Limits.DEVICE_BYTES);
+        }
+        records.devices().put(version.key(), DeviceState.asked(numbered));
+        outbox.put(Topics.DEVICES, version.key(), numbered.toBytes());
+    }
+}

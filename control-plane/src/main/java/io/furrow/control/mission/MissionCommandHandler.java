@@ -1,0 +1,298 @@
+package io.furrow.control.mission;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Predicate;
+
+import io.furrow.control.domain.DomainMissions;
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.Quota;
+import io.furrow.control.manager.record.Sequence;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.MissionCommand;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.topic.Topics;
+
+/** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
+public final class MissionCommandHandler implements DomainMissions {
+    private final MissionRecords records;
+    private final Predicate<String> isDomain;
+    private final TemplateStore templates;
+    private final MissionLists lists;
+    private final MissionPlanner planner;
+    private final DeviceAssignments devices;
+    private final Sequence sequence;
+    private final Quota quota;
+    private final long timeout;
+    private final EventPublisher outbox;
+
+    /** @param farm what there is besides missions */
+    MissionCommandHandler(MissionRecords records, FarmContext farm, MissionOptions options, EventPublisher outbox) {
+        this.records = records;
+        this.isDomain = farm.isDomain();
+        this.sequence = farm.sequence();
+        this.quota = farm.quota();
+        this.templates = new TemplateStore(records.templates(), records.versions(), farm.quota(), outbox);
+        this.lists = new MissionLists(records.lists(), sequence, farm.quota(), outbox);
+        this.devices = new DeviceAssignments(records, lists, options, farm, outbox);
+        this.planner = new MissionPlanner(farm, templates, lists, devices);
+        this.timeout = options.timeout().toMillis();
+        this.outbox = outbox;
+    }
+
+    public TemplateStore templates() {
+        return templates;
+    }
+
+    /** @param now epoch ms */
+    public CommandResult answer(MissionCommand command, long now) throws RefusedException {
+        if (command instanceof MissionCommand.Create create) {
+            return create(create, now);
+        } else if (command instanceof MissionCommand.Start start) {
+            return start(start, now);
+        } else if (command instanceof MissionCommand.Stop stop) {
+            return stop(stop, now);
+        } else if (command instanceof MissionCommand.Delete delete) {
+            return delete(delete);
+        } else if (command instanceof MissionCommand.AddDevices add) {
+            return addDevices(add);
+        } else if (command instanceof MissionCommand.SaveTemplate save) {
+            MissionTemplate saved = templates.save(save.template());
+            return CommandResult.of("created").with("template", saved.name()).with("version", saved.version());
+        } else if (command instanceof MissionCommand.RotateCredentials rotate) {
+            int generation = devices.rotateCredentials(rotate.device());
+            return CommandResult.of("rotated").with("device", rotate.device()).with("generation", generation);
+        }
+        MissionCommand.DeleteTemplate delete = (MissionCommand.DeleteTemplate) command;
+        templates.delete(delete.template(), delete.version());
+        return CommandResult.of("deleted").with("template", delete.template());
+    }
+
+    private CommandResult create(MissionCommand.Create create, long now) throws RefusedException {
+        if (records.missions().get(create.mission()) != null) {
+            throw new RefusedException(
+                    ErrorCode.MISSION_EXISTS, "there is a mission '" + create.mission() + "' already");
+        }
+        Mission mission = planner.plan(null, create.mission(), create.domain(), create.plan(), now)
+                .unwanted(sequence.next());
+        keep(mission, MissionStatus.created(mission, now));
+        return created(mission);
+    }
+
+    private CommandResult start(MissionCommand.Start start, long now) throws RefusedException {
+        Mission known = records.missions().get(start.mission());
+        MissionStatus status = records.statuses().get(start.mission());
+        if (status != null && status.state().isActive()) {
+            throw new RefusedException(
+                    ErrorCode.MISSION_RUNNING,
+                    "mission '%s' is %s already"
+                            .formatted(start.mission(), status.state().word()));
+        }
+        String domain = start.domain() == null && known != null ? known.domain() : start.domain();
+        Mission planned = planner.plan(known, start.mission(), domain, start.plan(), now);
+        long begin = start.start() == null ? now : Math.max(now, start.start().toEpochMilli());
+        Long duration =
+                start.duration() == null ? null : Long.valueOf(start.duration().toMillis());
+        Mission mission = planned.wanted(begin, duration, sequence.next());
+        int hosted = begin > now ? 0 : devices.ask(mission, now);
+        MissionStatus before = status == null ? MissionStatus.created(mission, now) : status;
+        keep(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, hosted, timeout, now));
+        return created(mission);
+    }
+
+    private CommandResult addDevices(MissionCommand.AddDevices add) throws RefusedException {
+        MissionStatus status = records.statuses().get(add.mission());
+        if (status == null) {
+            throw unknown(add.mission());
+        }
+        if (status.state().isActive()) {
+            throw new RefusedException(
+                    ErrorCode.MISSION_RUNNING,
+                    "mission '%s' is %s; stop it before devices are added"
+                            .formatted(add.mission(), status.state().word()));
+        }
+        Mission mission = lists.append(records.missions().get(add.mission()), add.devices());
+        keep(mission);
+        return CommandResult.of("changed").with("mission", mission.mission()).with("devices", mission.deviceCount());
+    }
+
+    private CommandResult stop(MissionCommand.Stop stop, long now) throws RefusedException {
+        MissionStatus status = records.statuses().get(stop.mission());
+        if (status == null) {
+            throw unknown(stop.mission());
+        }
+        boolean scheduled = status.state() == MissionState.CREATED && status.due() != null;
+        boolean runs = status.state() == MissionState.STARTING || status.state() == MissionState.RUNNING;
+        if (!scheduled && !runs) {
+            throw new RefusedException(
+                    ErrorCode.MISSION_NOT_RUNNING,
+                    "mission '%s' does not run, it is %s"
+                            .formatted(stop.mission(), status.state().word()));
+        }
+        stop(stop.mission(), now);
+        return CommandResult.of("deleted").with("mission", stop.mission());
+    }
+
+    @Override
+    public void stop(String name, long now) {
+        MissionStatus status = records.statuses().get(name);
+        if (status.state() != MissionState.STOPPING) {
+            Mission mission = records.missions().get(name).unwanted(sequence.next());
+            int hosted = devices.dismiss(mission, now);
+            keep(mission, status.stopped(mission, hosted, timeout, now));
+        }
+    }
+
+    @Override
+    public List<String> activeIn(String domain) {
+        List<String> active = new ArrayList<>();
+        records.statuses().forEach(status -> {
+            if (status.domain().equals(domain) && status.state().isActive()) {
+                active.add(status.mission());
+            }
+        });
+        return active;
+    }
+
+    private CommandResult delete(MissionCommand.Delete delete) throws RefusedException {
+        MissionStatus status = records.statuses().get(delete.mission());
+        if (status == null) {
+            throw unknown(delete.mission());
+        }
+        if (status.state().isActive()) {
+            throw new RefusedException(
+                    ErrorCode.MISSION_RUNNING,
+                    "mission '%s' is %s; stop it first"
+                            .formatted(delete.mission(), status.state().word()));
+        }
+        Mission mission = records.missions().get(delete.mission());
+        devices.forget(mission);
+        lists.forget(mission);
+        quota.use(-Limits.MISSION_OVERHEAD_BYTES);
+        records.missions().put(delete.mission(), null);
+        records.statuses().put(delete.mission(), null);
+        outbox.put(Topics.MISSIONS, delete.mission(), null);
+        outbox.put(Topics.MISSIONS_STATUS, delete.mission(), null);
+        return CommandResult.of("deleted").with("mission", delete.mission());
+    }
+
+    /**
+     * What the host of a device says; of a device or a state that is no longer wanted nothing is taken. It counts for the mission where
+     * the device was written since that came to its state: while one is being written, some devices are still of the time before.
+     */
+    public void reported(String key, DeviceStatus told, long now) {
+        DeviceState known = records.devices().get(key);
+        if (known == null || told.sequence() < known.device().version().sequence()) {
+            return;
+        }
+        DeviceStatus.State wanted = known.device().running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
+        boolean asWanted = told.state() == wanted;
+        records.devices().put(key, known.reported(asWanted, told.reason()));
+        MissionStatus status = records.statuses().get(known.mission());
+        boolean counts = known.device().isHosted()
+                && status != null
+                && status.state().isActive()
+                && known.device().version().sequence() > status.sequence();
+        if (counts && asWanted != known.confirmed()) {
+            String id = known.device().version().id();
+            keep(status.reported(new MissionStatus.Missing(id, told.reason()), asWanted, now));
+        }
+    }
+
+    /** What waits for no one but the time, mission by mission: start dates, durations, devices that are late. */
+    public List<Runnable> due(long now) {
+        List<Runnable> steps = new ArrayList<>();
+        records.statuses().forEach(status -> {
+            boolean ends = status.ends() != null && status.ends() <= now;
+            if (status.isDue(now) && (ends || !devices.isBeingWritten(status.mission()))) {
+                steps.add(() -> goOn(status, now));
+            }
+        });
+        return steps;
+    }
+
+    /** The next devices of each mission of which some are still to be written. */
+    public List<Runnable> pending(long now) {
+        List<Runnable> steps = new ArrayList<>();
+        records.rollouts().forEach(rollout -> steps.add(() -> advance(rollout, now)));
+        return steps;
+    }
+
+    /** The time for coming up or going counts from the last device on. */
+    private void advance(Rollout rollout, long now) {
+        if (devices.advance(records.missions().get(rollout.mission()), rollout)) {
+            MissionStatus status = records.statuses().get(rollout.mission());
+            MissionStatus after = status.written(timeout, now);
+            if (!after.equals(status)) {
+                keep(after);
+            }
+        }
+    }
+
+    private void goOn(MissionStatus status, long now) {
+        Mission mission = records.missions().get(status.mission());
+        if (status.ends() != null && status.ends() <= now) {
+            stop(mission.mission(), now);
+        } else if (status.state() == MissionState.CREATED) {
+            begin(mission, status, now);
+        } else if (status.state() == MissionState.STARTING && status.confirmed() == 0) {
+            String said = devices.saidOfMissing(mission);
+            devices.dismiss(mission, now);
+            fail(
+                    mission,
+                    status,
+                    "none of %d devices came up within %d s%s".formatted(status.devices(), timeout / 1000, said),
+                    now);
+        } else {
+            keep(status.without(devices.missing(mission), now));
+        }
+    }
+
+    private void begin(Mission mission, MissionStatus status, long now) {
+        try {
+            if (!isDomain.test(mission.domain())) {
+                throw new RefusedException(
+                        ErrorCode.UNKNOWN_DOMAIN, "there is no domain '" + mission.domain() + "' any more");
+            }
+            keep(status.started(mission, devices.ask(mission, now), timeout, now));
+        } catch (RefusedException e) {
+            fail(mission, status, "at the start date: " + e.getMessage(), now);
+        }
+    }
+
+    private void fail(Mission mission, MissionStatus status, String reason, long now) {
+        Mission unwanted = mission.unwanted(sequence.next());
+        keep(unwanted, status.failed(unwanted, reason, now));
+    }
+
+    private void keep(Mission mission, MissionStatus status) {
+        keep(mission);
+        keep(status);
+    }
+
+    private void keep(Mission mission) {
+        records.missions().put(mission.mission(), mission);
+        outbox.put(Topics.MISSIONS, mission.mission(), mission.toBytes());
+    }
+
+    private void keep(MissionStatus status) {
+        records.statuses().put(status.mission(), status);
+        outbox.put(Topics.MISSIONS_STATUS, status.mission(), status.toBytes());
+    }
+
+    private static CommandResult created(Mission mission) {
+        return CommandResult.of("created")
+                .with("mission", mission.mission())
+                .with("domain", mission.domain())
+                .with("domain_topic", Topics.realtime(mission.domain()))
+                .with("mission_topic", Topics.realtime(mission.domain(), mission.mission()));
+    }
+
+    private static RefusedException unknown(String mission) {
+        return new RefusedException(ErrorCode.UNKNOWN_MISSION, "there is no mission '" + mission + "'");
+    }
+}

@@ -1,0 +1,83 @@
+package io.furrow.control.mission;
+
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.control.mission.DeviceGroup;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.GroupRef;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * The devices of a mission one by one. The n-th of a type is {@code urn:ngsi-ld:<type>:<mission>-<n>} unless its group has an
+ * id: the same plan always gives the same devices. Their id at the IoT Agent is that of the entity, but {@code +}, which no MQTT
+ * topic takes, is {@code %2B}.
+ */
+final class PlannedDevices {
+    private final Mission mission;
+    private final FiwareScope scope;
+    private final long from;
+    private final Map<String, Integer> numbers = new HashMap<>();
+    private final Map<String, List<String>> idsByLabel = new HashMap<>();
+    private final List<WantedDevice> devices = new ArrayList<>();
+
+    private PlannedDevices(Mission mission, FiwareScope scope, long from) {
+        this.mission = mission;
+        this.scope = scope;
+        this.from = from;
+    }
+
+    /** All of them, wanted from a time on, with the sequence 0. */
+    static List<WantedDevice> of(Mission mission, List<ListedGroup> groups, FiwareScope scope, long from) {
+        PlannedDevices roster = new PlannedDevices(mission, scope, from);
+        List<List<String>> ids =
+                groups.stream().map(each -> roster.name(each.group())).toList();
+        for (int i = 0; i < groups.size(); i++) {
+            roster.add(groups.get(i), ids.get(i));
+        }
+        return roster.devices;
+    }
+
+    private List<String> name(DeviceGroup group) {
+        List<String> ids = new ArrayList<>();
+        for (int i = 0; i < group.count(); i++) {
+            ids.add(group.id() != null ? group.id() : "urn:ngsi-ld:%s:%s".formatted(group.type(), numbered(group)));
+        }
+        if (group.label() != null) {
+            idsByLabel.put(group.label(), ids);
+        }
+        return ids;
+    }
+
+    private String numbered(DeviceGroup group) {
+        return mission.mission() + "-" + numbers.merge(group.type(), 1, Integer::sum);
+    }
+
+    private void add(ListedGroup listed, List<String> ids) {
+        DeviceGroup group = listed.group();
+        GroupRef ref = group.settings().isEmpty() ? null : listed.ref();
+        List<String> carriers = group.carriedBy() == null ? List.of() : idsByLabel.get(group.carriedBy());
+        for (int i = 0; i < ids.size(); i++) {
+            String carrier = carriers.isEmpty() ? null : carriers.get(i % carriers.size());
+            DeviceVersion version = new DeviceVersion(
+                    ids.get(i),
+                    scope.service(),
+                    scope.servicePath(),
+                    mission.domain(),
+                    mission.mission(),
+                    from,
+                    null,
+                    0,
+                    carrier);
+            String device = group.isHosted() ? ids.get(i).replace("+", "%2B") : null;
+            ObjectNode none = JsonNodeFactory.instance.objectNode();
+            devices.add(new WantedDevice(version, group.type(), device, true, group.period(), none, ref, 0));
+        }
+    }
+}

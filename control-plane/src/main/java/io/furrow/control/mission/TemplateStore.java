@@ -1,0 +1,120 @@
+package io.furrow.control.mission;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.UncheckedIOException;
+import java.util.ArrayList;
+import java.util.List;
+
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.Quota;
+import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.topic.Topics;
+
+/** The templates, version by version. A version never changes, and its number is never given again. */
+public final class TemplateStore {
+    /** The mission of the thesis: one moving camera, three thermometers and one robot. */
+    public static final String DEMO = "thesis-demo";
+
+    private final Records<MissionTemplate> templates;
+    private final Records<Versions> versions;
+    private final Quota quota;
+    private final EventPublisher outbox;
+
+    /**
+     * What there is of a template.
+     *
+     * @param last the number given last
+     * @param kept those that were not deleted, ascending
+     */
+    public record Versions(int last, List<Integer> kept) {}
+
+    /**
+     * @param templates by {@link MissionTemplate#key()}
+     * @param versions by name
+     * @param quota room for all definitions
+     */
+    TemplateStore(Records<MissionTemplate> templates, Records<Versions> versions, Quota quota, EventPublisher outbox) {
+        this.templates = templates;
+        this.versions = versions;
+        this.quota = quota;
+        this.outbox = outbox;
+    }
+
+    /** Puts {@link #DEMO} there where it never was. */
+    public void stock() {
+        if (versions.get(DEMO) == null) {
+            try {
+                save(demo());
+            } catch (RefusedException e) {
+                throw new IllegalStateException("there is no room for the built-in template", e);
+            }
+        }
+    }
+
+    static MissionTemplate demo() {
+        try (InputStream json = TemplateStore.class.getResourceAsStream(DEMO + ".json")) {
+            return MissionTemplate.read(json.readAllBytes());
+        } catch (IOException e) {
+            throw new UncheckedIOException("the built-in template cannot be loaded", e);
+        } catch (RefusedException e) {
+            throw new IllegalStateException("the built-in template cannot be read", e);
+        }
+    }
+
+    /** Keeps it as the next version, which it answers. */
+    MissionTemplate save(MissionTemplate template) throws RefusedException {
+        Versions before = known(template.name());
+        MissionTemplate saved = template.as(before.last() + 1);
+        List<Integer> kept = new ArrayList<>(before.kept());
+        kept.add(saved.version());
+        byte[] value = saved.toBytes();
+        quota.replace(null, value);
+        versions.put(saved.name(), new Versions(saved.version(), kept));
+        templates.put(saved.key(), saved);
+        outbox.put(Topics.TEMPLATES, saved.key(), value);
+        return saved;
+    }
+
+    /** @param version 0 for the newest */
+    MissionTemplate find(String name, int version) throws RefusedException {
+        List<Integer> kept = known(name).kept();
+        int wanted = version == 0 && !kept.isEmpty() ? kept.get(kept.size() - 1) : version;
+        if (!kept.contains(wanted)) {
+            throw unknown(name, version);
+        }
+        return templates.get(name + "@" + wanted);
+    }
+
+    /** Missions made from it keep their devices. @param version 0 for all */
+    void delete(String name, int version) throws RefusedException {
+        Versions before = known(name);
+        if (version == 0 ? before.kept().isEmpty() : !before.kept().contains(version)) {
+            throw unknown(name, version);
+        }
+        List<Integer> kept = new ArrayList<>(before.kept());
+        for (int each : before.kept()) {
+            if (version == 0 || version == each) {
+                kept.remove((Integer) each);
+                quota.use(-templates.get(name + "@" + each).toBytes().length);
+                templates.put(name + "@" + each, null);
+                outbox.put(Topics.TEMPLATES, name + "@" + each, null);
+            }
+        }
+        versions.put(name, new Versions(before.last(), kept));
+    }
+
+    private Versions known(String name) {
+        Versions known = versions.get(name);
+        return known == null ? new Versions(0, List.of()) : known;
+    }
+
+    private static RefusedException unknown(String name, int version) {
+        return new RefusedException(
+                ErrorCode.UNKNOWN_TEMPLATE,
+                "there is no template '%s'".formatted(version == 0 ? name : name + "@" + version));
+    }
+}

@@ -1,0 +1,59 @@
+package io.furrow.control.replay;
+
+import java.util.List;
+import java.util.function.Function;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.topic.TopicName;
+
+/**
+ * The missions that are stored, as {@code service.recordings} lists them.
+ *
+ * @param checked whether that list is kept; else any mission may be stored
+ * @param find by mission; null if none is listed
+ */
+record RecordedMissions(boolean checked, Function<String, RecordedMission> find) {
+    /** @throws RefusedException where one of the missions is not stored, as far as that is known */
+    void require(List<String> missions) throws RefusedException {
+        List<String> unknown =
+                missions.stream().filter(each -> known(each) == null).toList();
+        if (checked && !unknown.isEmpty()) {
+            throw new RefusedException(
+                    ErrorCode.UNKNOWN_MISSION,
+                    "nothing is stored of mission '%s'; './furrow replay missions' and GET /api/recordings list what is"
+                            .formatted(String.join("', '", unknown)));
+        }
+    }
+
+    /** Listed by what stands for it in topics, which of nearly every mission is its name. */
+    private RecordedMission known(String mission) {
+        RecordedMission listed = find.apply(mission);
+        return listed == null ? find.apply(TopicName.of(mission)) : listed;
+    }
+
+    /**
+     * From the first event of the missions to after their last.
+     *
+     * @return null if nothing is known of one of them
+     */
+    Span span(List<String> missions) {
+        List<RecordedMission> known =
+                missions.stream().map(this::known).filter(each -> each != null).toList();
+        if (known.size() < missions.size()) {
+            return null;
+        }
+        long first = known.stream().mapToLong(RecordedMission::first).min().orElseThrow();
+        long last = known.stream().mapToLong(RecordedMission::last).max().orElseThrow();
+        return new Span(first, last + 1);
+    }
+
+    /**
+     * A stretch of event time.
+     *
+     * @param from epoch ms
+     * @param to epoch ms, after the last event
+     */
+    record Span(long from, long to) {}
+}

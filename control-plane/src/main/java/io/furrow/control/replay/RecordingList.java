@@ -1,0 +1,80 @@
+package io.furrow.control.replay;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What {@code service.recordings} lists, and what of it is not so any more. A mission is looked at when it is new, again at each poll as long
+ * as it has no event, and then at most every {@link #SPAN_INTERVAL}, whichever instance did it last.
+ */
+final class RecordingList {
+    static final Duration SPAN_INTERVAL = Duration.ofSeconds(30);
+
+    private final Map<String, RecordedMission> listed = new HashMap<>();
+    /** When each mission was looked at last, epoch ms. */
+    private final Map<String, Long> looked = new HashMap<>();
+
+    /** The missions that are stored. */
+    interface Store {
+        /** Names as commands take them. */
+        List<String> names() throws IOException;
+
+        /** Empty if it has no event. */
+        Optional<RecordedMission> find(String name) throws IOException;
+    }
+
+    /** A record of the topic. @param value null if the mission is gone */
+    void take(String mission, byte[] value, long timestamp) {
+        listed.remove(mission);
+        if (value == null) {
+            looked.remove(mission);
+            return;
+        }
+        try {
+            listed.put(mission, RecordedMission.read(value));
+            looked.merge(mission, timestamp, Math::max);
+        } catch (UnreadableException e) {
+            looked.remove(mission); // it is written again
+        }
+    }
+
+    /**
+     * What has to be written.
+     *
+     * @param now epoch ms
+     * @return by mission; empty if it is gone
+     */
+    Map<String, Optional<RecordedMission>> changes(Store store, long now) throws IOException {
+        List<String> names = store.names();
+        Map<String, Optional<RecordedMission>> changes = new LinkedHashMap<>();
+        for (String name : names) {
+            if (now - looked.getOrDefault(name, Long.MIN_VALUE / 2) < SPAN_INTERVAL.toMillis()) {
+                continue;
+            }
+            Optional<RecordedMission> found = store.find(name);
+            if (found.isPresent()) {
+                looked.put(name, now);
+            }
+            if (!found.equals(Optional.ofNullable(listed.get(name)))) {
+                changes.put(name, found);
+            }
+        }
+        listed.keySet().stream()
+                .filter(name -> !names.contains(name))
+                .forEach(name -> changes.put(name, Optional.empty()));
+        looked.keySet().retainAll(names);
+        return changes;
+    }
+
+    int size() {
+        return listed.size();
+    }
+}

@@ -1,0 +1,125 @@
+package io.furrow.control.replay;
+
+import java.io.IOException;
+import java.time.Clock;
+import java.util.List;
+import java.util.Optional;
+import java.util.Properties;
+
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.Producer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.RestartingWorker;
+import io.furrow.mission.mongo.MissionCatalog;
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Lists the missions that are stored in MongoDB on {@code service.recordings}. Several instances may do so: each writes only what the
+ * topic does not say. While MongoDB is unavailable the last list stays.
+ */
+public final class RecordingWatch implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(RecordingWatch.class);
+
+    private final Properties client;
+    private final ReplaySettings settings;
+    private final Clock clock;
+    private final RestartingWorker worker;
+    private volatile int size;
+
+    private RecordingWatch(Properties client, ReplaySettings settings, Clock clock) {
+        this.client = client;
+        this.settings = settings;
+        this.clock = clock;
+        this.worker = new RestartingWorker("recording-watch", clock);
+    }
+
+    /**
+     * Does not wait for MongoDB. The topic is there already.
+     *
+     * @param settings with a MongoDB
+     * @throws IOException if its URI is none
+     */
+    public static RecordingWatch start(Properties client, ReplaySettings settings, Clock clock) throws IOException {
+        try {
+            MissionCatalog.open(settings.mongo(), settings.database()).close();
+        } catch (IllegalArgumentException e) {
+            throw new IOException(
+                    "--mongo is no connection string of MongoDB (%s). Name one such as mongodb://127.0.0.1:27017."
+                            .formatted(e.getMessage()),
+                    e);
+        }
+        RecordingWatch watch = new RecordingWatch(client, settings, clock);
+        watch.worker.start(watch::run, () -> watch.size + " missions are stored");
+        return watch;
+    }
+
+    private void run(RestartingWorker running) throws InterruptedException {
+        RecordingList list = new RecordingList();
+        try (MissionCatalog catalog = MissionCatalog.open(settings.mongo(), settings.database());
+                CommittedReader<String> topic = CommittedReader.open(client, Topics.RECORDINGS);
+                Producer<String, byte[]> producer =
+                        new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer())) {
+            boolean away = false;
+            while (!running.isClosing()) {
+                // before the names are asked for, which are newer then
+                topic.readToEnd(record -> list.take(record.key(), record.value(), record.timestamp()));
+                size = list.size();
+                try {
+                    write(list, new Catalogued(catalog), producer);
+                    away = false;
+                    running.succeeded();
+                } catch (IOException e) {
+                    if (!away) {
+                        LOG.warn("{} stays as it is until MongoDB is back", Topics.RECORDINGS, e);
+                    }
+                    away = true;
+                    running.failed(e.getMessage());
+                }
+                running.pause(settings.pollInterval());
+            }
+        }
+    }
+
+    private void write(RecordingList list, RecordingList.Store store, Producer<String, byte[]> producer)
+            throws IOException {
+        list.changes(store, clock.millis())
+                .forEach((mission, found) -> producer.send(new ProducerRecord<>(
+                        Topics.RECORDINGS,
+                        mission,
+                        found.map(RecordedMission::toBytes).orElse(null))));
+        producer.flush();
+    }
+
+    /** By the names that commands and topics have: those of collections. */
+    private record Catalogued(MissionCatalog catalog) implements RecordingList.Store {
+        @Override
+        public List<String> names() throws IOException {
+            return catalog.topicNames();
+        }
+
+        @Override
+        public Optional<RecordedMission> find(String name) throws IOException {
+            return catalog.find(name)
+                    .flatMap(stored -> stored.span())
+                    .map(span -> new RecordedMission(name, span.first(), span.last()));
+        }
+    }
+
+    /** For a health page. */
+    public PartStatus status() {
+        return worker.status();
+    }
+
+    @Override
+    public void close() {
+        worker.close();
+    }
+}

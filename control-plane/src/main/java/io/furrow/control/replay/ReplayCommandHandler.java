@@ -1,0 +1,246 @@
+package io.furrow.control.replay;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.UUID;
+import java.util.function.Supplier;
+
+import io.furrow.control.manager.EventPublisher;
+import io.furrow.control.manager.Quota;
+import io.furrow.control.manager.record.Records;
+import io.furrow.control.manager.record.Sequence;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Grants or refuses what is asked of replays, and says on {@code service.replays} what is requested of them. The executor says on
+ * {@code service.replays.status} what came of it.
+ */
+final class ReplayCommandHandler {
+    /** Of a request, epoch ms; a recording may hold events of other times. */
+    private static final long LAST_TIME = Instant.parse("9999-12-31T23:59:59Z").toEpochMilli();
+
+    private static final Duration MAX_AHEAD = Duration.ofDays(30);
+    private static final String REPLAY = "replay";
+    private static final String GROUP = "group";
+
+    private final Records<WantedReplay> replays;
+    private final RecordedMissions recordings;
+    private final ReplayNames names;
+    private final Sequence sequence;
+    private final Quota quota;
+    private final EventPublisher outbox;
+
+    /** @param counters of the sequence, and of the room that is used */
+    ReplayCommandHandler(
+            Records<WantedReplay> replays,
+            RecordedMissions recordings,
+            Records<Long> counters,
+            Supplier<UUID> ids,
+            EventPublisher outbox) {
+        this.replays = replays;
+        this.recordings = recordings;
+        this.names = new ReplayNames(replays, ids);
+        this.sequence = new Sequence(counters);
+        this.quota = new Quota(counters, Limits.DEFINITIONS_BYTES);
+        this.outbox = outbox;
+    }
+
+    /** @param now epoch ms */
+    CommandResult answer(ReplayCommand command, long now) throws RefusedException {
+        if (command instanceof ReplayCommand.Start start) {
+            check(start, now);
+            return start.isGroup() ? startGroup(start, now) : start(start, now);
+        }
+        ReplayCommand.Steering steering = (ReplayCommand.Steering) command;
+        return steering.target().group() == null ? steer(steering) : steerGroup(steering, now);
+    }
+
+    private void check(ReplayCommand.Start start, long now) throws RefusedException {
+        Long startAt = start.plan().startAt();
+        if (startAt != null && startAt > now + MAX_AHEAD.toMillis()) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_MEMBER, "'startAt' must be at most %d days ahead".formatted(MAX_AHEAD.toDays()));
+        }
+        if (start.plan().source() == null) {
+            recordings.require(start.missions());
+        }
+    }
+
+    private CommandResult start(ReplayCommand.Start start, long now) throws RefusedException {
+        String mission = start.missions().get(0);
+        String topic = start.topic() == null ? Topics.replay(mission, names.newId(start.missions())) : start.topic();
+        WantedReplay replay = wanted(start, mission, topic, start.plan(), now, sequence.next());
+        names.require(replay);
+        keep(null, replay);
+        return CommandResult.of("created").with(REPLAY, replay.replay()).with("topic", replay.topic());
+    }
+
+    private CommandResult startGroup(ReplayCommand.Start start, long now) throws RefusedException {
+        ReplayPlan plan = groupPlan(start);
+        String id = names.newId(start.missions());
+        long number = sequence.next();
+        List<WantedReplay> members = new ArrayList<>();
+        for (String mission : start.missions()) {
+            WantedReplay member = wanted(start, mission, Topics.replay(mission, id), plan, now, number);
+            ReplayGroup.checkRange(member, start.range());
+            members.add(member);
+        }
+        List<WantedReplay> group = ReplayGroup.started(members, id, now);
+        for (WantedReplay member : group) {
+            keep(null, member);
+        }
+        return about(CommandResult.of("created"), id, group)
+                .with("topics", group.stream().map(WantedReplay::topic).toList());
+    }
+
+    private static WantedReplay wanted(
+            ReplayCommand.Start start, String mission, String topic, ReplayPlan plan, long now, long number) {
+        return WantedReplay.started(mission, topic, plan, start.speed(), now, number)
+                .within(start.range(), number);
+    }
+
+    /** All of a group play the same stretch of event time: what was asked for, else all that is stored of any of them. */
+    private ReplayPlan groupPlan(ReplayCommand.Start start) throws RefusedException {
+        ReplayPlan plan = start.plan();
+        RecordedMissions.Span all = recordings.span(start.missions());
+        if (all == null && (plan.from() == null || plan.to() == null)) {
+            throw new RefusedException(
+                    ErrorCode.MISSING_MEMBER,
+                    "a group needs 'from' and 'to': where the control plane has no --mongo, it does not know when missions begin and end");
+        }
+        long from = plan.from() == null ? all.from() : plan.from();
+        long to = plan.to() == null ? all.to() : plan.to();
+        if (from >= to || to <= 0 || from >= LAST_TIME) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_MEMBER,
+                    "'from' must be before the end of what is played: it is %d, and that is %d".formatted(from, to));
+        }
+        return plan.between(Math.max(0, from), Math.min(to, LAST_TIME));
+    }
+
+    private CommandResult steer(ReplayCommand.Steering steering) throws RefusedException {
+        WantedReplay known = replays.get(steering.target().replay());
+        if (known == null) {
+            throw unknown(steering);
+        }
+        if (known.group() != null) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_STATE,
+                    "replay '%s' follows the clock of group '%s'; steer the group"
+                            .formatted(known.replay(), known.group()));
+        }
+        check(steering, known);
+        WantedReplay next = next(steering, known);
+        keep(known, next);
+        return CommandResult.of(word(next)).with(REPLAY, next.replay());
+    }
+
+    private CommandResult steerGroup(ReplayCommand.Steering steering, long now) throws RefusedException {
+        List<WantedReplay> known = new ArrayList<>();
+        replays.forEach(each -> {
+            if (steering.target().group().equals(each.group())) {
+                known.add(each);
+            }
+        });
+        if (known.isEmpty()) {
+            throw unknown(steering);
+        }
+        ReplayGroup group = new ReplayGroup(known);
+        group.check(steering);
+        check(steering, known.get(0));
+        List<WantedReplay> next = group.steered(steering, now, sequence.next());
+        for (int i = 0; i < next.size(); i++) {
+            keep(known.get(i), next.get(i));
+        }
+        return about(CommandResult.of(word(next.get(0))), steering.target().group(), next);
+    }
+
+    private static CommandResult about(CommandResult answer, String group, List<WantedReplay> members) {
+        return answer.with(GROUP, group)
+                .with("replays", members.stream().map(WantedReplay::replay).toList());
+    }
+
+    private static String word(WantedReplay next) {
+        return next.wanted() == ReplayStatus.State.STOPPED
+                ? "deleted"
+                : next.wanted().word();
+    }
+
+    private static RefusedException unknown(ReplayCommand.Steering steering) {
+        return new RefusedException(
+                ErrorCode.UNKNOWN_REPLAY, "there is no %s, or it is over".formatted(steering.target()));
+    }
+
+    private static void check(ReplayCommand.Steering steering, WantedReplay known) throws RefusedException {
+        boolean needsRunning =
+                steering instanceof ReplayCommand.Simple simple && simple.what() == ReplayCommand.Verb.PAUSE;
+        boolean needsPaused = steering instanceof ReplayCommand.Step
+                || steering instanceof ReplayCommand.Simple simple && simple.what() == ReplayCommand.Verb.RESUME;
+        boolean fits = (!needsRunning || known.wanted() == ReplayStatus.State.RUNNING)
+                && (!needsPaused || known.wanted() == ReplayStatus.State.PAUSED)
+                && known.wanted() != ReplayStatus.State.STOPPED;
+        if (!fits) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_STATE,
+                    "%s is %s, which '%s' cannot change"
+                            .formatted(steering.target(), known.wanted().word(), steering.verb()));
+        }
+    }
+
+    private WantedReplay next(ReplayCommand.Steering steering, WantedReplay known) {
+        if (steering instanceof ReplayCommand.Seek seek) {
+            return known.seeking(seek.to().toEpochMilli(), sequence.next());
+        } else if (steering instanceof ReplayCommand.Speed speed) {
+            return known.at(speed.speed(), sequence.next());
+        } else if (steering instanceof ReplayCommand.Step step) {
+            return known.stepping(step.count(), sequence.next());
+        }
+        if (steering instanceof ReplayCommand.Loop loop) {
+            return known.within(loop.range(), sequence.next());
+        }
+        return switch (((ReplayCommand.Simple) steering).what()) {
+            case STOP -> known.wanted(ReplayStatus.State.STOPPED, sequence.next());
+            case PAUSE -> known.wanted(ReplayStatus.State.PAUSED, sequence.next());
+            case RESUME -> known.wanted(ReplayStatus.State.RUNNING, sequence.next());
+        };
+    }
+
+    /**
+     * Forgets a replay that is over for good, unless something was asked of it since. What is reported of a replay that continues, several
+     * times a second, is not looked up.
+     */
+    void reported(String replay, ReplayStatus told) {
+        if (!told.state().isOver() || !told.settled()) {
+            return;
+        }
+        WantedReplay known = replays.get(replay);
+        if (known != null && told.sequence() >= known.sequence()) {
+            quota.use(-known.toBytes().length);
+            replays.put(replay, null);
+            outbox.put(Topics.REPLAYS, replay, null);
+        }
+    }
+
+    /** @param before null if there was none */
+    private void keep(WantedReplay before, WantedReplay replay) throws RefusedException {
+        byte[] value = replay.toBytes();
+        if (before == null) {
+            quota.replace(null, value);
+        } else {
+            quota.use(
+                    value.length - before.toBytes().length); // whoever steers a replay is not refused for want of room
+        }
+        replays.put(replay.replay(), replay);
+        outbox.put(Topics.REPLAYS, replay.replay(), value);
+    }
+}

@@ -1,0 +1,132 @@
+package io.furrow.control.replay;
+
+import java.util.List;
+import java.util.function.UnaryOperator;
+
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.ReplayCommand.Loop;
+import io.furrow.model.control.ReplayCommand.Seek;
+import io.furrow.model.control.ReplayCommand.Simple;
+import io.furrow.model.control.ReplayCommand.Speed;
+import io.furrow.model.control.ReplayCommand.Step;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.WantedReplay.Clock;
+import io.furrow.model.control.replay.WantedReplay.Range;
+
+/** Replays that follow one clock: what a command makes of all of them. Times are epoch ms. */
+final class ReplayGroup {
+    /** Until a clock begins to run, so that all who play have heard of it. */
+    static final long START_DELAY = 2000;
+
+    private static final long DELAY = 1000;
+
+    private final List<WantedReplay> members;
+    /** Any of them: what is asked of a group is the same for all. */
+    private final WantedReplay one;
+
+    /** @param members at least one */
+    ReplayGroup(List<WantedReplay> members) {
+        this.members = members;
+        this.one = members.get(0);
+    }
+
+    /** Those of a new group, whose plans are of the same time, from the beginning of what is played. */
+    static List<WantedReplay> started(List<WantedReplay> members, String group, long now) {
+        WantedReplay one = members.get(0);
+        Long startAt = one.plan().startAt();
+        long at = Math.max(now + START_DELAY, startAt == null ? 0 : startAt);
+        Clock clock = new Clock(at, one.from(one.plan().from()));
+        return members.stream().map(each -> each.following(group, clock)).toList();
+    }
+
+    /** @throws RefusedException where that cannot be asked of a group, or not in its state */
+    void check(ReplayCommand.Steering steering) throws RefusedException {
+        if (steering instanceof Step) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_STATE, "a group has no single next event; pause it and seek instead of 'step'");
+        } else if (steering instanceof Speed speed && speed.speed() == ReplayCommand.MAX) {
+            throw wrong("'speed' must be a number from 0.1 to 1000: a group follows a clock");
+        } else if (steering instanceof Seek seek && !isWithin(seek.to().toEpochMilli())) {
+            throw wrong("'to' must be at least %d and before %d, as what the group plays"
+                    .formatted(one.from(one.plan().from()), one.to()));
+        } else if (steering instanceof Loop loop) {
+            checkRange(one, loop.range());
+        }
+    }
+
+    /**
+     * Refuses a range without a time that is played.
+     *
+     * @param replay of a group
+     * @param range null for all
+     */
+    static void checkRange(WantedReplay replay, Range range) throws RefusedException {
+        long from = replay.plan().from();
+        long to = replay.plan().to();
+        if (range != null && (range.from() >= to || range.to() <= from)) {
+            throw wrong("'from' and 'to' must have something in common with what the group plays, from %d to %d"
+                    .formatted(from, to));
+        }
+    }
+
+    private boolean isWithin(long time) {
+        return time >= one.from(one.plan().from()) && time < one.to();
+    }
+
+    private static RefusedException wrong(String reason) {
+        return new RefusedException(ErrorCode.WRONG_MEMBER, reason);
+    }
+
+    /** What is requested of all of them after a command that was checked. @param sequence of it */
+    List<WantedReplay> steered(ReplayCommand.Steering steering, long now, long sequence) {
+        if (steering instanceof Seek seek) {
+            return jumped(seek.to().toEpochMilli(), now, sequence);
+        } else if (steering instanceof Speed speed) {
+            return all(each -> each.at(speed.speed(), sequence), going(now));
+        } else if (steering instanceof Loop loop) {
+            return looped(loop.range(), now, sequence);
+        }
+        return switch (((Simple) steering).what()) {
+            case STOP -> all(each -> each.wanted(ReplayStatus.State.STOPPED, sequence), one.clock());
+            case PAUSE ->
+                all(each -> each.wanted(ReplayStatus.State.PAUSED, sequence), new Clock(now, one.position(now)));
+            case RESUME ->
+                all(
+                        each -> each.wanted(ReplayStatus.State.RUNNING, sequence),
+                        new Clock(soon(now), one.clock().shows()));
+        };
+    }
+
+    private List<WantedReplay> jumped(long to, long now, long sequence) {
+        return all(each -> each.seeking(to, sequence), new Clock(soon(now), to));
+    }
+
+    /** Continues where it is, or from the beginning of the range where that is outside of it. */
+    private List<WantedReplay> looped(Range range, long now, long sequence) {
+        List<WantedReplay> within = all(each -> each.within(range, sequence), going(now));
+        ReplayGroup next = new ReplayGroup(within);
+        return range == null || next.isWithin(one.position(now))
+                ? within
+                : next.jumped(next.one.from(next.one.plan().from()), now, sequence);
+    }
+
+    /** The clock that shows the same now and continues from there; one that does not run yet begins when it would. */
+    private Clock going(long now) {
+        return new Clock(Math.max(now, one.clock().at()), one.position(now));
+    }
+
+    /** In a moment, but not before the group shall begin. */
+    private long soon(long now) {
+        Long startAt = one.plan().startAt();
+        return Math.max(now + DELAY, startAt == null ? 0 : startAt);
+    }
+
+    private List<WantedReplay> all(UnaryOperator<WantedReplay> change, Clock clock) {
+        return members.stream()
+                .map(each -> change.apply(each).following(each.group(), clock))
+                .toList();
+    }
+}

@@ -1,0 +1,60 @@
+package io.furrow.control.replay;
+
+import java.util.List;
+import java.util.UUID;
+import java.util.function.Supplier;
+
+import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.topic.Topics;
+
+/** Gives new replays names and topics that no wanted replay has. */
+final class ReplayNames {
+    private static final int ID_DIGITS = 8;
+
+    private final Records<WantedReplay> replays;
+    private final Supplier<UUID> ids;
+
+    ReplayNames(Records<WantedReplay> replays, Supplier<UUID> ids) {
+        this.replays = replays;
+        this.ids = ids;
+    }
+
+    /** Eight digits that no replay of the missions, no topic of them and no group has. */
+    String newId(List<String> missions) {
+        String id;
+        do {
+            id = ids.get().toString().substring(0, ID_DIGITS);
+        } while (isTaken(missions, id));
+        return id;
+    }
+
+    private boolean isTaken(List<String> missions, String id) {
+        boolean[] taken = new boolean[1];
+        replays.forEach(each -> taken[0] |= id.equals(each.group())
+                || missions.stream()
+                        .anyMatch(mission -> each.replay().equals(mission + "." + id)
+                                || each.topic().equals(Topics.replay(mission, id))));
+        return taken[0];
+    }
+
+    /** @throws RefusedException where another replay has the name or the topic of a new one */
+    void require(WantedReplay fresh) throws RefusedException {
+        if (replays.contains(fresh.replay())) {
+            throw new RefusedException(
+                    ErrorCode.REPLAY_EXISTS,
+                    "there is a replay '%s' already; choose a topic of other digits, or stop it first"
+                            .formatted(fresh.replay()));
+        }
+        WantedReplay[] owner = new WantedReplay[1];
+        replays.forEach(each -> owner[0] = each.topic().equals(fresh.topic()) ? each : owner[0]);
+        if (owner[0] != null) {
+            throw new RefusedException(
+                    ErrorCode.REPLAY_EXISTS,
+                    "replay '%s' is played on topic '%s'; choose another topic, or stop it first"
+                            .formatted(owner[0].replay(), fresh.topic()));
+        }
+    }
+}

@@ -1,0 +1,53 @@
+package io.furrow.control.replay;
+
+import java.time.Duration;
+import java.util.Objects;
+
+/**
+ * What replays are managed with.
+ *
+ * @param mongo connection string of the MongoDB that keeps the missions; null if it is not known, and with it which missions are stored
+ * @param database of the missions
+ * @param pollInterval between two looks at the names of the stored missions
+ * @param grace how long topics of a replay are kept after it was over
+ */
+public record ReplaySettings(String mongo, String database, Duration pollInterval, Duration grace) {
+    /** No MongoDB; topics are kept for an hour. */
+    public static final ReplaySettings DEFAULT =
+            new ReplaySettings(null, "persistence", Duration.ofSeconds(2), Duration.ofHours(1));
+
+    public ReplaySettings {
+        Objects.requireNonNull(database);
+        Objects.requireNonNull(pollInterval);
+        Objects.requireNonNull(grace);
+    }
+
+    /** @param uri null for none */
+    public ReplaySettings withMongo(String uri) {
+        return new ReplaySettings(uri, database, pollInterval, grace);
+    }
+
+    public ReplaySettings withDatabase(String name) {
+        return new ReplaySettings(mongo, name, pollInterval, grace);
+    }
+
+    public ReplaySettings withPollInterval(Duration interval) {
+        return new ReplaySettings(mongo, database, interval, grace);
+    }
+
+    public ReplaySettings withGrace(Duration time) {
+        return new ReplaySettings(mongo, database, pollInterval, time);
+    }
+
+    /** Whether it is known which missions are stored. */
+    public boolean knowsRecordings() {
+        return mongo != null;
+    }
+
+    /** Holds no password. */
+    @Override
+    public String toString() {
+        return "replays of %s, polled every %s, kept for %s"
+                .formatted(mongo == null ? "no MongoDB" : database, pollInterval, grace);
+    }
+}

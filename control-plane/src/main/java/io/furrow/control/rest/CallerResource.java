@@ -1,0 +1,30 @@
+package io.furrow.control.rest;
+
+import jakarta.ws.rs.GET;
+import jakarta.ws.rs.Path;
+import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.container.ContainerRequestContext;
+import jakarta.ws.rs.core.Context;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.control.rest.access.ApiToken;
+import io.furrow.control.rest.access.BearerTokens;
+import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.Role;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** {@code /api/me}. */
+@Path("/api/me")
+@Produces(MediaType.APPLICATION_JSON)
+public final class CallerResource {
+    /** Who asks, as it stands on the audit topic, and what they may do. Where no tokens are asked for everybody is an admin. */
+    @GET
+    public Response me(@Context ContainerRequestContext request) {
+        Role role = request.getProperty(BearerTokens.TOKEN) instanceof ApiToken token ? token.role() : Role.ADMIN;
+        return JsonResponses.ok(NgsiJson.mapper()
+                .createObjectNode()
+                .put("user", Caller.user(request))
+                .put("role", role.word()));
+    }
+}

@@ -1,0 +1,47 @@
+package io.furrow.control.rest;
+
+import java.util.Locale;
+import java.util.concurrent.CompletionException;
+
+import jakarta.ws.rs.WebApplicationException;
+import jakarta.ws.rs.core.Response;
+import jakarta.ws.rs.ext.ExceptionMapper;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/** Every error as JSON with {@code error} and {@code reason}. */
+public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
+    private static final Logger LOG = LoggerFactory.getLogger(JsonExceptionMapper.class);
+
+    @Override
+    public Response toResponse(Throwable failure) {
+        Throwable cause =
+                failure instanceof CompletionException && failure.getCause() != null ? failure.getCause() : failure;
+        if (cause instanceof ProblemException problem) {
+            return JsonResponses.problem(problem);
+        }
+        if (cause instanceof WebApplicationException refused) {
+            Response.StatusType status = refused.getResponse().getStatusInfo();
+            String code = status.getReasonPhrase().toLowerCase(Locale.ROOT).replace(' ', '-');
+            Response answer =
+                    JsonResponses.problem(new ProblemException(status.getStatusCode(), code, sentence(status)));
+            String allowed = refused.getResponse().getHeaderString("Allow");
+            return allowed == null
+                    ? answer
+                    : Response.fromResponse(answer).header("Allow", allowed).build();
+        }
+        LOG.error("a request to the REST API failed", cause);
+        return JsonResponses.problem(
+                new ProblemException(500, "internal-error", "the request failed; the log says why"));
+    }
+
+    private static String sentence(Response.StatusType status) {
+        return switch (status.getStatusCode()) {
+            case 404 -> "there is nothing here; /openapi.json has what there is";
+            case 405 -> "this method is not for this path; /openapi.json has those that are";
+            case 406 -> "answers are application/json only";
+            case 415 -> "a body must be application/json";
+            default -> "the request was refused: " + status.getReasonPhrase();
+        };
+    }
+}

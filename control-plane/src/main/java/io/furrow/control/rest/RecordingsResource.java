@@ -1,0 +1,115 @@
+package io.furrow.control.rest;
+
+import java.time.DateTimeException;
+import java.time.Instant;
+import java.util.List;
+import java.util.concurrent.CompletionStage;
+import java.util.concurrent.Executor;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.ws.rs.GET;
+import jakarta.ws.rs.Path;
+import jakarta.ws.rs.PathParam;
+import jakarta.ws.rs.Produces;
+import jakarta.ws.rs.QueryParam;
+import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.Response;
+
+import io.furrow.control.rest.view.EventTiles;
+import io.furrow.control.rest.view.MissionTimeline;
+import io.furrow.control.rest.view.ServiceView;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.topic.TopicName;
+import io.furrow.model.topic.Topics;
+
+/** {@code /api/recordings}: the missions that are stored, and how their events lie in time. */
+@Path("/api/recordings")
+@Produces(MediaType.APPLICATION_JSON)
+public final class RecordingsResource {
+    private static final String MISSION = "mission";
+    private static final int BUCKETS = 240;
+
+    private final ServiceView view;
+    private final EventTiles events;
+    private final Executor answering;
+
+    /** @param events null if there is no MongoDB @param answering answers are made by it */
+    RecordingsResource(ServiceView view, EventTiles events, Executor answering) {
+        this.view = view;
+        this.events = events;
+        this.answering = answering;
+    }
+
+    @GET
+    public Response list() {
+        return JsonResponses.ok(view.all(Topics.RECORDINGS));
+    }
+
+    /**
+     * How many events a mission has, bucket by bucket; of all of it unless said.
+     *
+     * @param froms at most one, ISO 8601 or epoch ms; as {@code tos}, which is exclusive
+     * @param buckets at most one, how many at most
+     */
+    @GET
+    @Path("{mission}/timeline")
+    public CompletionStage<Response> timeline(
+            @PathParam(MISSION) String mission,
+            @QueryParam("from") List<String> froms,
+            @QueryParam("to") List<String> tos,
+            @QueryParam("buckets") List<String> buckets) {
+        if (events == null) {
+            throw new ProblemException(
+                    501, "no-mongodb", "this control plane was started without --mongo, where missions are stored");
+        }
+        MissionTimeline.Extent extent = extent(mission);
+        long from = time("from", froms, extent.first());
+        long to = time("to", tos, extent.last() + 1);
+        if (from >= to || from > extent.last() || to <= extent.first()) {
+            throw new ProblemException(
+                    ErrorCode.WRONG_MEMBER,
+                    "'from' must be before 'to', and the mission's events lie between %s and %s"
+                            .formatted(Instant.ofEpochMilli(extent.first()), Instant.ofEpochMilli(extent.last())));
+        }
+        return MissionTimeline.of(mission, extent, from, to, number(buckets))
+                .count(events, answering)
+                .thenApply(JsonResponses::ok);
+    }
+
+    private MissionTimeline.Extent extent(String mission) {
+        ObjectNode recording = view.find(Topics.RECORDINGS, mission)
+                .or(() -> view.find(Topics.RECORDINGS, TopicName.of(mission)))
+                .orElseThrow(() -> EventTiles.unknown(mission));
+        return new MissionTimeline.Extent(
+                recording.path("first").asLong(), recording.path("last").asLong());
+    }
+
+    private static int number(List<String> given) {
+        try {
+            int number = given.isEmpty() ? BUCKETS : Integer.parseInt(given.get(0));
+            if (given.size() < 2 && number >= 1 && number <= MissionTimeline.MAX_BUCKETS) {
+                return number;
+            }
+        } catch (NumberFormatException e) {
+            // as of a number that is too large
+        }
+        throw new ProblemException(
+                ErrorCode.WRONG_MEMBER, "'buckets' must be a number from 1 to " + MissionTimeline.MAX_BUCKETS);
+    }
+
+    private static long time(String name, List<String> given, long otherwise) {
+        if (given.isEmpty()) {
+            return otherwise;
+        }
+        try {
+            String text = given.get(0);
+            return text.matches("-?\\d{1,18}")
+                    ? Long.parseLong(text)
+                    : Instant.parse(text).toEpochMilli();
+        } catch (DateTimeException | ArithmeticException e) {
+            throw new ProblemException(
+                    ErrorCode.WRONG_MEMBER,
+                    "'%s' must be an event time, such as 2026-03-01T08:00:00Z, or epoch ms".formatted(name));
+        }
+    }
+}

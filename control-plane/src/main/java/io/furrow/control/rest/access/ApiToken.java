@@ -1,0 +1,117 @@
+package io.furrow.control.rest.access;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.security.MessageDigest;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Optional;
+import java.util.Set;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.file.PrivateFile;
+
+/**
+ * A token of the REST API. A name may have several, so that one can take the place of another.
+ *
+ * @param name of who has it, as it stands on the audit topic
+ * @param secret left out of {@link #toString()}
+ * @param role what it allows
+ * @param forUsers whether it speaks for users, who are named with each request and may at most what {@code role} allows; it
+ *     speaks for nobody else then
+ */
+public record ApiToken(String name, byte[] secret, Role role, boolean forUsers) {
+    private static final Logger LOG = LoggerFactory.getLogger(ApiToken.class);
+    private static final Pattern LINE =
+            Pattern.compile("([A-Za-z0-9_.@-]{1,64})\\s+(\\S{16,512})(?:\\s+(\\S+))?(\\s+for-users)?");
+
+    /**
+     * Reads lines {@code <name> <token> <role>}; empty ones and those that begin with # are skipped. A line without a role is
+     * that of a viewer. A line may end with {@code for-users}.
+     *
+     * @throws IOException if the file cannot be read, has another line, a token twice, or none; the message names the line
+     */
+    static List<ApiToken> read(Path file) throws IOException {
+        List<ApiToken> tokens = new ArrayList<>();
+        Set<String> secrets = new HashSet<>();
+        List<String> lines = lines(file);
+        for (int i = 0; i < lines.size(); i++) {
+            String line = lines.get(i).strip();
+            if (line.isEmpty() || line.startsWith("#")) {
+                continue;
+            }
+            Matcher parts = LINE.matcher(line);
+            if (!parts.matches()) {
+                throw wrong(file, i, "a line is '<name> <token> <role>', the token at least 16 characters long");
+            }
+            if (!secrets.add(parts.group(2))) {
+                throw wrong(file, i, "this token stands further above already; each line has a token of its own");
+            }
+            tokens.add(new ApiToken(
+                    parts.group(1),
+                    parts.group(2).getBytes(StandardCharsets.UTF_8),
+                    role(file, i, parts),
+                    parts.group(4) != null));
+        }
+        if (tokens.isEmpty()) {
+            throw new IOException(file + " holds no token; add a line '<name> <token> <role>'");
+        }
+        PrivateFile.exposure(file).ifPresent(LOG::warn);
+        return List.copyOf(tokens);
+    }
+
+    private static List<String> lines(Path file) throws IOException {
+        try {
+            return Files.readAllLines(file);
+        } catch (IOException e) {
+            throw new IOException("the file of tokens %s cannot be read (%s)".formatted(file, e), e);
+        }
+    }
+
+    private static Role role(Path file, int index, Matcher parts) throws IOException {
+        if (parts.group(3) == null) {
+            LOG.warn(
+                    "{}, line {}: '{}' has no role and may only read; add viewer, operator or admin",
+                    file,
+                    index + 1,
+                    parts.group(1));
+            return Role.VIEWER;
+        }
+        return Role.of(parts.group(3))
+                .orElseThrow(() -> wrong(
+                        file, index, "'%s' is no role; it is viewer, operator or admin".formatted(parts.group(3))));
+    }
+
+    private static IOException wrong(Path file, int index, String reason) {
+        return new IOException("%s, line %d: %s".formatted(file, index + 1, reason));
+    }
+
+    /** What a user may for whom this token speaks. */
+    ApiToken speakingFor(String user, Role most) {
+        return new ApiToken(user, secret, role.includes(most) ? most : role, false);
+    }
+
+    /** The one of them with this secret, found in a time that does not depend on how much of it is right. */
+    static Optional<ApiToken> find(List<ApiToken> tokens, String secret) {
+        byte[] given = secret.getBytes(StandardCharsets.UTF_8);
+        ApiToken found = null;
+        for (ApiToken each : tokens) {
+            if (MessageDigest.isEqual(each.secret, given)) {
+                found = each;
+            }
+        }
+        return Optional.ofNullable(found);
+    }
+
+    @Override
+    public String toString() {
+        return name + " (" + role.word() + ")";
+    }
+}

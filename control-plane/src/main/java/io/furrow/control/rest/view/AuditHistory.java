@@ -1,0 +1,125 @@
+package io.furrow.control.rest.view;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.concurrent.Semaphore;
+import java.util.function.Predicate;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.consumer.Consumer;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+
+import io.furrow.control.rest.ProblemException;
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Reads the audit topic backwards, from Kafka, at most {@value #AT_ONCE} requests at once. */
+public final class AuditHistory {
+    /** Records that one request reads at most. */
+    public static final int READ = 20_000;
+
+    private static final int AT_ONCE = 2;
+    private static final int STEP = 2_000;
+    private static final Duration POLL = Duration.ofMillis(200);
+    private static final Duration TIMEOUT = Duration.ofSeconds(5);
+    private static final TopicPartition AUDIT = new TopicPartition(Topics.AUDIT, 0);
+
+    private final Properties settings = new Properties();
+    private final Semaphore free = new Semaphore(AT_ONCE);
+
+    /**
+     * What was found, the newest first.
+     *
+     * @param next before which the next page begins; negative if there is no older one
+     */
+    public record Page(List<AuditedEntry> entries, long next) {}
+
+    /** @param client settings of a Kafka client */
+    public AuditHistory(Properties client) {
+        settings.putAll(CommittedReader.settings(client));
+        settings.put("default.api.timeout.ms", Long.toString(TIMEOUT.toMillis()));
+    }
+
+    /**
+     * The newest before a place, as far as one request reads: a page may have less than was asked for, or nothing, and a next one.
+     *
+     * @throws ProblemException where Kafka is unavailable, or too many ask
+     */
+    public Page read(long before, int limit, Predicate<AuditedEntry> wanted) {
+        if (!free.tryAcquire()) {
+            throw ProblemException.overloaded();
+        }
+        try (Consumer<String, byte[]> consumer =
+                new KafkaConsumer<>(settings, new StringDeserializer(), new ByteArrayDeserializer())) {
+            return read(consumer, before, limit, wanted);
+        } catch (KafkaException e) {
+            throw new ProblemException(
+                    503,
+                    "kafka-away",
+                    "the audit topic cannot be read (%s); check that Kafka runs".formatted(e.getMessage()));
+        } finally {
+            free.release();
+        }
+    }
+
+    private static Page read(
+            Consumer<String, byte[]> consumer, long before, int limit, Predicate<AuditedEntry> wanted) {
+        consumer.assign(List.of(AUDIT));
+        long first = consumer.beginningOffsets(List.of(AUDIT)).get(AUDIT);
+        long end = Math.min(before, consumer.endOffsets(List.of(AUDIT)).get(AUDIT));
+        long least = Math.max(first, end - READ);
+        long deadline = System.nanoTime() + TIMEOUT.toNanos();
+        List<AuditedEntry> found = new ArrayList<>();
+        while (end > least && System.nanoTime() < deadline) {
+            long start = Math.max(least, end - STEP);
+            List<AuditedEntry> step = step(consumer, start, end, deadline);
+            for (int i = step.size() - 1; i >= 0; i--) {
+                if (wanted.test(step.get(i))) {
+                    found.add(step.get(i));
+                    if (found.size() == limit) {
+                        long position = step.get(i).position();
+                        return new Page(found, position > first ? position : -1);
+                    }
+                }
+            }
+            end = start;
+        }
+        return new Page(found, end > first ? end : -1);
+    }
+
+    /** Of a stretch, the oldest first. What is aborted, and the marks of transactions, are places without an entry. */
+    private static List<AuditedEntry> step(Consumer<String, byte[]> consumer, long start, long end, long deadline) {
+        List<AuditedEntry> entries = new ArrayList<>();
+        consumer.seek(AUDIT, start);
+        while (consumer.position(AUDIT) < end) {
+            if (System.nanoTime() > deadline) {
+                throw new org.apache.kafka.common.errors.TimeoutException("not read within " + TIMEOUT);
+            }
+            for (ConsumerRecord<String, byte[]> record : consumer.poll(POLL)) {
+                ObjectNode value = entry(record.value());
+                if (record.offset() < end && value != null) {
+                    entries.add(new AuditedEntry(record.offset(), value));
+                }
+            }
+        }
+        return entries;
+    }
+
+    /** Null for what is none. */
+    private static ObjectNode entry(byte[] value) {
+        try {
+            return value != null && NgsiJson.read(value) instanceof ObjectNode object ? object : null;
+        } catch (UnreadableException e) {
+            return null;
+        }
+    }
+}

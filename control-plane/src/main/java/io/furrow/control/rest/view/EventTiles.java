@@ -1,0 +1,183 @@
+package io.furrow.control.rest.view;
+
+import java.time.Clock;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.control.rest.ProblemException;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.mongo.EventDensity;
+import io.furrow.model.control.ErrorCode;
+
+/**
+ * Counts the events of missions tile by tile, as a map is drawn: a tile is {@value #BUCKETS} buckets of one width that begin at a multiple
+ * of its length, so that views that move and zoom share tiles. One thread asks MongoDB; what was counted is cached.
+ */
+public final class EventTiles implements AutoCloseable {
+    /** Of a tile. */
+    static final int BUCKETS = 256;
+
+    private static final Logger LOG = LoggerFactory.getLogger(EventTiles.class);
+    private static final int MAX_WAITING = 64;
+    private static final int MAX_CACHED = 2_000;
+    private static final long FRESH_MS = 600_000;
+    /** Events come in later than they are of. */
+    private static final long LATENESS_MS = 60_000;
+
+    private final Counter counter;
+    private final Clock clock;
+    private final Map<Tile, CompletableFuture<Counted>> waiting = new HashMap<>();
+    private final Map<Tile, Counted> cached = new LinkedHashMap<>(64, 0.75f, true) {
+        private static final long serialVersionUID = 1L;
+
+        @Override
+        protected boolean removeEldestEntry(Map.Entry<Tile, Counted> eldest) {
+            return size() > MAX_CACHED;
+        }
+    };
+    private final ThreadPoolExecutor counting =
+            new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_WAITING), task -> {
+                Thread thread = new Thread(task, "control-plane-timelines");
+                thread.setDaemon(true);
+                return thread;
+            });
+
+    /** @param index the tile begins at the event time {@code index * BUCKETS * width} */
+    record Tile(String mission, long width, long index) {
+        long from() {
+            return index * BUCKETS * width;
+        }
+
+        long to() {
+            return from() + BUCKETS * width;
+        }
+    }
+
+    /**
+     * @param counts of each bucket
+     * @param last the newest event of the mission, as it was known then, epoch ms
+     * @param at when it was counted, epoch ms
+     */
+    record Counted(long[] counts, long last, long at) {}
+
+    /** Asks MongoDB. */
+    interface Counter extends AutoCloseable {
+        Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException;
+
+        @Override
+        void close();
+    }
+
+    EventTiles(Counter counter, Clock clock) {
+        this.counter = counter;
+        this.clock = clock;
+    }
+
+    /** Does not wait for MongoDB. @return null if the control plane has none */
+    public static EventTiles of(ReplaySettings settings) {
+        return settings.mongo() == null
+                ? null
+                : new EventTiles(
+                        new Opened(EventDensity.open(settings.mongo(), settings.database())), Clock.systemUTC());
+    }
+
+    private record Opened(EventDensity density) implements Counter {
+        @Override
+        public Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException {
+            return density.count(mission, from, width, buckets);
+        }
+
+        @Override
+        public void close() {
+            density.close();
+        }
+    }
+
+    /**
+     * The counts of a tile, at once where they are cached. They are counted again after ten minutes, and where the mission has had events
+     * since then that may lie in the tile.
+     *
+     * @param last the newest event of the mission as far as is known, epoch ms
+     * @return fails with a {@link ProblemException}
+     */
+    CompletableFuture<Counted> count(Tile tile, long last) {
+        synchronized (cached) {
+            Counted known = cached.get(tile);
+            if (known != null && isFresh(tile, known, last)) {
+                return CompletableFuture.completedFuture(known);
+            }
+            CompletableFuture<Counted> asked = waiting.get(tile);
+            if (asked != null) {
+                return asked;
+            }
+            CompletableFuture<Counted> answer = new CompletableFuture<>();
+            try {
+                counting.execute(() -> count(tile, last, answer));
+                waiting.put(tile, answer);
+            } catch (RejectedExecutionException e) {
+                answer.completeExceptionally(ProblemException.overloaded());
+            }
+            return answer;
+        }
+    }
+
+    private boolean isFresh(Tile tile, Counted known, long last) {
+        boolean complete = known.last() == last || tile.to() <= known.last() - LATENESS_MS;
+        return complete && clock.millis() - known.at() < FRESH_MS;
+    }
+
+    private void count(Tile tile, long last, CompletableFuture<Counted> answer) {
+        try {
+            long begun = clock.millis();
+            Counted counted = counter.count(tile.mission(), tile.from(), tile.width(), BUCKETS)
+                    .map(counts -> new Counted(counts, last, begun))
+                    .orElseThrow(() -> unknown(tile.mission()));
+            synchronized (cached) {
+                cached.put(tile, counted);
+                waiting.remove(tile);
+            }
+            answer.complete(counted);
+        } catch (RecordingException e) {
+            fail(tile, answer, new ProblemException(503, "mongodb-away", e.getMessage()));
+        } catch (RuntimeException e) { // a fault of ours, which must not leave the caller without an answer
+            fail(tile, answer, e);
+        }
+    }
+
+    private void fail(Tile tile, CompletableFuture<Counted> answer, RuntimeException failure) {
+        synchronized (cached) {
+            waiting.remove(tile);
+        }
+        answer.completeExceptionally(failure);
+    }
+
+    public static ProblemException unknown(String mission) {
+        return new ProblemException(
+                ErrorCode.UNKNOWN_MISSION,
+                "nothing is stored of mission '%s'; GET /api/recordings lists what is".formatted(mission));
+    }
+
+    @Override
+    public void close() {
+        counting.shutdownNow();
+        try {
+            if (!counting.awaitTermination(1, TimeUnit.SECONDS)) {
+                LOG.debug("events are still counted");
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+        counter.close();
+    }
+}

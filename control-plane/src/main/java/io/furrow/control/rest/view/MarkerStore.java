@@ -1,0 +1,95 @@
+package io.furrow.control.rest.view;
+
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionStage;
+import java.util.concurrent.Executor;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.control.rest.ProblemException;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.marker.Markers;
+import io.furrow.mission.marker.RefusedMarkerException;
+import io.furrow.model.control.ErrorCode;
+
+/** Asks MongoDB for markers on a thread of its own, so that no request waits on those of the API. At most {@value #MAX_WAITING} wait. */
+public final class MarkerStore implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(MarkerStore.class);
+    private static final int MAX_WAITING = 64;
+
+    private final ReplaySettings settings;
+    private final Executor answering;
+    private final ThreadPoolExecutor asking =
+            new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_WAITING), task -> {
+                Thread thread = new Thread(task, "control-plane-markers");
+                thread.setDaemon(true);
+                return thread;
+            });
+    /** Of the thread that asks. */
+    private Markers markers;
+
+    /** What is asked. @param <T> the answer */
+    public interface Question<T> {
+        T ask(Markers markers) throws RefusedMarkerException, RecordingException;
+    }
+
+    /** @param answering answers are forwarded by it */
+    public MarkerStore(ReplaySettings settings, Executor answering) {
+        this.settings = settings;
+        this.answering = answering;
+    }
+
+    /**
+     * The answer, or a {@link ProblemException}: 400 for what MongoDB is not given, 503 where it is unavailable.
+     *
+     * @throws ProblemException if there is no MongoDB, or too much waits already
+     */
+    public <T> CompletionStage<T> ask(Question<T> question) {
+        if (settings.mongo() == null) {
+            throw new ProblemException(
+                    501, "no-mongodb", "this control plane was started without --mongo, where markers are kept");
+        }
+        CompletableFuture<T> answer = new CompletableFuture<>();
+        try {
+            asking.execute(() -> ask(question, answer));
+        } catch (RejectedExecutionException e) {
+            throw ProblemException.overloaded();
+        }
+        return answer.whenCompleteAsync((given, failure) -> {}, answering);
+    }
+
+    private <T> void ask(Question<T> question, CompletableFuture<T> answer) {
+        try {
+            if (markers == null) {
+                markers = Markers.open(settings.mongo(), settings.database());
+            }
+            answer.complete(question.ask(markers));
+        } catch (RefusedMarkerException e) {
+            answer.completeExceptionally(new ProblemException(ErrorCode.WRONG_MEMBER, e.getMessage()));
+        } catch (RecordingException e) {
+            answer.completeExceptionally(new ProblemException(503, "mongodb-away", e.getMessage()));
+        } catch (RuntimeException e) { // a fault of ours, which must not leave the caller without an answer
+            answer.completeExceptionally(e);
+        }
+    }
+
+    @Override
+    public void close() {
+        try {
+            asking.execute(() -> {
+                if (markers != null) {
+                    markers.close();
+                }
+            });
+        } catch (RejectedExecutionException e) {
+            LOG.debug("Too much is asked of MongoDB to take leave of it", e);
+        }
+        asking.shutdown();
+    }
+}

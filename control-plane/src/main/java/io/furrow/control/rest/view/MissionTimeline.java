@@ -1,0 +1,139 @@
+package io.furrow.control.rest.view;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionStage;
+import java.util.concurrent.Executor;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.control.rest.ProblemException;
+
+/**
+ * How many events a stretch of a mission has, bucket by bucket.
+ *
+ * @param from event time of the first bucket's begin, epoch ms
+ * @param width of a bucket, ms; one of a ladder of widths that people read times by
+ * @param buckets how many
+ */
+public record MissionTimeline(String mission, Extent extent, long from, long width, int buckets) {
+    public static final int MAX_BUCKETS = 1_000;
+
+    private static final long SECOND = 1_000;
+    private static final long MINUTE = 60 * SECOND;
+    private static final long HOUR = 60 * MINUTE;
+    private static final long DAY = 24 * HOUR;
+    private static final long[] WIDTHS = {
+        100,
+        200,
+        500,
+        SECOND,
+        2 * SECOND,
+        5 * SECOND,
+        10 * SECOND,
+        15 * SECOND,
+        30 * SECOND,
+        MINUTE,
+        2 * MINUTE,
+        5 * MINUTE,
+        10 * MINUTE,
+        15 * MINUTE,
+        30 * MINUTE,
+        HOUR,
+        2 * HOUR,
+        3 * HOUR,
+        6 * HOUR,
+        12 * HOUR,
+        DAY
+    };
+    private static final long ANSWER_MS = 1_000;
+
+    /** First and last event time of a mission, epoch ms. */
+    public record Extent(long first, long last) {}
+
+    /**
+     * The buckets of a stretch that the mission has events in. Their width goes by the stretch, so that those of several missions agree.
+     *
+     * @param from epoch ms
+     * @param to epoch ms, after {@code from}
+     * @param atMost how many buckets, unless the stretch begins and ends within some
+     */
+    public static MissionTimeline of(String mission, Extent extent, long from, long to, int atMost) {
+        long width = width(to - from, atMost);
+        long begin = Math.floorDiv(Math.max(from, extent.first()), width) * width;
+        long end = Math.min(to, extent.last() + 1);
+        return new MissionTimeline(mission, extent, begin, width, Math.toIntExact(ceilDiv(end - begin, width)));
+    }
+
+    private static long width(long length, int atMost) {
+        for (long width : WIDTHS) {
+            if (length <= width * atMost) {
+                return width;
+            }
+        }
+        return ceilDiv(ceilDiv(length, atMost), DAY) * DAY;
+    }
+
+    private static long ceilDiv(long length, long by) {
+        return -Math.floorDiv(-length, by);
+    }
+
+    private List<EventTiles.Tile> tiles() {
+        long length = width * EventTiles.BUCKETS;
+        List<EventTiles.Tile> tiles = new ArrayList<>();
+        for (long index = Math.floorDiv(from, length); index * length < from + buckets * width; index++) {
+            tiles.add(new EventTiles.Tile(mission, width, index));
+        }
+        return tiles;
+    }
+
+    /**
+     * The answer, after a second at most: what was not counted by then is null, and comes when it is asked for again.
+     *
+     * @param answering answers are made by it
+     * @return fails with a {@link ProblemException}
+     */
+    public CompletionStage<ObjectNode> count(EventTiles events, Executor answering) {
+        List<EventTiles.Tile> tiles = tiles();
+        List<CompletableFuture<EventTiles.Counted>> answers =
+                tiles.stream().map(tile -> events.count(tile, extent.last())).toList();
+        return CompletableFuture.allOf(answers.toArray(CompletableFuture[]::new))
+                .completeOnTimeout(null, ANSWER_MS, TimeUnit.MILLISECONDS)
+                .thenApplyAsync(counted -> json(tiles, answers), answering);
+    }
+
+    private ObjectNode json(List<EventTiles.Tile> tiles, List<CompletableFuture<EventTiles.Counted>> answers) {
+        ObjectNode json = JsonNodeFactory.instance
+                .objectNode()
+                .put("mission", mission)
+                .put("first", extent.first())
+                .put("last", extent.last())
+                .put("from", from)
+                .put("width", width);
+        ArrayNode counts = json.putArray("counts");
+        boolean complete = true;
+        for (int i = 0; i < tiles.size(); i++) {
+            EventTiles.Counted counted = answers.get(i).getNow(null);
+            complete &= counted != null;
+            add(tiles.get(i), counted, counts);
+        }
+        return json.put("complete", complete);
+    }
+
+    private void add(EventTiles.Tile tile, EventTiles.Counted counted, ArrayNode counts) {
+        for (int bucket = 0; bucket < EventTiles.BUCKETS; bucket++) {
+            long begin = tile.from() + bucket * width;
+            if (begin >= from && begin < from + buckets * width) {
+                if (counted == null) {
+                    counts.addNull();
+                } else {
+                    counts.add(counted.counts()[bucket]);
+                }
+            }
+        }
+    }
+}

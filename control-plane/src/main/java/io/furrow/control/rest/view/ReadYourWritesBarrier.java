@@ -1,0 +1,72 @@
+package io.furrow.control.rest.view;
+
+import java.util.ArrayDeque;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Queue;
+import java.util.concurrent.ExecutionException;
+import java.util.function.ToLongFunction;
+
+import org.apache.kafka.clients.admin.ListOffsetsResult.ListOffsetsResultInfo;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.KafkaFuture;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.InterruptException;
+
+import io.furrow.model.control.CommandResult;
+
+/** Holds answers until the view has come as far as the topics were when they were read, so that it shows what they report. */
+final class ReadYourWritesBarrier {
+    private final PendingReplies answers;
+    private final Queue<Held> held = new ArrayDeque<>();
+
+    private record Held(
+            Map<PendingReplies.Key, CommandResult> answers,
+            KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {}
+
+    ReadYourWritesBarrier(PendingReplies answers) {
+        this.answers = answers;
+    }
+
+    /** @param ends of the topics that the view is made of, asked for after the answers were read */
+    void hold(
+            Map<PendingReplies.Key, CommandResult> fresh,
+            KafkaFuture<Map<TopicPartition, ListOffsetsResultInfo>> ends) {
+        held.add(new Held(fresh, ends));
+    }
+
+    boolean isEmpty() {
+        return held.isEmpty();
+    }
+
+    /**
+     * Forwards, in order, what the view shows.
+     *
+     * @param position how far a partition was read
+     * @throws KafkaException where the ends could not be had
+     */
+    void release(ToLongFunction<TopicPartition> position) {
+        while (!held.isEmpty() && isSeen(held.peek(), position)) {
+            held.remove().answers().forEach(answers::release);
+        }
+    }
+
+    private static boolean isSeen(Held one, ToLongFunction<TopicPartition> position) {
+        if (!one.ends().isDone()) {
+            return false;
+        }
+        try {
+            Map<TopicPartition, Long> ends = new HashMap<>();
+            one.ends().get().forEach((partition, end) -> ends.put(partition, end.offset()));
+            return reached(ends, position);
+        } catch (ExecutionException e) {
+            throw new KafkaException("the ends of the control plane's topics are not known", e.getCause());
+        } catch (InterruptedException e) {
+            throw new InterruptException(e);
+        }
+    }
+
+    static boolean reached(Map<TopicPartition, Long> ends, ToLongFunction<TopicPartition> position) {
+        return ends.entrySet().stream().allMatch(end -> position.applyAsLong(end.getKey()) >= end.getValue());
+    }
+}

@@ -1,0 +1,100 @@
+package io.furrow.control.rest.view;
+
+import java.time.Duration;
+import java.util.Properties;
+import java.util.concurrent.ArrayBlockingQueue;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.Semaphore;
+import java.util.concurrent.ThreadPoolExecutor;
+import java.util.concurrent.TimeUnit;
+import java.util.function.BooleanSupplier;
+
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.Producer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+
+import io.furrow.control.rest.ProblemException;
+import io.furrow.model.control.Limits;
+
+/**
+ * Sends records to Kafka on a thread of its own, so that nobody waits where a producer would block. What waits to be sent is bounded, in
+ * records and in bytes; beyond that {@link ProblemException} says to come back.
+ */
+final class RecordSender implements AutoCloseable {
+    private static final int MAX_RECORDS = 1000;
+    private static final int MAX_BYTES = 16 * 1024 * 1024;
+    private static final Duration MAX_BLOCK = Duration.ofSeconds(2);
+    private static final Duration CLOSE_TIMEOUT = Duration.ofSeconds(5);
+
+    private final Producer<String, byte[]> producer;
+    private final Semaphore bytes = new Semaphore(MAX_BYTES);
+    private final ThreadPoolExecutor executor =
+            new ThreadPoolExecutor(1, 1, 0, TimeUnit.SECONDS, new ArrayBlockingQueue<>(MAX_RECORDS), task -> {
+                Thread thread = new Thread(task, "control-plane-rest-sender");
+                thread.setDaemon(true);
+                return thread;
+            });
+
+    /** @param timeout after which a record that Kafka did not take has failed */
+    RecordSender(Properties client, Duration timeout) {
+        Properties settings = new Properties();
+        settings.putAll(client);
+        settings.put("max.block.ms", Long.toString(Math.min(MAX_BLOCK.toMillis(), timeout.toMillis())));
+        settings.put("request.timeout.ms", Long.toString(timeout.toMillis()));
+        settings.put("delivery.timeout.ms", Long.toString(timeout.toMillis()));
+        settings.put("linger.ms", "0");
+        settings.put("max.request.size", Integer.toString(Limits.MESSAGE_BYTES));
+        this.producer = new KafkaProducer<>(settings, new StringSerializer(), new ByteArraySerializer());
+    }
+
+    /**
+     * Sends a record unless nobody wants it any more when its turn comes.
+     *
+     * @return completes once Kafka has it
+     * @throws ProblemException where too much waits already
+     */
+    CompletableFuture<Void> send(ProducerRecord<String, byte[]> record, BooleanSupplier wanted) {
+        int size = record.value().length;
+        if (!bytes.tryAcquire(size)) {
+            throw ProblemException.overloaded();
+        }
+        CompletableFuture<Void> sent = new CompletableFuture<>();
+        sent.whenComplete((done, failure) -> bytes.release(size));
+        try {
+            executor.execute(() -> send(record, wanted, sent));
+        } catch (RejectedExecutionException e) {
+            sent.cancel(false);
+            throw ProblemException.overloaded();
+        }
+        return sent;
+    }
+
+    private void send(ProducerRecord<String, byte[]> record, BooleanSupplier wanted, CompletableFuture<Void> sent) {
+        if (!wanted.getAsBoolean()) {
+            sent.cancel(false);
+            return;
+        }
+        try {
+            producer.send(record, (at, failure) -> {
+                if (failure == null) {
+                    sent.complete(null);
+                } else {
+                    sent.completeExceptionally(failure);
+                }
+            });
+        } catch (KafkaException e) {
+            sent.completeExceptionally(e);
+        }
+    }
+
+    @Override
+    public void close() {
+        executor.shutdown();
+        producer.close(CLOSE_TIMEOUT);
+        executor.shutdownNow();
+    }
+}

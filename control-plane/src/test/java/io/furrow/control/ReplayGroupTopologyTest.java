@@ -1,0 +1,268 @@
+package io.furrow.control;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Set;
+
+import org.apache.kafka.streams.test.TestRecord;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.control.replay.WantedReplay.Clock;
+import io.furrow.model.control.replay.WantedReplay.Range;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** Replays of several missions that follow one clock. Missions a and b are stored, from 10 s to 60 s and from 20 s to 90 s. */
+class ReplayGroupTopologyTest {
+    private static final long NOW = ManagedFarm.START.toEpochMilli();
+
+    private final ManagedFarm farm = new ManagedFarm(true);
+    private long sequence;
+
+    @AfterEach
+    void close() {
+        farm.close();
+    }
+
+    private CommandResult ask(String members) {
+        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request'," + members + "}");
+        return ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+    }
+
+    private String start(String members) throws Exception {
+        farm.pipe(Topics.RECORDINGS, "a", new RecordedMission("a", 10_000, 60_000).toBytes());
+        farm.pipe(Topics.RECORDINGS, "b", new RecordedMission("b", 20_000, 90_000).toBytes());
+        CommandResult answer = ask("'command':'start','missions':['a','b']" + members);
+        assertThat(answer.error()).as(answer.json().toString()).isEmpty();
+        return answer.json().path("group").asText();
+    }
+
+    /** What is requested of both after a command, by one number. */
+    private WantedReplay wanted() throws Exception {
+        List<WantedReplay> all = new ArrayList<>();
+        for (TestRecord<String, byte[]> record : farm.read(Topics.REPLAYS)) {
+            all.add(WantedReplay.read(record.key(), record.value()));
+        }
+        assertThat(all).hasSize(2).extracting(WantedReplay::mission).containsExactly("a", "b");
+        WantedReplay one = all.get(0);
+        assertThat(all).allSatisfy(each -> {
+            assertThat(each.clock()).isEqualTo(one.clock());
+            assertThat(each.sequence()).isEqualTo(one.sequence()).isGreaterThan(sequence);
+            assertThat(each.wanted()).isEqualTo(one.wanted());
+            assertThat(each.seek()).isEqualTo(one.seek());
+            assertThat(each.range()).isEqualTo(one.range());
+            assertThat(each.speed()).isEqualTo(one.speed());
+        });
+        sequence = one.sequence();
+        return one;
+    }
+
+    private WantedReplay steered(String group, String command, String status) throws Exception {
+        CommandResult answer = ask("'group':'" + group + "','command':" + command);
+        assertThat(answer.json().path("status").asText())
+                .as(answer.json().toString())
+                .isEqualTo(status);
+        assertThat(answer.json().path("group").asText()).isEqualTo(group);
+        assertThat(answer.json().path("replays")).hasSize(2);
+        return wanted();
+    }
+
+    @Test
+    void startsAllOfThemOverTheTimeThatIsStoredOfAny() throws Exception {
+        String group = start("");
+
+        assertThat(group).matches("[0-9a-f]{8}");
+        WantedReplay one = wanted();
+        assertThat(one.replay()).isEqualTo("a." + group);
+        assertThat(one.topic()).isEqualTo("data.a.replay." + group);
+        assertThat(one.group()).isEqualTo(group);
+        assertThat(one.plan().from()).isEqualTo(10_000);
+        assertThat(one.plan().to()).isEqualTo(90_001);
+        assertThat(one.clock()).isEqualTo(new Clock(NOW + 2000, 10_000));
+    }
+
+    @Test
+    void answersWithTheirNamesAndTopics() throws Exception {
+        start("");
+        CommandResult answer =
+                ask("'command':'start','missions':['b','a'],'from':30000,'range':{'from':40000,'to':50000},"
+                        + "'startAt':" + (NOW + 60_000));
+
+        String group = answer.json().path("group").asText();
+        assertThat(answer.status()).isEqualTo("created");
+        assertThat(answer.json().path("replays").toString()).isEqualTo("[\"b.%s\",\"a.%s\"]".formatted(group, group));
+        assertThat(answer.json().path("topics").toString())
+                .isEqualTo("[\"data.b.replay.%s\",\"data.a.replay.%s\"]".formatted(group, group));
+        WantedReplay last = WantedReplay.read(farm.read(Topics.REPLAYS).get(3).value());
+        assertThat(last.plan().from()).isEqualTo(30_000);
+        assertThat(last.clock()).isEqualTo(new Clock(NOW + 60_000, 40_000));
+    }
+
+    @Test
+    void pausesAndGoesOnWhereItStood() throws Exception {
+        String group = start(",'speed':10");
+        wanted();
+        farm.pass(Duration.ofSeconds(5)); // of which the clock ran 3 s
+        assertThat(steered(group, "'pause'", "paused").clock()).isEqualTo(new Clock(NOW + 5000, 40_000));
+        farm.pass(Duration.ofSeconds(60));
+        WantedReplay resumed = steered(group, "'resume'", "running");
+        assertThat(resumed.clock()).isEqualTo(new Clock(NOW + 66_000, 40_000));
+        assertThat(ask("'command':'resume','group':'" + group + "'").error()).contains("wrong-state");
+    }
+
+    @Test
+    void jumpsTogether() throws Exception {
+        String group = start("");
+        wanted();
+        farm.pass(Duration.ofSeconds(5));
+        WantedReplay seeking = steered(group, "'seek','to':50000", "running");
+        assertThat(seeking.seek()).isEqualTo(new WantedReplay.Seek(50_000, seeking.sequence()));
+        assertThat(seeking.clock()).isEqualTo(new Clock(NOW + 6000, 50_000));
+        steered(group, "'pause'", "paused");
+        WantedReplay held = steered(group, "'seek','to':60000", "paused");
+        assertThat(held.position(NOW + 1_000_000)).isEqualTo(60_000);
+        for (String outside : List.of("9999", "90001")) {
+            assertThat(ask("'command':'seek','group':'" + group + "','to':" + outside)
+                            .error())
+                    .contains("wrong-member");
+        }
+    }
+
+    @Test
+    void changesItsSpeedWithoutAJump() throws Exception {
+        String group = start("");
+        wanted();
+        assertThat(steered(group, "'speed','speed':5", "running").clock())
+                .as("before it begins")
+                .isEqualTo(new Clock(NOW + 2000, 10_000));
+        farm.pass(Duration.ofSeconds(5));
+        WantedReplay faster = steered(group, "'speed','speed':0.5", "running");
+        assertThat(faster.clock()).isEqualTo(new Clock(NOW + 5000, 25_000));
+        assertThat(faster.position(NOW + 7000)).isEqualTo(26_000);
+        assertThat(ask("'command':'speed','speed':'max','group':'" + group + "'")
+                        .error())
+                .contains("wrong-member");
+    }
+
+    @Test
+    void playsARangeOverAndOver() throws Exception {
+        String group = start("");
+        wanted();
+        farm.pass(Duration.ofSeconds(7));
+        WantedReplay inside = steered(group, "'loop','from':12000,'to':20000", "running");
+        assertThat(inside.range()).isEqualTo(new Range(12_000, 20_000));
+        assertThat(inside.clock()).isEqualTo(new Clock(NOW + 7000, 15_000));
+        assertThat(inside.seek()).isNull();
+
+        farm.pass(Duration.ofSeconds(8)); // 23 s, begun again 3 s ago
+        WantedReplay all = steered(group, "'loop'", "running");
+        assertThat(all.clock()).isEqualTo(new Clock(NOW + 15_000, 15_000));
+        assertThat(all.range()).isNull();
+
+        WantedReplay outside = steered(group, "'loop','from':30000,'to':40000", "running");
+        assertThat(outside.clock()).isEqualTo(new Clock(NOW + 16_000, 30_000));
+        assertThat(outside.seek()).isEqualTo(new WantedReplay.Seek(30_000, outside.sequence()));
+        assertThat(ask("'command':'loop','from':91000,'to':95000,'group':'" + group + "'")
+                        .error())
+                .contains("wrong-member");
+    }
+
+    @Test
+    void stopsAllAndForgetsEachWhenItIsOver() throws Exception {
+        String group = start("");
+        wanted();
+        WantedReplay stopped = steered(group, "'stop'", "deleted");
+        assertThat(stopped.wanted()).isEqualTo(ReplayStatus.State.STOPPED);
+        for (String mission : List.of("a", "b")) {
+            farm.pipe(
+                    Topics.REPLAYS_STATUS,
+                    mission + "." + group,
+                    new ReplayStatus(stopped.sequence(), ReplayStatus.State.STOPPED, null, true, null).toBytes());
+            TestRecord<String, byte[]> removed = farm.only(Topics.REPLAYS);
+            assertThat(removed.key()).isEqualTo(mission + "." + group);
+            assertThat(removed.value()).isNull();
+        }
+        CommandResult unknown = ask("'command':'pause','group':'" + group + "'");
+        assertThat(unknown.error()).contains("unknown-replay");
+        assertThat(unknown.json().path("reason").asText()).contains(group);
+    }
+
+    @Test
+    void refusesToSteerOneAloneAndSingleSteps() throws Exception {
+        String group = start("");
+        wanted();
+        for (String command : List.of("pause", "stop", "step")) {
+            CommandResult alone = ask("'command':'" + command + "','replay':'a." + group + "'");
+            assertThat(alone.error()).contains("wrong-state");
+            assertThat(alone.json().path("reason").asText()).contains("'" + group + "'");
+        }
+        assertThat(ask("'command':'step','group':'" + group + "'").error()).contains("wrong-state");
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+    }
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', quoteCharacter = '`', textBlock = """
+            'missions':['a','c','d']                        | unknown-mission | 'c', 'd'
+            'mission':'c'                                   | unknown-mission | /api/recordings
+            'missions':['a','b'],'from':90001               | wrong-member    | 'from'
+            'missions':['a','b'],'range':{'from':1,'to':2}  | wrong-member    | in common
+            'missions':['a','b'],'speed':'max'              | wrong-member    | max
+            'mission':'a','startAt':'2026-03-31T08:00:01Z'  | wrong-member    | 30 days
+            'mission':'a','topic':'data.x.replay.0000000a'  | replay-exists   | 'a.0000000a'
+            'mission':'b','topic':'data.x.replay.0000000a'  | replay-exists   | 'data.x.replay.0000000a'
+            """)
+    void refusesAStart(String members, String error, String said) throws Exception {
+        start("");
+        assertThat(ask("'command':'start','mission':'a','topic':'data.x.replay.0000000a'")
+                        .error())
+                .isEmpty();
+        farm.read(Topics.REPLAYS);
+
+        CommandResult refused = ask("'command':'start'," + members);
+
+        assertThat(refused.error()).contains(error);
+        assertThat(refused.json().path("reason").asText()).contains(said);
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+    }
+
+    @Test
+    void knowsMissionsAsLongAsTheyAreListed() throws Exception {
+        start("");
+        farm.pipe(Topics.RECORDINGS, "a", null);
+        farm.pipe(Topics.RECORDINGS, "b", "no JSON".getBytes(StandardCharsets.UTF_8));
+        assertThat(ask("'command':'start','mission':'a'").error()).contains("unknown-mission");
+        assertThat(ask("'command':'start','mission':'b'").error()).contains("unknown-mission");
+        assertThat(ask("'command':'start','mission':'a','source':{'file':'a.jsonl'}")
+                        .error())
+                .as("what has a source is not looked up")
+                .isEmpty();
+    }
+
+    @Test
+    void needsTimesWhereItDoesNotKnowWhatIsStored() throws Exception {
+        try (ManagedFarm without = new ManagedFarm()) {
+            Set<String> answers = new HashSet<>();
+            for (String times : List.of("", ",'from':1", ",'from':1,'to':9")) {
+                without.ask(
+                        Topics.REPLAY_MANAGER,
+                        null,
+                        "{'type':'request','command':'start','missions':['x','y']" + times + "}");
+                CommandResult answer = ManagedFarm.response(without.only(Topics.REPLAY_MANAGER));
+                answers.add(answer.error().orElse(answer.status()));
+            }
+            assertThat(answers).containsExactlyInAnyOrder("missing-member", "created");
+            assertThat(without.read(Topics.REPLAYS)).hasSize(2);
+        }
+    }
+}

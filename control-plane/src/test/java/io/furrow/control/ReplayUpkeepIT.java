@@ -1,0 +1,163 @@
+package io.furrow.control;
+
+import java.nio.file.Path;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Date;
+import java.util.List;
+import java.util.Properties;
+import java.util.Set;
+import java.util.stream.Stream;
+
+import com.mongodb.client.MongoClients;
+import com.mongodb.client.MongoDatabase;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.bson.Document;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.replay.RecordingWatch;
+import io.furrow.control.replay.ReplayCleanup;
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.Requests;
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Which missions are stored, and what is left of replays that are over; two instances of each. */
+class ReplayUpkeepIT {
+    private final List<AutoCloseable> open = new ArrayList<>();
+    private EmbeddedKafka kafka;
+    private KafkaProducer<String, byte[]> producer;
+    private Admin admin;
+    private Properties client;
+
+    @BeforeEach
+    void start(@TempDir Path directory) throws Exception {
+        kafka = opened(EmbeddedKafka.start(directory.resolve("kafka")));
+        client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        client.setProperty("state.dir", directory.resolve("state").toString());
+        ServiceTopics.prepare(ControlSettings.of(client));
+        producer = opened(new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer()));
+        admin = opened(Admin.create(client));
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        for (int i = open.size() - 1; i >= 0; i--) {
+            open.get(i).close();
+        }
+    }
+
+    private <T extends AutoCloseable> T opened(T part) {
+        open.add(part);
+        return part;
+    }
+
+    private void send(String topic, String key, byte[] value) throws Exception {
+        producer.send(new ProducerRecord<>(topic, key, value)).get();
+    }
+
+    @Test
+    void knowsWhatIsStoredAndRefusesReplaysOfAnythingElse() throws Exception {
+        EmbeddedMongo mongo = opened(EmbeddedMongo.inMemory());
+        MongoDatabase missions = opened(MongoClients.create(mongo.uri())).getDatabase("persistence");
+        missions.getCollection("mission_weeding")
+                .insertMany(List.of(new Document("_time", new Date(1000)), new Document("_time", new Date(3000))));
+        ReplaySettings settings =
+                ReplaySettings.DEFAULT.withMongo(mongo.uri()).withPollInterval(Duration.ofMillis(100));
+        TopicContent recordings = new TopicContent(client, Topics.RECORDINGS);
+        for (int i = 0; i < 2; i++) {
+            opened(RecordingWatch.start(client, settings, Clock.systemUTC()));
+        }
+        await().until(() -> recordings.newest().containsKey("weeding"));
+        assertThat(RecordedMission.read(recordings.newest().get("weeding")))
+                .isEqualTo(new RecordedMission("weeding", 1000, 3000));
+
+        ControlPlane plane =
+                opened(ControlPlane.start(ControlSettings.of(client).with(settings)));
+        await().until(plane::isHealthy);
+        assertThat(answer("weeding").status()).isEqualTo("created");
+        assertThat(answer("harrowing").error()).contains("unknown-mission");
+        missions.getCollection("mission_harrowing").insertOne(new Document("_time", new Date(5000)));
+        await().until(() -> answer("harrowing").status().equals("created"));
+        missions.getCollection("mission_weeding").drop();
+        await().until(() -> answer("weeding").error().isPresent());
+    }
+
+    private int asked;
+
+    private CommandResult answer(String mission) throws Exception {
+        String id = "r-" + asked++;
+        send(
+                Topics.REPLAY_MANAGER,
+                null,
+                Requests.write(id, new ReplayCommand.Start(List.of(mission), null, 1, null, ReplayPlan.PLAIN)));
+        TopicContent answers = new TopicContent(client, Topics.REPLAY_MANAGER);
+        await().until(() -> answers.newest().containsKey(id));
+        return CommandResult.read(answers.newest().get(id));
+    }
+
+    @Test
+    void deletesTheTopicsOfAReplayThatIsOverAndNoOthers() throws Exception {
+        String own = "data.show.replay.0000000a";
+        List<String> gone = List.of(own, own + ".collision", own + ".collision.late", own + ".clocks");
+        List<String> stay = List.of(
+                "data.b.replay.0000000b",
+                "data.b.replay.0000000b.collision",
+                "data.show.replay.0000000ab",
+                "data.a.realtime");
+        kafka.createTopics(Stream.concat(gone.stream(), stay.stream())
+                .map(name -> new NewTopic(name, 1, (short) 1))
+                .toList());
+        send(Topics.REPLAYS, "a.0000000a", wanted("a", own));
+        send(Topics.REPLAYS_STATUS, "a.0000000a", over());
+        send(Topics.REPLAYS, "b.0000000b", wanted("b", "data.b.replay.0000000b"));
+        send(Topics.REPLAYS_STATUS, "b.0000000b", over()); // of before it was started again
+        send(Topics.REPLAYS, "a.0000000a", null);
+
+        ReplayCleanup early = opened(
+                ReplayCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ofHours(1)), Clock.systemUTC()));
+        await().until(() -> early.status().lastSuccess() != null);
+        assertThat(names()).containsAll(gone);
+        for (int i = 0; i < 2; i++) {
+            opened(ReplayCleanup.start(client, ReplaySettings.DEFAULT.withGrace(Duration.ZERO), Clock.systemUTC()));
+        }
+
+        await().until(() -> names().stream().noneMatch(gone::contains));
+        TopicContent statuses = new TopicContent(client, Topics.REPLAYS_STATUS);
+        await().until(() -> !statuses.newest().containsKey("a.0000000a"));
+        assertThat(names()).containsAll(stay);
+        assertThat(statuses.newest()).containsOnlyKeys("b.0000000b");
+    }
+
+    private Set<String> names() throws Exception {
+        return admin.listTopics().names().get();
+    }
+
+    private static byte[] wanted(String mission, String topic) {
+        return WantedReplay.started(mission, topic, ReplayPlan.PLAIN, 1, 0, 1).toBytes();
+    }
+
+    private static byte[] over() {
+        return new ReplayStatus(1, ReplayStatus.State.ENDED, null, true, null).toBytes();
+    }
+}

@@ -1,0 +1,294 @@
+package io.furrow.control.alarm;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Set;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.record.Sequence;
+import io.furrow.model.control.AlarmCommand;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.Limits;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class AlarmCommandHandlerTest {
+    private static final long NOW = 1_700_000_000_000L;
+    private static final Duration HOUR = Duration.ofHours(1);
+
+    private final MapRecords<AlarmRecords.Mute> mutes = MapRecords.of(AlarmRecords.Mute.class);
+    private final KeptOutbox outbox = new KeptOutbox();
+    private final AlarmCommandHandler handler = new AlarmCommandHandler(
+            new AlarmRecords(
+                    MapRecords.of(Alarm.class),
+                    MapRecords.of(String.class),
+                    mutes,
+                    MapRecords.of(AlarmLimit.Group.class),
+                    MapRecords.of(AlarmLimit.Counted.class)),
+            new Sequence(MapRecords.of(Long.class)),
+            outbox);
+
+    @Test
+    void showsAnAlarmAsClientsReadIt() {
+        handler.raise(silent("urn:t:1"), NOW);
+
+        assertThat(new String(outbox.compacted(Topics.ALARMS).get("silent-device-1"), StandardCharsets.UTF_8))
+                .isEqualTo("""
+                        {"alarm":"silent-device-1","kind":"silent-device","subject":"urn:t:1","severity":"minor","state":"open",\
+                        "change":"opened","text":"it is silent","devices":[{"id":"urn:t:1","type":"Thermometer"}],\
+                        "raised":1700000000000,"changed":1700000000000,"count":1,"sequence":1,"seen":1700000000000}""");
+    }
+
+    @Test
+    void raisesOneAlarmHoweverOftenItsCauseIsSeen() {
+        handler.raise(silent("urn:t:1"), NOW);
+        handler.raise(silent("urn:t:1"), NOW + 1);
+        handler.raise(silent("urn:t:2"), NOW + 2);
+        assertThat(outbox.all()).hasSize(2);
+        handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "it reports again", NOW + 3);
+        assertThat(alarm("silent-device-1"))
+                .returns(2, Alarm::count)
+                .returns(AlarmState.CLOSED, Alarm::state)
+                .returns("it reports again", Alarm::reason);
+        handler.raise(silent("urn:t:1"), NOW + 4);
+        assertThat(alarm("silent-device-4").state()).isEqualTo(AlarmState.OPEN);
+    }
+
+    @Test
+    void goesFromOpenOverAcknowledgedToClosedAndNeverBack() throws Exception {
+        handler.raise(silent("urn:t:1"), NOW);
+        assertThat(handler.answer(acknowledge("silent-device-1"), NOW).status()).isEqualTo("acknowledged");
+        assertThat(alarm("silent-device-1"))
+                .returns(AlarmState.ACKNOWLEDGED, Alarm::state)
+                .returns("ann", Alarm::acknowledgedBy);
+        refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
+        handler.answer(new AlarmCommand.Close("silent-device-1", "bob"), NOW + AlarmLife.CAUSE_LASTS.toMillis());
+        assertThat(alarm("silent-device-1"))
+                .returns("closed by bob", Alarm::reason)
+                .returns("ann", Alarm::acknowledgedBy);
+        refused(ErrorCode.WRONG_STATE, new AlarmCommand.Close("silent-device-1", "bob"));
+        refused(ErrorCode.WRONG_STATE, acknowledge("silent-device-1"));
+        refused(ErrorCode.UNKNOWN_ALARM, acknowledge("silent-device-2"));
+    }
+
+    @Test
+    void closesByItselfWhatIsNotSeenAnyMoreWhereNothingTellsItsEnd() {
+        Cause cause = new Cause(AlarmKind.SUSPECT_SENSOR, "s", "odd", List.of(), HOUR);
+        handler.raise(cause, NOW);
+        handler.raise(cause, NOW + 10);
+        handler.passTime(NOW + HOUR.toMillis());
+        assertThat(alarm("suspect-sensor-1").state()).isEqualTo(AlarmState.OPEN);
+        handler.passTime(NOW + 10 + HOUR.toMillis());
+        assertThat(alarm("suspect-sensor-1").state()).isEqualTo(AlarmState.CLOSED);
+    }
+
+    @Test
+    void refusesToCloseByHandWhatWasSeenWithinTheLastMinute() throws Exception {
+        handler.raise(silent("urn:t:1"), NOW);
+        long later = NOW + AlarmLife.CAUSE_LASTS.toMillis() - 1;
+        assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later))
+                .isInstanceOf(RefusedException.class)
+                .hasMessage("alarm 'silent-device-1' closes when its cause is over: it is silent (seen 59 s ago)."
+                        + " Acknowledge it, or mute it for a while.");
+        handler.raise(silent("urn:t:1"), later);
+        assertThatThrownBy(() -> handler.answer(new AlarmCommand.Close("silent-device-1", null), later + 1))
+                .isInstanceOf(RefusedException.class);
+        assertThat(alarm("silent-device-1").state()).isEqualTo(AlarmState.OPEN);
+        handler.answer(new AlarmCommand.Close("silent-device-1", null), later + AlarmLife.CAUSE_LASTS.toMillis());
+        handler.raise(silent("urn:t:1"), later + AlarmLife.CAUSE_LASTS.toMillis());
+        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+    }
+
+    @Test
+    void updatesAGroupAlarmAtMostEveryTenSeconds() {
+        handler.report(many(1), null, NOW);
+        handler.report(many(2), null, NOW + 9_999);
+        assertThat(alarm("silent-device-1").affected()).isEqualTo(1);
+        handler.report(many(2), null, NOW + 10_000);
+        assertThat(alarm("silent-device-1"))
+                .returns(2, Alarm::affected)
+                .returns(Alarm.Change.UPDATED, Alarm::change)
+                .returns("2 are silent", Alarm::text);
+        handler.report(many(2), null, NOW + 30_000);
+        assertThat(outbox.all()).hasSize(2);
+    }
+
+    @Test
+    void saysWhichAlarmInhibitsAnotherAndWhenNoLonger() {
+        Cause farm = Cause.ofMany(AlarmKind.SILENT_FARM, "data.raw", "all", List.of(), new Cause.Extent(9, 9));
+        handler.report(farm, null, NOW);
+        handler.report(many(3), farm, NOW);
+        assertThat(alarm("silent-device-2"))
+                .returns("silent-farm-1", Alarm::inhibitedBy)
+                .returns(Alarm.Change.OPENED, Alarm::change);
+        handler.report(many(3), null, NOW + 1);
+        assertThat(alarm("silent-device-2"))
+                .returns(null, Alarm::inhibitedBy)
+                .returns(Alarm.Change.UPDATED, Alarm::change);
+        handler.endOthers(Set.of(AlarmKind.SILENT_FARM, AlarmKind.SILENT_DEVICE), List.of(many(3)), "over", NOW + 2);
+        assertThat(alarm("silent-farm-1").state()).isEqualTo(AlarmState.CLOSED);
+        assertThat(alarm("silent-device-2").state()).isEqualTo(AlarmState.OPEN);
+    }
+
+    @Test
+    void countsThePairsOfAMissionBeyondTwenty() {
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 30; i++) {
+            handler.raise(pair(i), NOW);
+        }
+        handler.passTime(NOW + 1000);
+        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        Alarm crowd = alarm("collision-" + (AlarmLimit.MAX_ALARMS + 1));
+        assertThat(crowd)
+                .returns("urn:ngsi-ld:Mission:m", Alarm::subject)
+                .returns(30, Alarm::affected)
+                .returns("30 more pairs of mission m are too close", Alarm::text);
+        for (int i = AlarmLimit.MAX_ALARMS; i < AlarmLimit.MAX_ALARMS + 30; i++) {
+            handler.end(AlarmKind.COLLISION, "pair" + i, "over", NOW);
+        }
+        handler.passTime(NOW + 2000);
+        assertThat(alarm(crowd.alarm()).state()).isEqualTo(AlarmState.CLOSED);
+        handler.end(AlarmKind.COLLISION, "pair0", "over", NOW);
+        handler.raise(pair(99), NOW);
+        assertThat(StateJson.read(outbox.all().get(outbox.all().size() - 1).value(), Alarm.class)
+                        .subject())
+                .isEqualTo("pair99");
+    }
+
+    @Test
+    void forgetsCountedCausesThatAreOverByThemselves() {
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 5; i++) {
+            handler.raise(new Cause(AlarmKind.PREDICTED_ENCOUNTER, "p" + i, "x", List.of(), HOUR).inGroup("g"), NOW);
+        }
+        handler.passTime(NOW + 1000);
+        assertThat(current()).hasSize(AlarmLimit.MAX_ALARMS + 1);
+        handler.passTime(NOW + HOUR.toMillis());
+        assertThat(current()).isEmpty();
+    }
+
+    @Test
+    void storesNoMoreThanTenThousandClosedAlarms() {
+        for (int i = 0; i < AlarmCommandHandler.MAX_CLOSED + 10; i++) {
+            handler.raise(silent("urn:t:1"), NOW + i);
+            handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW + i);
+        }
+        handler.passTime(NOW + 100_000);
+        assertThat(outbox.compacted(Topics.ALARMS))
+                .hasSize(AlarmCommandHandler.MAX_CLOSED)
+                .doesNotContainKey("silent-device-1");
+    }
+
+    @Test
+    void mutesOneAlarmUntilItsTimeIsOver() throws Exception {
+        handler.raise(silent("urn:t:1"), NOW);
+        handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfAlarm("silent-device-1"), HOUR), NOW);
+        assertThat(alarm("silent-device-1").mutedUntil()).isEqualTo(NOW + HOUR.toMillis());
+        handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW);
+        handler.raise(silent("urn:t:1"), NOW);
+        assertThat(alarm("silent-device-4").mutedUntil()).isNull();
+
+        handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfAlarm("silent-device-4"), HOUR), NOW);
+        handler.passTime(NOW + HOUR.toMillis());
+        assertThat(alarm("silent-device-4"))
+                .returns(null, Alarm::mutedUntil)
+                .returns(Alarm.Change.UNMUTED, Alarm::change);
+    }
+
+    @Test
+    void refusesToMuteMoreSubjectsThanItRemembers() throws Exception {
+        for (int i = 0; i < Limits.MUTES; i++) {
+            String key = Cause.key(AlarmKind.SILENT_DEVICE, "urn:t:" + i);
+            mutes.put(key, new AlarmRecords.Mute(key, NOW + HOUR.toMillis()));
+        }
+
+        assertThatThrownBy(() -> handler.answer(mute("urn:t:further"), NOW))
+                .isInstanceOfSatisfying(
+                        RefusedException.class,
+                        refused -> assertThat(refused.code()).isEqualTo(ErrorCode.QUOTA_EXCEEDED));
+        handler.answer(mute("urn:t:0"), NOW + 1);
+        handler.passTime(NOW + HOUR.toMillis());
+        handler.answer(mute("urn:t:further"), NOW + HOUR.toMillis());
+        assertThat(mutes.all()).hasSize(2);
+    }
+
+    private static AlarmCommand mute(String subject) {
+        return new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, subject), HOUR);
+    }
+
+    @Test
+    void mutesAlarmsToComeOfAKindOrOfOneSubject() throws Exception {
+        handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, "urn:t:1"), HOUR), NOW);
+        handler.raise(silent("urn:t:1"), NOW + 1);
+        handler.raise(silent("urn:t:2"), NOW + 1);
+        assertThat(alarm("silent-device-1").mutedUntil()).isEqualTo(NOW + HOUR.toMillis());
+        assertThat(alarm("silent-device-2").mutedUntil()).isNull();
+
+        handler.answer(new AlarmCommand.Mute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, null), HOUR), NOW + 2);
+        assertThat(alarm("silent-device-2").mutedUntil()).isEqualTo(NOW + 2 + HOUR.toMillis());
+        handler.answer(new AlarmCommand.Unmute(new AlarmCommand.OfKind(AlarmKind.SILENT_DEVICE, null)), NOW + 3);
+        assertThat(alarm("silent-device-1").mutedUntil()).isNull();
+        assertThat(mutes.all()).hasSize(1);
+        handler.passTime(NOW + HOUR.toMillis());
+        assertThat(mutes.all()).isEmpty();
+    }
+
+    @Test
+    void takesClosedAlarmsAwayAfterADay() {
+        handler.raise(silent("urn:t:1"), NOW);
+        handler.raise(silent("urn:t:2"), NOW);
+        handler.end(AlarmKind.SILENT_DEVICE, "urn:t:1", "over", NOW);
+        long day = AlarmCommandHandler.CLOSED_KEPT.toMillis();
+        handler.passTime(NOW + day - 1);
+        assertThat(outbox.compacted(Topics.ALARMS)).hasSize(2);
+        handler.passTime(NOW + day + 60_000);
+        assertThat(outbox.compacted(Topics.ALARMS)).containsOnlyKeys("silent-device-2");
+    }
+
+    private static Cause silent(String device) {
+        return new Cause(
+                AlarmKind.SILENT_DEVICE,
+                device,
+                "it is silent",
+                List.of(new Cause.Device(device, "Thermometer")),
+                null);
+    }
+
+    private static Cause many(int affected) {
+        return Cause.ofMany(
+                AlarmKind.SILENT_DEVICE, "g", affected + " are silent", List.of(), new Cause.Extent(affected, 40));
+    }
+
+    private static Cause pair(int number) {
+        return new Cause(AlarmKind.COLLISION, "pair" + number, "too close", List.of(), null)
+                .inGroup(AlarmGroup.of("m", ""));
+    }
+
+    private List<Alarm> current() {
+        return outbox.compacted(Topics.ALARMS).values().stream()
+                .map(json -> StateJson.read(json, Alarm.class))
+                .filter(alarm -> alarm.state() != AlarmState.CLOSED)
+                .toList();
+    }
+
+    private static AlarmCommand acknowledge(String alarm) {
+        return new AlarmCommand.Acknowledge(alarm, "ann");
+    }
+
+    private Alarm alarm(String id) {
+        return StateJson.read(outbox.compacted(Topics.ALARMS).get(id), Alarm.class);
+    }
+
+    private void refused(ErrorCode code, AlarmCommand command) {
+        assertThatThrownBy(() -> handler.answer(command, NOW))
+                .isInstanceOfSatisfying(
+                        RefusedException.class, e -> assertThat(e.code()).isEqualTo(code));
+    }
+}

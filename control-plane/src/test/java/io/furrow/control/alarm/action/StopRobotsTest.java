@@ -1,0 +1,174 @@
+package io.furrow.control.alarm.action;
+
+import java.io.IOException;
+import java.time.Clock;
+import java.time.Instant;
+import java.time.ZoneOffset;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.Executor;
+import java.util.concurrent.RejectedExecutionException;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.alarm.watch.Encounter;
+import io.furrow.control.audit.AuditEntry;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class StopRobotsTest {
+    private static final long NOW = 1_700_000_000_000L;
+
+    private final List<String> sent = new ArrayList<>();
+    private final List<AuditEntry> audited = new ArrayList<>();
+    private final Map<String, String> types = new HashMap<>(Map.of("farm|/|r1", "ROBOT", "farm|/|cam", "Camera"));
+    private int failing;
+    private Executor executor = Runnable::run;
+    private StopRobots robots = robots();
+
+    @Test
+    void stopsTheRobotsOfAPredictedEncounterOnceAndNothingElse() {
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        robots.take(encounter("e-2", "started", "r1", "cam"), NOW);
+        assertThat(sent).containsExactly("r1 ROBOT Stop");
+        assertThat(audited).hasSize(1);
+        assertThat(audited.get(0))
+                .returns("alarms", AuditEntry::user)
+                .returns("Stop", AuditEntry::command)
+                .returns("sent", AuditEntry::result);
+        assertThat(audited.get(0).about()).hasToString("{\"device\":\"r1\",\"encounter\":\"e-1\"}");
+        robots.take(encounter("e-3", "predicted", "r1", "cam"), NOW);
+        assertThat(sent).hasSize(2);
+    }
+
+    @Test
+    void triesAgainAndSaysWhatBecameOfIt() {
+        failing = StopRobots.ATTEMPTS - 1;
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        assertThat(sent).hasSize(StopRobots.ATTEMPTS);
+        failing = StopRobots.ATTEMPTS;
+        robots.take(encounter("e-2", "predicted", "r1", "cam"), NOW);
+        assertThat(audited).extracting(AuditEntry::result).containsExactly("sent", "error");
+        assertThat(audited.get(1).reason()).isEqualTo("The context broker is away.");
+        robots.take(encounter("e-2", "predicted", "r1", "cam"), NOW);
+        assertThat(audited).extracting(AuditEntry::result).containsExactly("sent", "error", "sent");
+    }
+
+    @Test
+    void stopsNobodyForAnOldPredictionAndSaysSoOnce() {
+        long old = NOW - StopRobots.FRESH.toMillis() - 1;
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), old);
+        assertThat(sent).isEmpty();
+        assertThat(audited).extracting(AuditEntry::reason).containsExactly("the prediction was older than 10 s");
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), old + 1);
+        assertThat(sent).hasSize(1);
+    }
+
+    @Test
+    void stopsNoRobotForWhatBecameOldWhileItWaited() {
+        List<Runnable> waiting = new ArrayList<>();
+        executor = waiting::add;
+        long[] now = {NOW};
+        robots = new StopRobots(settings(), types::get, audited::add, executor, new Clock() {
+            @Override
+            public java.time.ZoneId getZone() {
+                return ZoneOffset.UTC;
+            }
+
+            @Override
+            public Clock withZone(java.time.ZoneId zone) {
+                return this;
+            }
+
+            @Override
+            public Instant instant() {
+                return Instant.ofEpochMilli(now[0]);
+            }
+        });
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        now[0] += StopRobots.FRESH.toMillis() + 1;
+        waiting.forEach(Runnable::run);
+        assertThat(sent).isEmpty();
+        assertThat(audited).extracting(AuditEntry::reason).containsExactly("the prediction was older than 10 s");
+    }
+
+    @Test
+    void saysThatItCouldNotStopWhatItDoesNotKnowAndDoesOnceItDoes() {
+        robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
+        robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
+        assertThat(sent).isEmpty();
+        assertThat(audited).hasSize(1);
+        assertThat(audited.get(0).result()).isEqualTo("error");
+        types.put("farm|/|r2", "Robot");
+        robots.take(encounter("e-1", "predicted", "r2", "cam"), NOW);
+        assertThat(sent).containsExactly("r2 Robot Stop");
+    }
+
+    @Test
+    void saysThatMoreRobotsWaitThanMay() {
+        executor = task -> {
+            throw new RejectedExecutionException("full");
+        };
+        robots = robots();
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        assertThat(audited).extracting(AuditEntry::reason).containsExactly("too many robots are being stopped at once");
+    }
+
+    @Test
+    void doesNotStopAgainWhatAnotherInstanceStopped() throws Exception {
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        StopRobots other = robots();
+        other.remember(NgsiJson.read(audited.get(0).toBytes()));
+        other.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        assertThat(sent).hasSize(1);
+        other.take(encounter("e-2", "predicted", "r1", "cam"), NOW);
+        assertThat(sent).hasSize(2);
+    }
+
+    @Test
+    void survivesASenderThatThrowsWhatItDoesNotDeclare() {
+        robots = new StopRobots(
+                StopRobots.Settings.of((device, type, command, value) -> {
+                    throw new IllegalArgumentException("invalid URI");
+                }),
+                types::get,
+                audited::add,
+                executor,
+                Clock.fixed(Instant.ofEpochMilli(NOW), ZoneOffset.UTC));
+        robots.take(encounter("e-1", "predicted", "r1", "cam"), NOW);
+        assertThat(audited)
+                .singleElement()
+                .satisfies(entry -> assertThat(entry.reason()).contains("invalid URI"));
+    }
+
+    private StopRobots robots() {
+        return new StopRobots(
+                settings(), types::get, audited::add, executor, Clock.fixed(Instant.ofEpochMilli(NOW), ZoneOffset.UTC));
+    }
+
+    private StopRobots.Settings settings() {
+        return StopRobots.Settings.of((device, type, command, value) -> {
+            sent.add("%s %s %s".formatted(device, type, command));
+            if (failing-- > 0) {
+                throw new IOException("The context broker is away.");
+            }
+        });
+    }
+
+    private static Encounter encounter(String id, String phase, String first, String second) {
+        return new Encounter(
+                id,
+                phase,
+                new Encounter.Member(first, "m"),
+                new Encounter.Member(second, ""),
+                12,
+                0.5,
+                new FiwareScope("farm", "/"));
+    }
+}

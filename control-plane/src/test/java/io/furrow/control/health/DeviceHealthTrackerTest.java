@@ -1,0 +1,165 @@
+package io.furrow.control.health;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Function;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.alarm.Alarm;
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.alarm.Cause;
+import io.furrow.control.manager.KeptOutbox;
+import io.furrow.control.manager.MapRecords;
+import io.furrow.control.manager.StateJson;
+import io.furrow.model.control.AlarmKind;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class DeviceHealthTrackerTest {
+    private static final String ID = "urn:t:1";
+    private static final String KEY = "|/|" + ID;
+    private static final String OVER = "its devices report again or were stopped";
+    private static final long START = 1_700_000_000_000L;
+    /** Three periods, and the timeout with devices that come up. */
+    private static final long LONG_ENOUGH = 30_000 + DeviceHealthTracker.TIMEOUT.toMillis();
+
+    private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+    private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
+    private final KeptOutbox outbox = new KeptOutbox();
+    private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+    private DeviceHealthTracker tracker = tracker();
+
+    @Test
+    void raisesAnAlarmOfADeviceThatNeverReported() {
+        want("m", START);
+        tracker.passTime(START);
+        assertThat(known().silent()).isFalse();
+        tracker.passTime(START + LONG_ENOUGH);
+        assertThat(known().silent()).isFalse();
+        tracker.passTime(START + LONG_ENOUGH + 10_000);
+        assertThat(known().silent()).isTrue();
+        assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 devices of mission m are silent: " + ID);
+    }
+
+    @Test
+    void endsTheAlarmAtTheFirstSignOfLife() {
+        want("m", START);
+        tracker.passTime(START);
+        tracker.passTime(START + LONG_ENOUGH + 10_000);
+        tracker.take(KEY, sign(false, START + LONG_ENOUGH + 11_000), START + LONG_ENOUGH + 11_000);
+        tracker.passTime(START + LONG_ENOUGH + 11_000);
+        assertThat(known())
+                .returns(false, DeviceHealth::silent)
+                .returns(77L, DeviceHealth::lastSeen)
+                .returns(START + LONG_ENOUGH + 11_000, DeviceHealth::since);
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+    }
+
+    @Test
+    void missesADeviceWhoseListenerDied() {
+        want("m", START);
+        tracker.take(KEY, sign(false, START), START);
+        tracker.passTime(START + 10_000);
+        tracker.passTime(START + 10_000 + LONG_ENOUGH);
+        assertThat(known().silent()).isFalse();
+        tracker.passTime(START + 20_000 + LONG_ENOUGH);
+        assertThat(known().silent()).isTrue();
+    }
+
+    @Test
+    void holdsNothingAgainstADeviceThatWasNotListenedTo() {
+        want("m", START);
+        tracker.take(KEY, sign(false, START), START);
+        tracker = tracker(); // and the control plane was unavailable for a day
+        long back = START + Duration.ofDays(1).toMillis();
+        tracker.passTime(back);
+        tracker.passTime(back + LONG_ENOUGH);
+        assertThat(known().silent()).isFalse();
+    }
+
+    @Test
+    void passesOverSilenceThatAnotherListenerHasDisproved() {
+        want("m", START);
+        tracker.take(KEY, sign(false, START + 5), START + 5);
+        tracker.take(KEY, sign(true, START), START + 31_000);
+        assertThat(known().silent()).isFalse();
+        tracker.take(KEY, sign(true, START + 5), START + 31_000);
+        assertThat(known().silent()).isTrue();
+        tracker.passTime(START + 31_000);
+        assertThat(alarms()).extracting(Alarm::affected).containsExactly(1);
+    }
+
+    @Test
+    void forgetsADeviceThatIsNotWantedAnyMoreAndEndsItsAlarm() {
+        want("m", START);
+        tracker.take(KEY, sign(true, START), START);
+        tracker.passTime(START);
+        assertThat(alarms()).hasSize(1);
+        wanted.put(KEY, null);
+        tracker.take(KEY, sign(false, START + 1), START + 1);
+        tracker.passTime(START + 20_000);
+        assertThat(outbox.compacted(Topics.DEVICES_HEALTH)).isEmpty();
+        assertThat(health.all()).isEmpty();
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+    }
+
+    /** As an earlier version raised one per device. */
+    @Test
+    void closesAlarmsOfSilenceThatNothingIsTheCauseOf() {
+        Cause single = new Cause(AlarmKind.SILENT_DEVICE, ID, "x", List.of(), null);
+        alarms.raise(single, START);
+        want("m", START);
+        tracker.passTime(START);
+        assertThat(alarms()).extracting(Alarm::reason).containsExactly(OVER);
+    }
+
+    @Test
+    void writesNothingWhereNothingChanged() {
+        want("m", START);
+        tracker.take(KEY, sign(false, START), START);
+        int written = outbox.all().size();
+        tracker.passTime(START + 10_000);
+        tracker.passTime(START + 20_000);
+        assertThat(outbox.all()).hasSize(written);
+        want("other", START);
+        tracker.passTime(START + 30_000);
+        assertThat(known().mission()).isEqualTo("other");
+    }
+
+    private DeviceHealthTracker tracker() {
+        return new DeviceHealthTracker(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
+    }
+
+    private DeviceHealth known() {
+        return StateJson.read(outbox.compacted(Topics.DEVICES_HEALTH).get(KEY), DeviceHealth.class);
+    }
+
+    private List<Alarm> alarms() {
+        List<Alarm> all = new ArrayList<>();
+        outbox.compacted(Topics.ALARMS).values().forEach(json -> all.add(StateJson.read(json, Alarm.class)));
+        return all;
+    }
+
+    private static Heartbeat sign(boolean silent, long heard) {
+        return new Heartbeat(ID, "T", silent, heard, 77, null, false);
+    }
+
+    private void want(String mission, long from) {
+        DeviceVersion version = new DeviceVersion(ID, "", "/", "d", mission, from, null, 1, null);
+        WantedDevice device = new WantedDevice(
+                version,
+                "T",
+                ID,
+                true,
+                Duration.ofSeconds(10),
+                NgsiJson.mapper().createObjectNode());
+        wanted.put(KEY, device.toBytes());
+    }
+}

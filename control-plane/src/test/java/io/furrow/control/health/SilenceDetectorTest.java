@@ -1,0 +1,164 @@
+package io.furrow.control.health;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Function;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.manager.MapRecords;
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.EntityBuilder;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class SilenceDetectorTest {
+    private static final String ID = "urn:t:1";
+    private static final String KEY = "|/|" + ID;
+    private static final Duration PERIOD = Duration.ofSeconds(10);
+
+    private final MapRecords<byte[]> wanted = new MapRecords<>(Function.identity(), Function.identity());
+    private final List<Heartbeat> signs = new ArrayList<>();
+    private final SilenceDetector listener =
+            new SilenceDetector(HealthOptions.DEFAULT, new WantedDevices(wanted), (key, sign) -> signs.add(sign));
+    private long now = 1_700_000_000_000L;
+
+    @Test
+    void tellsOfTheFirstReportThenEveryHalfMinute() {
+        want(PERIOD);
+        for (int i = 0; i <= 65; i++) {
+            hear(Entity.builder(ID, "T"), now);
+            pass(1000);
+        }
+        assertThat(signs).hasSize(3).noneMatch(Heartbeat::silent);
+    }
+
+    @Test
+    void tellsOnceOfADeviceThatIsSilentForLongerThanItsPeriods() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T"), 5);
+        pass(30_000);
+        assertThat(signs).hasSize(1);
+        pass(1);
+        pass(1000);
+        assertThat(signs).hasSize(2);
+        assertThat(signs.get(1).silent()).isTrue();
+        assertThat(signs.get(1).reported()).isEqualTo(5);
+        hear(Entity.builder(ID, "T"), 6);
+        assertThat(signs).hasSize(3);
+        assertThat(signs.get(2).silent()).isFalse();
+    }
+
+    @Test
+    void takesTheDefaultForADeviceWithoutAPeriod() {
+        want(null);
+        hear(Entity.builder(ID, "T"), 5);
+        pass(HealthOptions.DEFAULT.period().multipliedBy(3).toMillis());
+        assertThat(signs).hasSize(1);
+        pass(1);
+        assertThat(signs).hasSize(2);
+    }
+
+    @Test
+    void goesByAPeriodThatWasChanged() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T"), 5);
+        want(PERIOD.multipliedBy(10));
+        pass(31_000);
+        pass(1000);
+        assertThat(signs).hasSize(1);
+    }
+
+    @Test
+    void judgesNobodyRightAfterAPauseInWhichItDidNotListen() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T"), 5);
+        pass(1000);
+        pass(60_000); // as a process that stood still finds itself, with reports still to be read
+        hear(Entity.builder(ID, "T"), 6);
+        pass(1000);
+        assertThat(signs).hasSize(2).noneMatch(Heartbeat::silent);
+    }
+
+    /** As the context broker tells an entity when somebody sends it a command. */
+    @Test
+    void takesTheSameReportAgainForNoSignOfLife() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T"), 5);
+        pass(29_000);
+        hear(Entity.builder(ID, "T").text("off_status", "PENDING"), 5);
+        pass(1001);
+        assertThat(signs).hasSize(2);
+        assertThat(signs.get(1).silent()).isTrue();
+    }
+
+    @Test
+    void letsADeviceBeSilentThatSaidItIsOff() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T").bool("Status", true), 5);
+        hear(Entity.builder(ID, "T").bool("Status", false), 6);
+        pass(100_000);
+        pass(1000);
+        assertThat(signs).extracting(Heartbeat::off).containsExactly(false, true);
+        hear(Entity.builder(ID, "T").bool("Status", true), 7);
+        pass(30_000);
+        pass(1000);
+        assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, false, false, true);
+    }
+
+    @Test
+    void listensToNothingThatNobodyWants() {
+        assertThat(listener.listensTo(KEY)).isFalse();
+        want(PERIOD);
+        pass(5000);
+        assertThat(listener.listensTo(KEY)).isTrue();
+        hear(Entity.builder(ID, "T"), 5);
+        wanted.put(KEY, null);
+        pass(100_000);
+        pass(1000);
+        assertThat(signs).hasSize(1);
+        assertThat(listener.listensTo(KEY)).isFalse();
+        wanted.put(KEY, "[".getBytes(StandardCharsets.UTF_8));
+        pass(5000);
+        assertThat(listener.listensTo(KEY)).isFalse();
+    }
+
+    @Test
+    void readsBatteriesAsDevicesAndRobotsTellThem() throws Exception {
+        assertThat(charge(Entity.builder(ID, "T").number("battery", 0.8))).isEqualTo(0.8);
+        assertThat(charge(Entity.builder(ID, "T").number("battery", 80))).isEqualTo(0.8);
+        assertThat(charge(Entity.builder(ID, "T").text("battery", "{%27percentage%27: 0.8}")))
+                .isEqualTo(0.8);
+        assertThat(charge(Entity.builder(ID, "T").text("battery", "80"))).isEqualTo(0.8);
+        assertThat(charge(Entity.builder(ID, "T").text("battery", "full"))).isNull();
+        assertThat(charge(Entity.builder(ID, "T").text("battery", "{}"))).isNull();
+        assertThat(charge(Entity.builder(ID, "T").number("battery", -1))).isNull();
+        assertThat(charge(Entity.builder(ID, "T"))).isNull();
+    }
+
+    private static Double charge(EntityBuilder entity) throws Exception {
+        return Battery.chargeOf(Entity.parse(entity.toBytes()));
+    }
+
+    private void hear(EntityBuilder entity, long reported) {
+        assertThat(listener.listensTo(KEY)).isTrue();
+        listener.hear(KEY, entity.build(), reported, now);
+    }
+
+    private void pass(long millis) {
+        now += millis;
+        listener.passTime(now);
+    }
+
+    private void want(Duration period) {
+        DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", 0, null, 1, null);
+        WantedDevice device = new WantedDevice(
+                version, "T", ID, true, period, NgsiJson.mapper().createObjectNode());
+        wanted.put(KEY, device.toBytes());
+    }
+}

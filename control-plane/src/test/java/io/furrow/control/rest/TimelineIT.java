@@ -1,0 +1,119 @@
+package io.furrow.control.rest;
+
+import java.nio.file.Path;
+import java.time.Clock;
+import java.util.Date;
+import java.util.List;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.bson.Document;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class TimelineIT {
+    private static final long TIME = 1_700_000_000_000L;
+    private static final String TIMELINE = "/api/recordings/hoeing/timeline";
+
+    private RunningApi running;
+    private EmbeddedMongo mongo;
+    private RestApi api;
+    private ApiClient client;
+
+    @BeforeEach
+    void start(@TempDir Path directory) throws Exception {
+        running = new RunningApi(directory);
+        mongo = EmbeddedMongo.inMemory();
+        try (MongoClient documents = MongoClients.create(mongo.uri())) {
+            documents
+                    .getDatabase("persistence")
+                    .getCollection("mission_hoeing")
+                    .insertMany(List.of(event(0), event(1), event(2_500), event(9_999)));
+        }
+        Properties producing = new Properties();
+        producing.putAll(running.settings().client());
+        try (KafkaProducer<String, byte[]> producer =
+                new KafkaProducer<>(producing, new StringSerializer(), new ByteArraySerializer())) {
+            for (String mission : List.of("hoeing", "deleted")) {
+                producer.send(new ProducerRecord<>(
+                        Topics.RECORDINGS, mission, new RecordedMission(mission, TIME, TIME + 9_999).toBytes()));
+            }
+        }
+        api = RestApi.start(
+                running.settings().with(ReplaySettings.DEFAULT.withMongo(mongo.uri())),
+                RestSettings.on(0),
+                new Readiness(Clock.systemUTC()));
+        client = new ApiClient(api.uri(), null);
+        await().until(api::isReady);
+    }
+
+    private static Document event(long after) {
+        return new Document("id", "urn:x").append("_time", new Date(TIME + after));
+    }
+
+    @AfterEach
+    void stop() {
+        api.close();
+        mongo.close();
+        running.close();
+    }
+
+    private JsonNode counted(String query) throws Exception {
+        await().until(() -> client.json(client.send("GET", TIMELINE + query, null))
+                .path("complete")
+                .asBoolean());
+        return client.json(client.send("GET", TIMELINE + query, null));
+    }
+
+    @Test
+    void countsTheEventsOfAMissionBucketByBucket() throws Exception {
+        JsonNode all = counted("?buckets=10");
+        assertThat(all.path("from").asLong()).isEqualTo(TIME);
+        assertThat(all.path("width").asLong()).isEqualTo(1_000);
+        assertThat(all.path("counts").toString()).isEqualTo("[2,0,1,0,0,0,0,0,0,1]");
+        assertThat(all.path("first").asLong()).isEqualTo(TIME);
+        assertThat(all.path("last").asLong()).isEqualTo(TIME + 9_999);
+
+        JsonNode part = counted("?buckets=3&from=2023-11-14T22:13:22Z&to=" + (TIME + 3_500));
+        assertThat(part.path("from").asLong()).isEqualTo(TIME + 2_000);
+        assertThat(part.path("counts").toString()).isEqualTo("[0,1,0]");
+    }
+
+    @Test
+    void refusesWhatIsNoPartOfAMission() throws Exception {
+        assertRefused("/api/recordings/sowing/timeline", "404 unknown-mission");
+        assertRefused("/api/recordings/deleted/timeline", "404 unknown-mission");
+        assertRefused(TIMELINE + "?buckets=0", "400 wrong-member");
+        assertRefused(TIMELINE + "?buckets=1001", "400 wrong-member");
+        assertRefused(TIMELINE + "?from=noon", "400 wrong-member");
+        assertRefused(TIMELINE + "?from=" + (TIME + 10_000), "400 wrong-member");
+        assertThat(running.client().error(running.client().send("GET", TIMELINE, null)))
+                .as("without --mongo")
+                .isEqualTo("501 no-mongodb");
+
+        mongo.close();
+        assertRefused(TIMELINE + "?buckets=7", "503 mongodb-away");
+    }
+
+    private void assertRefused(String path, String error) throws Exception {
+        await().untilAsserted(() ->
+                assertThat(client.error(client.send("GET", path, null))).isEqualTo(error));
+    }
+}

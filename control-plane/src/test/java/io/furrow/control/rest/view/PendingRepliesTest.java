@@ -1,0 +1,33 @@
+package io.furrow.control.rest.view;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.control.CommandResult;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class PendingRepliesTest {
+    private final PendingReplies answers = new PendingReplies();
+
+    @Test
+    void remembersTheAnswersOfAManagerHoweverManyAnotherGives() {
+        answer(Topics.ALARM_MANAGER, "alarm-1");
+        for (int i = 0; i <= PendingReplies.REMEMBERED; i++) {
+            answer(Topics.MISSION_MANAGER, "mission-" + i);
+        }
+
+        assertThat(isKnown(Topics.ALARM_MANAGER, "alarm-1")).isTrue();
+        assertThat(isKnown(Topics.MISSION_MANAGER, "mission-0")).isFalse();
+        assertThat(isKnown(Topics.MISSION_MANAGER, "mission-1")).isTrue();
+    }
+
+    private void answer(String topic, String id) {
+        CommandResult answer = CommandResult.of("created");
+        answers.remember(new PendingReplies.Key(topic, id), "f", answer.toBytes(), answer);
+    }
+
+    private boolean isKnown(String topic, String id) {
+        return answers.known(new PendingReplies.Key(topic, id), "f").isPresent();
+    }
+}

@@ -1,0 +1,298 @@
+package io.furrow.dashboard;
+
+import java.io.IOException;
+import java.net.URI;
+import java.time.Clock;
+import java.time.Duration;
+import java.util.List;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.eclipse.jetty.client.HttpClient;
+import org.eclipse.jetty.ee10.servlet.ServletContextHandler;
+import org.eclipse.jetty.ee10.servlet.ServletHolder;
+import org.eclipse.jetty.ee10.websocket.server.JettyServerUpgradeRequest;
+import org.eclipse.jetty.ee10.websocket.server.JettyServerUpgradeResponse;
+import org.eclipse.jetty.ee10.websocket.server.config.JettyWebSocketServletContainerInitializer;
+import org.eclipse.jetty.http.HttpFields;
+import org.eclipse.jetty.http.HttpHeader;
+import org.eclipse.jetty.http.HttpURI;
+import org.eclipse.jetty.http.pathmap.ServletPathSpec;
+import org.eclipse.jetty.proxy.ProxyHandler;
+import org.eclipse.jetty.server.Handler;
+import org.eclipse.jetty.server.HttpConfiguration;
+import org.eclipse.jetty.server.HttpConnectionFactory;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
+import org.eclipse.jetty.server.Server;
+import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.server.handler.PathMappingsHandler;
+import org.eclipse.jetty.util.Callback;
+import org.eclipse.jetty.util.thread.QueuedThreadPool;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.dashboard.auth.ProxyHeaders;
+import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.image.ImageIndex;
+import io.furrow.dashboard.image.ImageServlet;
+import io.furrow.dashboard.page.ConfigServlet;
+import io.furrow.dashboard.page.PageFiles;
+import io.furrow.dashboard.page.TileFile;
+import io.furrow.dashboard.proxy.DensityServlet;
+import io.furrow.dashboard.proxy.HistoryServlet;
+import io.furrow.dashboard.proxy.RegisterServlet;
+import io.furrow.dashboard.proxy.StreamServlet;
+import io.furrow.dashboard.proxy.TopicStreams;
+import io.furrow.dashboard.proxy.TopicsServlet;
+import io.furrow.dashboard.status.StatusPages;
+import io.furrow.dashboard.status.Surroundings;
+import io.furrow.http.AccessRule;
+import io.furrow.http.OptionNames;
+import io.furrow.http.jetty.AccessHandler;
+
+/**
+ * One origin for a page: topics as sockets and events, and the REST API of the control plane, to which requests go with the token of
+ * their user.
+ */
+public final class Dashboard implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(Dashboard.class);
+    private static final OptionNames OPTIONS = new OptionNames("--allowed-hosts", "--allowed-origins");
+    private static final int THREADS = 64;
+    private static final long STOPPING_MILLIS = 2_000;
+    private static final Duration IDLE = Duration.ofSeconds(60);
+    private static final String SOCKETS = "/socket/";
+    /** What begins so may ask Kafka or the control plane before it answers. */
+    private static final String WAITING = "/api/";
+
+    /** What is answered here; the rest of {@code /api} is the control plane's. */
+    private static final List<String> OWN_PATHS = List.of(
+            "/api/register/*",
+            "/api/stream/*",
+            "/api/history/*",
+            "/api/density/*",
+            "/api/topics",
+            "/api/images/*",
+            "/api/platform",
+            "/config.json",
+            SOCKETS + "*");
+
+    private static final List<String> STATUS = List.of(StatusPages.HEALTH, StatusPages.READY, StatusPages.METRICS);
+    /** Pictures are fetched with the user's token and shown as blobs. */
+    private static final String CONTENT_POLICY =
+            "default-src 'self'; img-src 'self' data: blob:%s; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
+
+    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS);
+    private final Server server = new Server(threads);
+    private final TopicStreams streams;
+    private final ImageIndex images;
+    private final Users users;
+    private final Admin admin;
+    private final Surroundings surroundings;
+
+    private Dashboard(DashboardSettings settings) {
+        this.users = new Users(settings.controlPlane(), System::nanoTime);
+        this.streams = new TopicStreams(settings.client(), settings.rules(), settings.limits(), users);
+        this.admin = Admin.create(settings.client());
+        this.images = new ImageIndex(settings.client());
+        this.surroundings = new Surroundings(streams, settings.controlPlane(), Clock.systemUTC());
+    }
+
+    /** @throws IOException if the port is taken */
+    public static Dashboard start(DashboardSettings settings) throws IOException {
+        Dashboard dashboard = new Dashboard(settings);
+        try {
+            dashboard.listen(settings);
+        } catch (IOException e) {
+            dashboard.close();
+            throw e;
+        }
+        LOG.info("the dashboard listens on {}", dashboard.uri());
+        return dashboard;
+    }
+
+    private void listen(DashboardSettings settings) throws IOException {
+        HttpConfiguration http = new HttpConfiguration();
+        http.setSendServerVersion(false);
+        ServerConnector connector = new ServerConnector(server, new HttpConnectionFactory(http));
+        connector.setHost(settings.host());
+        connector.setPort(settings.port());
+        server.addConnector(connector);
+        server.setStopTimeout(STOPPING_MILLIS);
+        threads.setName("dashboard");
+        PathMappingsHandler paths = new PathMappingsHandler();
+        Handler own = own(settings);
+        for (String path : OWN_PATHS) {
+            paths.addMapping(new ServletPathSpec(path), own);
+        }
+        paths.addMapping(new ServletPathSpec("/api/*"), controlPlane(settings.controlPlane()));
+        Handler status = new StatusPages(surroundings, streams);
+        STATUS.forEach(path -> paths.addMapping(new ServletPathSpec(path), status));
+        if (settings.page().tileFile() != null) {
+            paths.addMapping(
+                    new ServletPathSpec(TileFile.PATH),
+                    TileFile.handler(settings.page().tileFile()));
+        }
+        paths.addMapping(
+                new ServletPathSpec("/"), PageFiles.handler(settings.page().folder()));
+        AccessRule rule = AccessRule.allowing(settings.allowed(), OPTIONS)
+                .servedAs(settings.host())
+                .withProbes(StatusPages.HEALTH, StatusPages.READY);
+        Handler known = new ProxyHeaders(settings.proxy(), users, streams.counters()::refused, paths);
+        Handler working = new Workers(path -> path.startsWith(WAITING), streams.counters()::refused, known);
+        server.setHandler(new AccessHandler(
+                rule,
+                refused -> {
+                    streams.counters().refused(refused.error());
+                    return Problem.json(refused.error(), refused.reason());
+                },
+                secure(
+                        working,
+                        CONTENT_POLICY.formatted(originOf(settings.page().tiles())))));
+        try {
+            server.start();
+        } catch (Exception e) { // Jetty declares no narrower type
+            throw new IOException(
+                    "The dashboard cannot listen on %s:%d (%s). Choose another port."
+                            .formatted(settings.host(), settings.port(), e.getMessage()),
+                    e);
+        }
+    }
+
+    /** What every answer says to browsers. */
+    private static Handler secure(Handler handler, String contentPolicy) {
+        return new Handler.Wrapper(handler) {
+            @Override
+            public boolean handle(Request request, Response response, Callback callback) throws Exception {
+                response.getHeaders().put("X-Content-Type-Options", "nosniff");
+                response.getHeaders().put("Referrer-Policy", "no-referrer");
+                response.getHeaders().put("Content-Security-Policy", contentPolicy);
+                return super.handle(request, response, callback);
+            }
+        };
+    }
+
+    /** Where pictures of tiles come from, for the content policy. */
+    private static String originOf(String tiles) {
+        if (tiles == null) {
+            return "";
+        }
+        URI base = URI.create(tiles.replaceAll("[{].*", ""));
+        return " %s://%s".formatted(base.getScheme(), base.getRawAuthority());
+    }
+
+    private Handler own(DashboardSettings settings) {
+        ServletContextHandler context = new ServletContextHandler("/");
+        context.addServlet(new ServletHolder(new RegisterServlet(streams)), "/api/register/*");
+        context.addServlet(new ServletHolder(new TopicsServlet(streams)), "/api/topics");
+        context.addServlet(
+                new ServletHolder(
+                        new ImageServlet(users, images, settings.page().images(), streams.counters()::refused)),
+                "/api/images/*");
+        context.addServlet(new ServletHolder(new ConfigServlet(settings.page())), "/config.json");
+        context.addServlet(new ServletHolder(new HistoryServlet(streams, settings.client())), "/api/history/*");
+        context.addServlet(new ServletHolder(new DensityServlet(streams, admin)), "/api/density/*");
+        context.addServlet(
+                new ServletHolder(new PlatformServlet(streams, admin, settings.controlPlane())), "/api/platform");
+        ServletHolder events = new ServletHolder(new StreamServlet(streams));
+        events.setAsyncSupported(true);
+        context.addServlet(events, "/api/stream/*");
+        JettyWebSocketServletContainerInitializer.configure(context, (servlets, container) -> {
+            container.setMaxTextMessageSize(settings.limits().messageBytes());
+            container.setIdleTimeout(IDLE);
+            container.addMapping(SOCKETS + "*", this::open);
+        });
+        return context;
+    }
+
+    private Object open(JettyServerUpgradeRequest request, JettyServerUpgradeResponse response) throws IOException {
+        try {
+            String ticket = request.getRequestPath().substring(SOCKETS.length());
+            return streams.open(ticket);
+        } catch (Problem problem) {
+            streams.counters().refused(problem);
+            response.sendError(problem.status(), problem.getMessage());
+            return null;
+        }
+    }
+
+    /** The page's own origin means nothing to the control plane, which is asked by this process. */
+    private static Handler controlPlane(URI base) {
+        ProxyHandler.Reverse proxy =
+                new ProxyHandler.Reverse(
+                        request -> HttpURI.build(base.toString().replaceAll("/+$", "")
+                                        + request.getHttpURI().getPathQuery())
+                                .asImmutable()) {
+                    @Override
+                    protected void addProxyHeaders(
+                            Request clientRequest, org.eclipse.jetty.client.Request proxyRequest) {
+                        proxyRequest.headers(headers -> {
+                            headers.remove(HttpHeader.ORIGIN);
+                            headers.remove(HttpHeader.COOKIE);
+                            headers.remove("Sec-Fetch-Site");
+                            headers.remove("Sec-Fetch-Mode");
+                            headers.remove("Sec-Fetch-Dest");
+                        });
+                    }
+
+                    @Override
+                    protected void onServerToProxyResponseFailure(
+                            Request clientRequest,
+                            org.eclipse.jetty.client.Request proxyRequest,
+                            org.eclipse.jetty.client.Response serverResponse,
+                            Response proxyResponse,
+                            Callback callback,
+                            Throwable failure) {
+                        away(base, proxyResponse, callback, failure);
+                    }
+
+                    @Override
+                    protected HttpClient newHttpClient() {
+                        HttpClient client = super.newHttpClient();
+                        client.setIdleTimeout(IDLE.toMillis());
+                        return client;
+                    }
+                };
+        proxy.setProxyToServerHost(base.getAuthority());
+        return proxy;
+    }
+
+    private static void away(URI base, Response response, Callback callback, Throwable failure) {
+        if (response.isCommitted()) {
+            callback.failed(failure);
+            return;
+        }
+        HttpFields.Mutable headers = response.getHeaders();
+        headers.clear();
+        headers.put(HttpHeader.CONTENT_TYPE, "application/json");
+        response.setStatus(502);
+        byte[] json = Problem.json(
+                "control-plane-away",
+                "the control plane at %s does not answer (%s); check --control-plane and that it runs"
+                        .formatted(base, failure.getMessage()));
+        response.write(true, java.nio.ByteBuffer.wrap(json), callback);
+    }
+
+    /** Where it listens. */
+    public URI uri() {
+        ServerConnector connector = (ServerConnector) server.getConnectors()[0];
+        return URI.create("http://%s:%d".formatted(connector.getHost(), connector.getLocalPort()));
+    }
+
+    /** The streams that are open. */
+    public TopicStreams streams() {
+        return streams;
+    }
+
+    @Override
+    public void close() {
+        surroundings.close();
+        streams.close();
+        images.close();
+        admin.close(Duration.ofSeconds(1));
+        try {
+            server.stop();
+        } catch (Exception e) { // Jetty declares no narrower type
+            LOG.warn("the dashboard did not stop in order", e);
+        }
+    }
+}

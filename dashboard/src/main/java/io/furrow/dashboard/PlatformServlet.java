@@ -1,0 +1,205 @@
+package io.furrow.dashboard;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.servlet.http.HttpServlet;
+import jakarta.servlet.http.HttpServletRequest;
+import jakarta.servlet.http.HttpServletResponse;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.GroupListing;
+import org.apache.kafka.clients.admin.ListConsumerGroupOffsetsSpec;
+import org.apache.kafka.clients.admin.OffsetSpec;
+import org.apache.kafka.clients.admin.TopicDescription;
+import org.apache.kafka.clients.consumer.OffsetAndMetadata;
+import org.apache.kafka.common.TopicPartition;
+
+import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.proxy.TopicStreams;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * {@code GET /api/platform}: how the platform is. How far each consumer group is behind the ends of its topics, by the offsets that it
+ * committed; how many records each topic of dead letters has; and what the control plane says of its parts. Found out once in two seconds at
+ * most, however many ask.
+ */
+final class PlatformServlet extends HttpServlet {
+    private static final long serialVersionUID = 1L;
+    private static final Duration FRESH = Duration.ofSeconds(2);
+    private static final Duration TIMEOUT = Duration.ofSeconds(5);
+    private static final String DEAD = ".dead";
+
+    private final transient TopicStreams streams;
+    private final transient Admin admin;
+    private final transient URI readiness;
+    private final transient HttpClient http =
+            HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
+    private transient byte[] answer;
+    private transient long answered;
+
+    /** @param controlPlane base of its REST API */
+    PlatformServlet(TopicStreams streams, Admin admin, URI controlPlane) {
+        this.streams = streams;
+        this.admin = admin;
+        this.readiness = URI.create(controlPlane.toString().replaceAll("/+$", "") + "/ready");
+    }
+
+    @Override
+    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
+        try {
+            streams.users().find(Credentials.of(request));
+            byte[] json = current();
+            response.setContentType("application/json");
+            response.setHeader("Cache-Control", "no-store");
+            response.getOutputStream().write(json);
+        } catch (Problem problem) {
+            streams.counters().refused(problem);
+            problem.answer(response);
+        }
+    }
+
+    private synchronized byte[] current() {
+        if (answer == null || System.nanoTime() - answered > FRESH.toNanos()) {
+            ObjectNode platform = JsonNodeFactory.instance.objectNode();
+            platform.put("time", System.currentTimeMillis());
+            addKafka(platform);
+            platform.set("controlPlane", controlPlane());
+            answer = NgsiJson.write(platform);
+            answered = System.nanoTime();
+        }
+        return answer;
+    }
+
+    /** What Kafka says; where it does not, that, so that the rest is shown all the same, and nobody else waits for it. */
+    private void addKafka(ObjectNode platform) {
+        ArrayNode letters = platform.putArray("deadLetters");
+        ArrayNode groups = platform.putArray("groups");
+        ObjectNode kafka = platform.putObject("kafka");
+        if (streams.isKafkaAway()) { // whoever asks need not wait to hear it again
+            kafka.put("state", "away").put("reason", reason(new TimeoutException()));
+            return;
+        }
+        try {
+            Map<TopicPartition, Long> ends = ends();
+            kafka.put("state", "up");
+            kafka.put(
+                    "topics",
+                    ends.keySet().stream().map(TopicPartition::topic).distinct().count());
+            addDeadLetters(letters, ends);
+            addGroups(groups, ends);
+        } catch (ExecutionException | TimeoutException e) {
+            Throwable cause = e instanceof ExecutionException ? e.getCause() : e;
+            kafka.put("state", "away").put("reason", reason(cause));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+    }
+
+    private static String reason(Throwable cause) {
+        return cause instanceof TimeoutException || cause instanceof org.apache.kafka.common.errors.TimeoutException
+                ? "Kafka did not answer within %d s; check --kafka and that it runs".formatted(TIMEOUT.toSeconds())
+                : "Kafka does not say how it is: " + cause.getMessage();
+    }
+
+    private Map<TopicPartition, Long> ends() throws InterruptedException, ExecutionException, TimeoutException {
+        Set<String> names = admin.listTopics().names().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+        Set<TopicPartition> partitions = new HashSet<>();
+        for (TopicDescription topic : admin.describeTopics(names)
+                .allTopicNames()
+                .get(TIMEOUT.toSeconds(), TimeUnit.SECONDS)
+                .values()) {
+            topic.partitions().forEach(each -> partitions.add(new TopicPartition(topic.name(), each.partition())));
+        }
+        return offsets(partitions, OffsetSpec.latest());
+    }
+
+    private Map<TopicPartition, Long> offsets(Set<TopicPartition> partitions, OffsetSpec of)
+            throws InterruptedException, ExecutionException, TimeoutException {
+        Map<TopicPartition, OffsetSpec> wanted = new HashMap<>();
+        partitions.forEach(each -> wanted.put(each, of));
+        Map<TopicPartition, Long> offsets = new HashMap<>();
+        admin.listOffsets(wanted)
+                .all()
+                .get(TIMEOUT.toSeconds(), TimeUnit.SECONDS)
+                .forEach((partition, found) -> offsets.put(partition, found.offset()));
+        return offsets;
+    }
+
+    /** Those that are still there: retention takes the old ones. */
+    private void addDeadLetters(ArrayNode to, Map<TopicPartition, Long> ends)
+            throws InterruptedException, ExecutionException, TimeoutException {
+        Set<TopicPartition> dead = new HashSet<>(ends.keySet());
+        dead.removeIf(each -> !each.topic().endsWith(DEAD));
+        Map<TopicPartition, Long> begins = offsets(dead, OffsetSpec.earliest());
+        Map<String, Long> letters = new TreeMap<>();
+        dead.forEach(each -> letters.merge(each.topic(), ends.get(each) - begins.get(each), Long::sum));
+        letters.forEach((topic, count) -> to.addObject().put("topic", topic).put("records", count));
+    }
+
+    private void addGroups(ArrayNode to, Map<TopicPartition, Long> ends)
+            throws InterruptedException, ExecutionException, TimeoutException {
+        List<String> groups = new ArrayList<>();
+        for (GroupListing group : admin.listGroups().all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS)) {
+            groups.add(group.groupId());
+        }
+        groups.sort(null);
+        Map<String, ListConsumerGroupOffsetsSpec> wanted = new HashMap<>();
+        groups.forEach(group -> wanted.put(group, new ListConsumerGroupOffsetsSpec()));
+        Map<String, Map<TopicPartition, OffsetAndMetadata>> committed = wanted.isEmpty()
+                ? Map.of()
+                : admin.listConsumerGroupOffsets(wanted).all().get(TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+        for (String group : groups) {
+            Map<String, Long> lags = new TreeMap<>();
+            committed.getOrDefault(group, Map.of()).forEach((partition, offset) -> {
+                Long end = ends.get(partition);
+                if (offset != null && end != null) {
+                    lags.merge(partition.topic(), Math.max(0, end - offset.offset()), Long::sum);
+                }
+            });
+            if (!lags.isEmpty()) {
+                ObjectNode one = to.addObject().put("group", group);
+                one.put("lag", lags.values().stream().mapToLong(Long::longValue).sum());
+                ObjectNode topics = one.putObject("topics");
+                lags.forEach(topics::put);
+            }
+        }
+    }
+
+    /** As its page says; where it says nothing, why. */
+    private JsonNode controlPlane() {
+        try {
+            HttpResponse<byte[]> page = http.send(
+                    HttpRequest.newBuilder(readiness).timeout(TIMEOUT).build(),
+                    HttpResponse.BodyHandlers.ofByteArray());
+            return NgsiJson.read(page.body());
+        } catch (IOException | UnreadableException e) {
+            return JsonNodeFactory.instance
+                    .objectNode()
+                    .put("status", "away")
+                    .put("reason", "%s does not answer (%s)".formatted(readiness, e.getMessage()));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+    }
+}

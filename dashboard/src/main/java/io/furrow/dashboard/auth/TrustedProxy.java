@@ -1,0 +1,83 @@
+package io.furrow.dashboard.auth;
+
+import java.net.InetAddress;
+import java.util.Arrays;
+import java.util.List;
+import java.util.Map;
+import java.util.Objects;
+import java.util.regex.Pattern;
+import java.util.stream.Stream;
+
+import io.furrow.dashboard.Problem;
+
+/**
+ * A proxy in front of the dashboard that signs users in, with OpenID Connect for instance, and names them in headers. The headers of
+ * nobody else are believed. What the dashboard then asks of the control plane it asks with its own token, for the user.
+ *
+ * @param addresses from which the proxy connects
+ * @param userHeader with the name of the user
+ * @param groupsHeader with the user's groups, separated by {@code ,} or {@code |}
+ * @param roles that groups have; of several groups the highest counts
+ * @param token of the dashboard, which the control plane's file of tokens has with {@code for-users}
+ */
+public record TrustedProxy(
+        List<AddressRange> addresses, String userHeader, String groupsHeader, Map<String, Role> roles, String token) {
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_.@-]{1,64}");
+
+    public TrustedProxy {
+        addresses = List.copyOf(addresses);
+        roles = Map.copyOf(roles);
+        Objects.requireNonNull(userHeader);
+        Objects.requireNonNull(groupsHeader);
+        Objects.requireNonNull(token);
+    }
+
+    boolean isAt(InetAddress address) {
+        return address != null && addresses.stream().anyMatch(each -> each.contains(address));
+    }
+
+    /**
+     * The user that the proxy names.
+     *
+     * @param names values of the header of the user
+     * @param groups values of the header of the groups
+     * @throws Problem 403 for a user who is not named once and in one way, or has no role
+     */
+    User user(List<String> names, List<String> groups) {
+        if (names.size() != 1) {
+            throw new Problem(
+                    403,
+                    "wrong-user",
+                    "the proxy sends %s %d times; once is right".formatted(userHeader, names.size()));
+        }
+        String name = names.get(0).strip();
+        if (!NAME.matcher(name).matches()) {
+            throw new Problem(
+                    403,
+                    "wrong-user",
+                    "%s has no name of 1 to 64 of A-Z a-z 0-9 _ . @ -; another header may, --user-header names it"
+                            .formatted(userHeader));
+        }
+        Role role = groups.stream()
+                .flatMap(value -> Arrays.stream(value.split("[,|]")))
+                .map(String::strip)
+                .flatMap(group -> Stream.ofNullable(roles.get(group)))
+                .max(Role::compareTo)
+                .orElseThrow(() -> new Problem(
+                        403,
+                        "no-role",
+                        "'%s' is in no group that has a role here; --group-roles says which have (%s)"
+                                .formatted(
+                                        name,
+                                        String.join(
+                                                ", ",
+                                                roles.keySet().stream().sorted().toList()))));
+        return new User(name, role);
+    }
+
+    /** The token is left out. */
+    @Override
+    public String toString() {
+        return "proxy at " + addresses;
+    }
+}

@@ -1,0 +1,111 @@
+package io.furrow.dashboard.feed;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.util.HashSet;
+import java.util.Set;
+
+import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.common.header.Header;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/** A record on its way to the streams of a topic; what is made of it is made once for all of them. */
+public final class FeedRecord {
+    /** Of a record of the known state. */
+    public static final long NO_SEQUENCE = -1;
+
+    private static final int ENVELOPE = 200;
+
+    private final ConsumerRecord<byte[], byte[]> record;
+    private final long sequence;
+    private final int longest;
+    private String text;
+    private String envelope;
+
+    /**
+     * @param sequence among those of its topic, {@link #NO_SEQUENCE} for the known state
+     * @param longest value, bytes, that an envelope holds
+     */
+    public FeedRecord(ConsumerRecord<byte[], byte[]> record, long sequence, int longest) {
+        this.record = record;
+        this.sequence = sequence;
+        this.longest = longest;
+    }
+
+    /** By which newer ones take the place of older ones; of a record without a key its own place. */
+    public String key() {
+        return record.key() == null
+                ? record.partition() + "/" + record.offset()
+                : new String(record.key(), StandardCharsets.UTF_8);
+    }
+
+    /** About what it takes in memory until it is sent. */
+    public int bytes() {
+        return ENVELOPE + (record.value() == null ? 0 : record.value().length);
+    }
+
+    /** The value as it is; {@code null} for a deletion. */
+    public synchronized String text() {
+        if (text == null) {
+            text = record.value() == null ? "null" : new String(record.value(), StandardCharsets.UTF_8);
+        }
+        return text;
+    }
+
+    /** The JSON object that says all of it. */
+    public synchronized String envelope() {
+        if (envelope == null) {
+            envelope = made();
+        }
+        return envelope;
+    }
+
+    private String made() {
+        ObjectNode json = JsonNodeFactory.instance
+                .objectNode()
+                .put("topic", record.topic())
+                .put("partition", record.partition())
+                .put("offset", record.offset())
+                .put("kind", sequence == NO_SEQUENCE ? "prime" : "event")
+                .put("key", record.key() == null ? null : key())
+                .put("time", record.timestamp());
+        if (sequence != NO_SEQUENCE) {
+            json.put("sequence", sequence);
+        }
+        ObjectNode headers = json.putObject("headers");
+        Set<String> seen = new HashSet<>();
+        for (Header header : record.headers()) {
+            if (header.value() != null && seen.add(header.key())) {
+                headers.put(header.key(), new String(header.value(), StandardCharsets.UTF_8));
+            }
+        }
+        byte[] value = record.value();
+        if (value == null) {
+            json.putNull("value");
+        } else if (value.length > longest) {
+            json.putNull("value").put("cut", value.length);
+        } else if (!isJson(value)) {
+            json.put("value", text());
+        } else {
+            String head = new String(NgsiJson.write(json), StandardCharsets.UTF_8);
+            return head.substring(0, head.length() - 1) + ",\"value\":" + text() + "}";
+        }
+        return new String(NgsiJson.write(json), StandardCharsets.UTF_8);
+    }
+
+    private static boolean isJson(byte[] value) {
+        try (JsonParser parser = NgsiJson.mapper().createParser(value)) {
+            if (parser.nextToken() == null) {
+                return false;
+            }
+            parser.skipChildren();
+            return parser.nextToken() == null;
+        } catch (IOException e) {
+            return false;
+        }
+    }
+}

@@ -1,0 +1,162 @@
+package io.furrow.dashboard.feed;
+
+import java.time.Duration;
+import java.util.Collection;
+import java.util.List;
+import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.CopyOnWriteArraySet;
+import java.util.concurrent.CountDownLatch;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.WakeupException;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.dashboard.proxy.StreamCounters;
+
+/** The one consumer of a topic, from its end on, for all streams of it; on a thread of its own. */
+public final class TopicFeed implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicFeed.class);
+    private static final Duration POLL = Duration.ofMillis(500);
+    private static final Duration CLOSE = Duration.ofSeconds(2);
+    private static final long NEW_PARTITIONS_MILLIS = 10_000;
+
+    private final String topic;
+    private final ProxyLimits limits;
+    private final StreamCounters counters;
+    private final KafkaConsumer<byte[], byte[]> consumer;
+    private final Set<Stream> streams = new CopyOnWriteArraySet<>();
+    private final CountDownLatch atEnd = new CountDownLatch(1);
+    private final Thread thread;
+    private volatile boolean closed;
+    private volatile String failure;
+    private long sequence;
+
+    /** Whoever is notified of the records of a topic. */
+    public interface Stream {
+        void offer(FeedRecord record);
+
+        /** After the records of a poll. */
+        void flush();
+
+        /** There will be no further record. */
+        void end(String reason);
+
+        boolean isClosed();
+    }
+
+    TopicFeed(String topic, Properties client, ProxyLimits limits, StreamCounters counters) {
+        this.topic = topic;
+        this.counters = counters;
+        this.limits = limits;
+        this.consumer = new KafkaConsumer<>(settings(client), new ByteArrayDeserializer(), new ByteArrayDeserializer());
+        this.thread = new Thread(this::run, "feed-" + topic);
+        thread.setDaemon(true);
+        thread.start();
+    }
+
+    static Properties settings(Properties client) {
+        Properties settings = new Properties();
+        client.stringPropertyNames().forEach(name -> settings.setProperty(name, client.getProperty(name)));
+        settings.setProperty("isolation.level", "read_committed");
+        settings.setProperty("enable.auto.commit", "false");
+        settings.setProperty("auto.offset.reset", "earliest"); // what was deleted before it was read
+        settings.setProperty("allow.auto.create.topics", "false");
+        settings.setProperty("fetch.max.wait.ms", "250");
+        return settings;
+    }
+
+    void add(Stream stream) {
+        streams.add(stream);
+        if (failure != null) {
+            stream.end(failure);
+        }
+    }
+
+    /** @return whether none is left */
+    boolean remove(Stream stream) {
+        streams.remove(stream);
+        return streams.isEmpty();
+    }
+
+    /** Returns when every record that is written from now on will be seen. */
+    void awaitBegun() throws InterruptedException {
+        atEnd.await();
+    }
+
+    private void run() {
+        try (consumer) {
+            assign(true);
+            atEnd.countDown();
+            long looked = System.nanoTime();
+            while (!closed) {
+                tell(consumer.poll(POLL));
+                if (System.nanoTime() - looked
+                        > Duration.ofMillis(NEW_PARTITIONS_MILLIS).toNanos()) {
+                    looked = System.nanoTime();
+                    assign(false);
+                }
+            }
+        } catch (WakeupException e) {
+            LOG.debug("the feed of {} is closed", topic, e);
+        } catch (KafkaException e) {
+            LOG.warn("topic {} cannot be read any more", topic, e);
+            failure = "topic '%s' cannot be read (%s)".formatted(topic, e.getMessage());
+            streams.forEach(stream -> stream.end(failure));
+        } finally {
+            atEnd.countDown();
+        }
+    }
+
+    /** @param atTheirEnd else partitions that came later are read from their beginning */
+    private void assign(boolean atTheirEnd) {
+        List<TopicPartition> all = consumer.partitionsFor(topic).stream()
+                .map(each -> new TopicPartition(each.topic(), each.partition()))
+                .toList();
+        Collection<TopicPartition> before = Set.copyOf(consumer.assignment());
+        if (before.size() == all.size()) {
+            return;
+        }
+        consumer.assign(all);
+        List<TopicPartition> further =
+                all.stream().filter(each -> !before.contains(each)).toList();
+        if (atTheirEnd) {
+            consumer.seekToEnd(further);
+        } else {
+            consumer.seekToBeginning(further);
+        }
+        further.forEach(consumer::position); // a position is looked up only when it is asked for
+    }
+
+    private void tell(ConsumerRecords<byte[], byte[]> records) {
+        if (records.isEmpty()) {
+            return;
+        }
+        for (ConsumerRecord<byte[], byte[]> record : records) {
+            counters.read();
+            FeedRecord next = new FeedRecord(record, sequence++, limits.valueBytes());
+            streams.forEach(stream -> stream.offer(next));
+        }
+        streams.forEach(Stream::flush);
+    }
+
+    @Override
+    public void close() {
+        closed = true;
+        consumer.wakeup();
+        if (Thread.currentThread() != thread) {
+            try {
+                thread.join(CLOSE.toMillis());
+            } catch (InterruptedException e) {
+                Thread.currentThread().interrupt();
+            }
+        }
+    }
+}

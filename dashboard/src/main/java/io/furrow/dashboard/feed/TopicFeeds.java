@@ -1,0 +1,166 @@
+package io.furrow.dashboard.feed;
+
+import java.time.Duration;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Set;
+import java.util.TreeSet;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.DescribeClusterOptions;
+import org.apache.kafka.clients.admin.OffsetSpec;
+import org.apache.kafka.common.TopicPartition;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.dashboard.proxy.StreamCounters;
+
+/** The feeds of the topics that have streams; a topic without one is not read. */
+public final class TopicFeeds implements AutoCloseable {
+    /** Without an answer for this long, Kafka is unavailable. */
+    static final Duration AWAY_AFTER = Duration.ofSeconds(6);
+
+    private static final long TIMEOUT_SECONDS = 5;
+
+    private static final long COUNTED_FOR_NANOS = TimeUnit.SECONDS.toNanos(1);
+
+    private final Properties client;
+    private final ProxyLimits limits;
+    private final StreamCounters counters;
+    private final Admin admin;
+    private final Map<String, TopicFeed> feeds = new HashMap<>();
+    private Map<String, Long> counts = Map.of();
+    private long counted = System.nanoTime() - COUNTED_FOR_NANOS;
+    private volatile long lastAnswer = System.nanoTime();
+    private boolean closed;
+
+    public TopicFeeds(Properties client, ProxyLimits limits, StreamCounters counters) {
+        this.client = client;
+        this.limits = limits;
+        this.counters = counters;
+        this.admin = Admin.create(client);
+    }
+
+    /** @throws Problem 503 where Kafka does not answer */
+    public Set<String> topics() {
+        if (isKafkaAway()) {
+            throw away();
+        }
+        try {
+            Set<String> names = new TreeSet<>(admin.listTopics().names().get(TIMEOUT_SECONDS, TimeUnit.SECONDS));
+            lastAnswer = System.nanoTime();
+            return names;
+        } catch (ExecutionException | TimeoutException e) {
+            throw away();
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+    }
+
+    /**
+     * How many records were written to topics ever, by the ends of their partitions. Asked of Kafka once a second at most, however many ask
+     * for it.
+     *
+     * @throws Problem 503 where Kafka does not answer
+     */
+    public synchronized Map<String, Long> written(Collection<String> names) {
+        if (System.nanoTime() - counted < COUNTED_FOR_NANOS && counts.keySet().containsAll(names)) {
+            return counts;
+        }
+        try {
+            Map<TopicPartition, OffsetSpec> ends = new HashMap<>();
+            admin.describeTopics(names).allTopicNames().get(TIMEOUT_SECONDS, TimeUnit.SECONDS).values().stream()
+                    .flatMap(topic ->
+                            topic.partitions().stream().map(each -> new TopicPartition(topic.name(), each.partition())))
+                    .forEach(partition -> ends.put(partition, OffsetSpec.latest()));
+            Map<String, Long> sums = new HashMap<>();
+            admin.listOffsets(ends)
+                    .all()
+                    .get(TIMEOUT_SECONDS, TimeUnit.SECONDS)
+                    .forEach((partition, end) -> sums.merge(partition.topic(), end.offset(), Long::sum));
+            counts = sums;
+            counted = System.nanoTime();
+            return counts;
+        } catch (ExecutionException | TimeoutException e) {
+            throw new Problem(
+                    503, "kafka-away", "Kafka does not say how long its topics are; check --kafka and that it runs");
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+    }
+
+    /** Fails where Kafka does not answer in time. */
+    public void checkKafka(Duration timeout) throws ExecutionException, TimeoutException, InterruptedException {
+        admin.describeCluster(new DescribeClusterOptions().timeoutMs((int) timeout.toMillis()))
+                .nodes()
+                .get(timeout.toMillis(), TimeUnit.MILLISECONDS);
+        lastAnswer = System.nanoTime();
+    }
+
+    /** By the answers to {@link #checkKafka}, so that nobody has to wait to find it out. */
+    public boolean isKafkaAway() {
+        return System.nanoTime() - lastAnswer > AWAY_AFTER.toNanos();
+    }
+
+    private static Problem away() {
+        return new Problem(
+                503, "kafka-away", "Kafka does not say which topics there are; check --kafka and that it runs");
+    }
+
+    /** @throws Problem 404 for a topic that is not there */
+    public void check(String topic) {
+        if (!topics().contains(topic)) {
+            throw new Problem(404, "unknown-topic", "there is no topic '%s'".formatted(topic));
+        }
+    }
+
+    /** Returns when each record that is written from now on goes to the stream. */
+    public void add(String topic, TopicFeed.Stream stream) throws InterruptedException {
+        TopicFeed feed;
+        synchronized (feeds) {
+            if (closed) {
+                throw new Problem(503, "stopping", "the dashboard stops");
+            }
+            feed = feeds.computeIfAbsent(topic, name -> new TopicFeed(name, client, limits, counters));
+            feed.add(stream);
+        }
+        feed.awaitBegun();
+    }
+
+    public void remove(String topic, TopicFeed.Stream stream) {
+        TopicFeed unused = null;
+        synchronized (feeds) {
+            TopicFeed feed = feeds.get(topic);
+            if (feed != null && feed.remove(stream)) {
+                unused = feeds.remove(topic);
+            }
+        }
+        if (unused != null) {
+            unused.close();
+        }
+    }
+
+    /** How many topics are read. */
+    public int size() {
+        synchronized (feeds) {
+            return feeds.size();
+        }
+    }
+
+    @Override
+    public void close() {
+        synchronized (feeds) {
+            closed = true;
+            feeds.values().forEach(TopicFeed::close);
+            feeds.clear();
+        }
+        admin.close(Duration.ofSeconds(1));
+    }
+}

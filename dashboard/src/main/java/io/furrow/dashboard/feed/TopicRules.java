@@ -1,0 +1,56 @@
+package io.furrow.dashboard.feed;
+
+import java.util.List;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+
+import io.furrow.model.topic.Topics;
+
+/**
+ * Which topics may be read and written.
+ *
+ * @param readable names, in which {@code *} stands for any signs
+ * @param writable likewise
+ */
+public record TopicRules(List<String> readable, List<String> writable) {
+    private static final Pattern LEGAL = Pattern.compile("[A-Za-z0-9._*-]{1,249}");
+
+    /** All that devices report and jobs find, and what is requested and is so; requests to the managers. Not what letters hold. */
+    public static final TopicRules DEFAULT = new TopicRules(
+            List.of("data.*", "service.*"),
+            List.of(Topics.DOMAIN_MANAGER, Topics.MISSION_MANAGER, Topics.REPLAY_MANAGER, Topics.ALARM_MANAGER));
+
+    /** @throws IllegalArgumentException for a pattern that is no name of topics */
+    public TopicRules {
+        readable = checked(readable);
+        writable = checked(writable);
+    }
+
+    private static List<String> checked(List<String> patterns) {
+        for (String pattern : patterns) {
+            if (!LEGAL.matcher(pattern).matches()) {
+                throw new IllegalArgumentException(
+                        "'%s' names no topics; letters, digits, '.', '_', '-' and '*' do".formatted(pattern));
+            }
+        }
+        return List.copyOf(patterns);
+    }
+
+    public boolean mayRead(String topic) {
+        return matches(readable, topic) && Topics.ofDeadLetters(topic).isEmpty();
+    }
+
+    public boolean mayWrite(String topic) {
+        return matches(writable, topic);
+    }
+
+    private static boolean matches(List<String> patterns, String topic) {
+        return patterns.stream().anyMatch(pattern -> matches(pattern, topic));
+    }
+
+    private static boolean matches(String pattern, String topic) {
+        String expression =
+                List.of(pattern.split("\\*", -1)).stream().map(Pattern::quote).collect(Collectors.joining(".*"));
+        return Pattern.matches(expression, topic);
+    }
+}

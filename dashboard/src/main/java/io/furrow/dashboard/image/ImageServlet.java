@@ -1,0 +1,130 @@
+package io.furrow.dashboard.image;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.security.MessageDigest;
+import java.security.NoSuchAlgorithmException;
+import java.time.Duration;
+import java.util.HexFormat;
+import java.util.List;
+import java.util.function.Consumer;
+
+import jakarta.servlet.http.HttpServlet;
+import jakarta.servlet.http.HttpServletRequest;
+import jakarta.servlet.http.HttpServletResponse;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.auth.Users;
+
+/**
+ * {@code GET /api/images/<sha256>}: a stored image that {@code data.images} names. Only files below the folders that the dashboard was given
+ * are read, whatever a record says, and only what has that SHA-256 is sent.
+ */
+public final class ImageServlet extends HttpServlet {
+    private static final long serialVersionUID = 1L;
+    private static final Duration TIMEOUT = Duration.ofSeconds(10);
+    private static final long LARGEST = 32L << 20;
+
+    private final transient Users users;
+    private final transient ImageIndex index;
+    private final transient List<Path> folders;
+    private final transient Consumer<Problem> refused;
+
+    /**
+     * @param folders of stored images; none for no images
+     * @param refused is notified of each request that is refused
+     */
+    public ImageServlet(Users users, ImageIndex index, List<Path> folders, Consumer<Problem> refused) {
+        this.users = users;
+        this.index = index;
+        this.folders = folders;
+        this.refused = refused;
+    }
+
+    @Override
+    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
+        try {
+            users.find(Credentials.of(request));
+            String path = request.getPathInfo() == null ? "" : request.getPathInfo();
+            StoredImage image = find(path.substring(Math.min(1, path.length())));
+            String tag = '"' + image.sha256() + '"';
+            response.setHeader("ETag", tag);
+            response.setHeader("Cache-Control", "private, max-age=31536000, immutable");
+            if (tag.equals(request.getHeader("If-None-Match"))) {
+                response.setStatus(HttpServletResponse.SC_NOT_MODIFIED);
+                return;
+            }
+            byte[] bytes = read(image);
+            response.setContentType(image.contentType());
+            response.setContentLength(bytes.length);
+            response.setHeader("Content-Disposition", "inline");
+            response.getOutputStream().write(bytes);
+        } catch (Problem problem) {
+            refused.accept(problem);
+            response.setHeader("Cache-Control", "no-store");
+            problem.answer(response);
+        }
+    }
+
+    private StoredImage find(String sha256) {
+        try {
+            return index.find(sha256, TIMEOUT)
+                    .orElseThrow(
+                            () -> new Problem(404, "unknown-image", "data.images names no image with this SHA-256"));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard is stopping");
+        }
+    }
+
+    private byte[] read(StoredImage image) throws IOException {
+        Path file = locate(image.location());
+        if (Files.size(file) > LARGEST) {
+            throw new Problem(
+                    413,
+                    "image-too-large",
+                    "the image has %d bytes; up to %d are served".formatted(Files.size(file), LARGEST));
+        }
+        byte[] bytes = Files.readAllBytes(file);
+        if (!HexFormat.of().formatHex(sha256().digest(bytes)).equals(image.sha256())) {
+            throw new Problem(502, "image-changed", "what is stored there has another SHA-256 by now");
+        }
+        return bytes;
+    }
+
+    /** @throws Problem where it is no file below one of the folders */
+    private Path locate(URI location) throws IOException {
+        if (!"file".equals(location.getScheme())) {
+            throw new Problem(
+                    501,
+                    "image-store-not-served",
+                    "images at %s are not served by the dashboard: mount the store as a folder, and name it with --images"
+                            .formatted(location.getScheme()));
+        }
+        try {
+            Path file = Path.of(location);
+            for (Path folder : folders) {
+                if (Files.isRegularFile(file) && file.toRealPath().startsWith(folder.toRealPath())) {
+                    return file.toRealPath();
+                }
+            }
+        } catch (IllegalArgumentException e) { // InvalidPathException among them
+            throw new Problem(404, "unknown-image", "the place of the image is no path: " + e.getMessage());
+        }
+        throw new Problem(
+                404,
+                "unknown-image",
+                "the image is no file below the folders that --images names, or is deleted by now");
+    }
+
+    private static MessageDigest sha256() {
+        try {
+            return MessageDigest.getInstance("SHA-256");
+        } catch (NoSuchAlgorithmException e) {
+            throw new IllegalStateException("every Java has SHA-256", e);
+        }
+    }
+}

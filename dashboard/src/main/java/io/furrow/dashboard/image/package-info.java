@@ -1,0 +1,2 @@
+/** Stored images of cameras. */
+package io.furrow.dashboard.image;

@@ -1,0 +1,73 @@
+package io.furrow.dashboard.proxy;
+
+import java.io.IOException;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeoutException;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.servlet.http.HttpServlet;
+import jakarta.servlet.http.HttpServletRequest;
+import jakarta.servlet.http.HttpServletResponse;
+import org.apache.kafka.clients.admin.Admin;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.feed.TopicDensity;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** {@code GET /api/density/<topic>?from&to&width}: how many records a topic has, bucket by bucket, epoch ms. */
+public final class DensityServlet extends HttpServlet {
+    private static final long serialVersionUID = 1L;
+    private static final long DAY = 86_400_000;
+
+    private final transient TopicStreams streams;
+    private final transient TopicDensity density;
+
+    public DensityServlet(TopicStreams streams, Admin admin) {
+        this.streams = streams;
+        this.density = new TopicDensity(admin);
+    }
+
+    @Override
+    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
+        try {
+            streams.users().find(Credentials.of(request));
+            String topic = StreamRequest.topic(request, streams.rules());
+            long width = StreamRequest.number(request, "width", 100, DAY, null);
+            long from =
+                    Math.floorDiv(StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 4, null), width) * width;
+            long to = StreamRequest.number(request, "to", from, from + TopicDensity.MAX_BUCKETS * width, null);
+            streams.feeds().check(topic);
+            write(topic, from, width, Math.toIntExact(-Math.floorDiv(from - to, width)), response);
+        } catch (Problem problem) {
+            streams.counters().refused(problem);
+            problem.answer(response);
+        }
+    }
+
+    private void write(String topic, long from, long width, int buckets, HttpServletResponse response)
+            throws IOException {
+        ObjectNode answer =
+                JsonNodeFactory.instance.objectNode().put("from", from).put("width", width);
+        ArrayNode counts = answer.putArray("counts");
+        try {
+            density.count(topic, from, width, buckets).forEach(counts::add);
+        } catch (ExecutionException | TimeoutException e) {
+            Throwable cause = e instanceof ExecutionException ? e.getCause() : e;
+            throw new Problem(
+                    503,
+                    "kafka-away",
+                    "the times of topic '%s' cannot be read (%s); check --kafka and that it runs"
+                            .formatted(
+                                    topic, cause.getMessage() == null ? "no answer within 15 s" : cause.getMessage()));
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+        response.setContentType("application/json");
+        response.setHeader("Cache-Control", "no-store");
+        response.getOutputStream().write(NgsiJson.write(answer));
+    }
+}

@@ -1,0 +1,106 @@
+package io.furrow.dashboard.proxy;
+
+import java.io.IOException;
+import java.io.Writer;
+import java.util.Properties;
+import java.util.concurrent.Semaphore;
+import java.util.concurrent.TimeUnit;
+import java.util.regex.Pattern;
+
+import jakarta.servlet.http.HttpServlet;
+import jakarta.servlet.http.HttpServletRequest;
+import jakarta.servlet.http.HttpServletResponse;
+import org.apache.kafka.common.KafkaException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.feed.TopicHistory;
+
+/** {@code GET /api/history/<topic>}: what a topic holds of a stretch of time. At most {@value #AT_ONCE} are read at once. */
+public final class HistoryServlet extends HttpServlet {
+    private static final long serialVersionUID = 1L;
+    private static final Logger LOG = LoggerFactory.getLogger(HistoryServlet.class);
+    private static final int AT_ONCE = 4;
+    private static final int WAIT_SECONDS = 5;
+    private static final int RECORDS = 5_000;
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9_]{1,64}");
+
+    private final transient TopicStreams streams;
+    private final transient TopicHistory history;
+    private final transient Semaphore free = new Semaphore(AT_ONCE);
+
+    public HistoryServlet(TopicStreams streams, Properties client) {
+        this.streams = streams;
+        this.history = new TopicHistory(
+                client, TopicHistory.Limits.DEFAULT, streams.limits().valueBytes());
+    }
+
+    @Override
+    protected void doGet(HttpServletRequest request, HttpServletResponse response) throws IOException {
+        try {
+            streams.users().find(Credentials.of(request));
+            String topic = StreamRequest.topic(request, streams.rules());
+            long now = System.currentTimeMillis();
+            long from = StreamRequest.number(request, "from", 0, Long.MAX_VALUE / 2, null);
+            long to = StreamRequest.number(request, "to", from, Long.MAX_VALUE / 2, Math.max(from, now + 1));
+            int limit = (int) StreamRequest.number(request, "limit", 1, RECORDS, (long) RECORDS);
+            TopicHistory.Range range = new TopicHistory.Range(topic, from, to, newest(request), limit);
+            streams.feeds().check(topic);
+            write(read(range), response);
+        } catch (Problem problem) {
+            streams.counters().refused(problem);
+            problem.answer(response);
+        }
+    }
+
+    private TopicHistory.Answer read(TopicHistory.Range range) {
+        try {
+            if (!free.tryAcquire(WAIT_SECONDS, TimeUnit.SECONDS)) {
+                throw new Problem(
+                        503, "overloaded", "%d histories are being read; ask again in a moment".formatted(AT_ONCE));
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new Problem(503, "stopping", "the dashboard stops");
+        }
+        try {
+            return history.read(range);
+        } catch (KafkaException e) {
+            LOG.warn("the history of topic {} cannot be read", range.topic(), e);
+            throw new Problem(
+                    503,
+                    "kafka-away",
+                    "topic '%s' cannot be read (%s); check --kafka and that it runs"
+                            .formatted(range.topic(), e.getMessage()));
+        } finally {
+            free.release();
+        }
+    }
+
+    private static void write(TopicHistory.Answer answer, HttpServletResponse response) throws IOException {
+        response.setContentType("application/json");
+        response.setCharacterEncoding("UTF-8");
+        response.setHeader("Cache-Control", "no-store");
+        try (Writer out = response.getWriter()) {
+            out.write("{\"since\":" + answer.since() + ",\"records\":[");
+            String between = "";
+            for (FeedRecord record : answer.records()) {
+                out.write(between);
+                out.write(record.envelope());
+                between = ",";
+            }
+            out.write("]}");
+        }
+    }
+
+    private static String newest(HttpServletRequest request) {
+        String given = request.getParameter("newest");
+        if (given != null && !NAME.matcher(given).matches()) {
+            throw new Problem(400, "wrong-parameter", "'newest' must be the name of an attribute");
+        }
+        return given;
+    }
+}

@@ -1,0 +1,230 @@
+package io.furrow.dashboard.proxy;
+
+import java.nio.ByteBuffer;
+import java.util.concurrent.TimeUnit;
+
+import org.eclipse.jetty.websocket.api.Callback;
+import org.eclipse.jetty.websocket.api.Session;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.proxy.StreamCounters.Closing;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** One socket: the records of its topic go out, what comes in is written to it. */
+public final class TopicSocket implements Session.Listener.AutoDemanding, OpenStream {
+    /** Codes of RFC 6455 and its registry. */
+    static final int POLICY = 1008;
+
+    static final int TRY_AGAIN_LATER = 1013;
+    static final int GOING_AWAY = 1001;
+
+    private static final Logger LOG = LoggerFactory.getLogger(TopicSocket.class);
+    private static final long SECOND_NANOS = TimeUnit.SECONDS.toNanos(1);
+    private static final int MAX_REASON_LENGTH = 120;
+    /** After which a connection that never became a socket is given up. */
+    private static final long OPENED_WITHIN_NANOS = TimeUnit.SECONDS.toNanos(5);
+
+    private final TopicStreams streams;
+    private final Tickets.Ticket ticket;
+    private final ProxyLimits limits;
+    private final Outbox outbox;
+    private final long openedAt = System.nanoTime();
+    private Session session;
+    private boolean sending;
+    private boolean closed;
+    private long second;
+    private int messages;
+
+    TopicSocket(TopicStreams streams, Tickets.Ticket ticket, ProxyLimits limits) {
+        this.streams = streams;
+        this.ticket = ticket;
+        this.limits = limits;
+        this.outbox = new Outbox(ticket.request(), limits, streams.counters());
+    }
+
+    @Override
+    public Credentials credentials() {
+        return ticket.credentials();
+    }
+
+    @Override
+    public long openedAt() {
+        return openedAt;
+    }
+
+    @Override
+    public void revoke(String reason) {
+        end(POLICY, reason, Closing.USER);
+    }
+
+    @Override
+    public void onWebSocketOpen(Session opened) {
+        synchronized (this) {
+            session = opened;
+        }
+        if (isClosed()) {
+            opened.disconnect();
+            return;
+        }
+        streams.begin(ticket.request(), this, outbox);
+    }
+
+    @Override
+    public void offer(FeedRecord record) {
+        if (!outbox.offer(record)) {
+            end(
+                    TRY_AGAIN_LATER,
+                    "too slow: more than %d records or %d bytes wait"
+                            .formatted(limits.waitingRecords(), limits.waitingBytes()),
+                    Closing.TOO_SLOW);
+        }
+    }
+
+    /** Sends the next frame unless one is under way; its callback sends the one after it. */
+    @Override
+    public void flush() {
+        Session to;
+        String frame;
+        synchronized (this) {
+            if (closed || sending || session == null) {
+                return;
+            }
+            frame = outbox.take();
+            if (frame == null) {
+                return;
+            }
+            sending = true;
+            to = session;
+        }
+        to.sendText(frame, Callback.from(this::sent, this::broken));
+    }
+
+    private void sent() {
+        synchronized (this) {
+            sending = false;
+        }
+        flush();
+    }
+
+    private void broken(Throwable failure) {
+        LOG.debug("a socket of {} is gone", ticket.request().topic(), failure);
+        closed(Closing.CLIENT);
+    }
+
+    @Override
+    public synchronized boolean isClosed() {
+        return closed;
+    }
+
+    @Override
+    public void end(String reason) {
+        end(TRY_AGAIN_LATER, reason, Closing.TOPIC);
+    }
+
+    /** A client that does not read does not see this; its connection is cut some seconds later. */
+    void end(int code, String reason, Closing why) {
+        Session to;
+        synchronized (this) {
+            to = session;
+        }
+        closed(why);
+        if (to != null && to.isOpen()) {
+            to.close(code, reason.substring(0, Math.min(reason.length(), MAX_REASON_LENGTH)), Callback.NOOP);
+            streams.later(to::disconnect);
+        }
+    }
+
+    @Override
+    public void ping() {
+        Session to;
+        boolean never;
+        synchronized (this) {
+            to = closed ? null : session;
+            never = session == null && System.nanoTime() - openedAt > OPENED_WITHIN_NANOS;
+        }
+        if (never) { // the handshake failed after its ticket was taken, which nothing else reports
+            closed(Closing.CLIENT);
+        }
+        if (to != null) {
+            to.sendPing(ByteBuffer.allocate(0), Callback.NOOP);
+        }
+    }
+
+    @Override
+    public void onWebSocketText(String message) {
+        try {
+            count();
+            streams.writer()
+                    .write(ticket.request().topic(), ticket.user(), message)
+                    .whenComplete((at, failure) -> {
+                        if (failure instanceof Problem problem) {
+                            refuse(problem);
+                            return;
+                        }
+                        streams.counters().written();
+                        if (ticket.request().format() == StreamRequest.Format.RECORD) {
+                            say(NgsiJson.write(NgsiJson.mapper()
+                                    .createObjectNode()
+                                    .set(
+                                            "written",
+                                            NgsiJson.mapper()
+                                                    .createObjectNode()
+                                                    .put("partition", at.partition())
+                                                    .put("offset", at.offset()))));
+                        }
+                    });
+        } catch (Problem problem) {
+            refuse(problem);
+        }
+    }
+
+    private void refuse(Problem problem) {
+        streams.counters().refused(problem);
+        say(problem.json());
+    }
+
+    private synchronized void count() {
+        long now = System.nanoTime();
+        if (now - second > SECOND_NANOS) {
+            second = now;
+            messages = 0;
+        }
+        if (++messages > limits.messagesPerSecond()) {
+            throw new Problem(
+                    429,
+                    "too-many-messages",
+                    "more than %d messages in a second; this one was not written"
+                            .formatted(limits.messagesPerSecond()));
+        }
+    }
+
+    private void say(byte[] json) {
+        outbox.note(new String(json, java.nio.charset.StandardCharsets.UTF_8));
+        flush();
+    }
+
+    @Override
+    public void onWebSocketClose(int code, String reason) {
+        closed(Closing.CLIENT);
+    }
+
+    @Override
+    public void onWebSocketError(Throwable failure) {
+        LOG.debug("a socket of {} failed", ticket.request().topic(), failure);
+        closed(Closing.CLIENT);
+    }
+
+    private void closed(Closing why) {
+        synchronized (this) {
+            if (closed) {
+                return;
+            }
+            closed = true;
+        }
+        streams.end(ticket.request().topic(), this, why);
+    }
+}

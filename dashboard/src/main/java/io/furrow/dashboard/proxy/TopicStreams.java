@@ -1,0 +1,245 @@
+package io.furrow.dashboard.proxy;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.RejectedExecutionException;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.common.KafkaException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.auth.Users;
+import io.furrow.dashboard.feed.FeedRecord;
+import io.furrow.dashboard.feed.KnownState;
+import io.furrow.dashboard.feed.TopicFeeds;
+import io.furrow.dashboard.feed.TopicRules;
+
+/** All streams of a server, over sockets and as events: begins and ends them, and looks after them meanwhile. */
+public final class TopicStreams implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicStreams.class);
+    private static final long PING_SECONDS = 15;
+    private static final long USER_SECONDS = 30;
+    private static final long CUT_SECONDS = 3;
+    /** A proxy that signs users in is asked again then: nobody says when somebody was signed out there. */
+    private static final Duration MAX_BY_PROXY = Duration.ofHours(1);
+
+    private static final int BEGINNERS = 4;
+    private static final int UNAUTHORIZED = 401;
+
+    private final TopicFeeds feeds;
+    private final KnownState known;
+    private final TopicWriter writer;
+    private final Users users;
+    private final StreamQuota quota;
+    private final Tickets tickets;
+    private final TopicRules rules;
+    private final ProxyLimits limits;
+    private final Set<OpenStream> streams = ConcurrentHashMap.newKeySet();
+    private final StreamCounters counters = new StreamCounters();
+    private final ScheduledExecutorService clock = Executors.newSingleThreadScheduledExecutor(daemon("streams-clock"));
+    private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
+
+    public TopicStreams(Properties client, TopicRules rules, ProxyLimits limits, Users users) {
+        this.feeds = new TopicFeeds(client, limits, counters);
+        this.known = new KnownState(client, limits);
+        this.writer = new TopicWriter(client, rules);
+        this.users = users;
+        this.rules = rules;
+        this.limits = limits;
+        this.quota = new StreamQuota(limits);
+        this.tickets = new Tickets(limits, System::nanoTime);
+        clock.scheduleWithFixedDelay(
+                () -> streams.forEach(OpenStream::ping), PING_SECONDS, PING_SECONDS, TimeUnit.SECONDS);
+        clock.scheduleWithFixedDelay(this::askAgain, USER_SECONDS, USER_SECONDS, TimeUnit.SECONDS);
+    }
+
+    private static java.util.concurrent.ThreadFactory daemon(String name) {
+        return task -> {
+            Thread thread = new Thread(task, name);
+            thread.setDaemon(true);
+            return thread;
+        };
+    }
+
+    Tickets tickets() {
+        return tickets;
+    }
+
+    TopicFeeds feeds() {
+        return feeds;
+    }
+
+    TopicWriter writer() {
+        return writer;
+    }
+
+    public StreamCounters counters() {
+        return counters;
+    }
+
+    /** How many paths of sockets wait to be opened. */
+    public int unusedTickets() {
+        return tickets.unused();
+    }
+
+    /** How many of the open streams are sockets. */
+    public int sockets() {
+        return (int) streams.stream().filter(TopicSocket.class::isInstance).count();
+    }
+
+    /** Fails where Kafka does not answer in time. */
+    public void checkKafka(Duration timeout) throws ExecutionException, TimeoutException, InterruptedException {
+        feeds.checkKafka(timeout);
+    }
+
+    /** Whether Kafka has answered none of these checks for six seconds. */
+    public boolean isKafkaAway() {
+        return feeds.isKafkaAway();
+    }
+
+    public Users users() {
+        return users;
+    }
+
+    TopicRules rules() {
+        return rules;
+    }
+
+    ProxyLimits limits() {
+        return limits;
+    }
+
+    /** How many streams are open. */
+    public int open() {
+        return quota.taken();
+    }
+
+    /** How many topics are read. */
+    public int topics() {
+        return feeds.size();
+    }
+
+    /**
+     * The socket that a ticket is for.
+     *
+     * @throws Problem for a ticket that is none, or none any more, and where there are too many streams
+     */
+    public TopicSocket open(String ticketId) {
+        Tickets.Ticket ticket = tickets.use(ticketId)
+                .orElseThrow(() -> new Problem(
+                        403,
+                        "no-ticket",
+                        "a socket is opened once and soon; ask GET /api/register/<topic> for a path"));
+        quota.take(ticket.client());
+        TopicSocket socket = new TopicSocket(this, ticket, limits);
+        counters.opened();
+        streams.add(socket);
+        return socket;
+    }
+
+    /** For a stream that is no socket. @throws Problem where there are too many */
+    void take(String client) {
+        quota.take(client);
+    }
+
+    /** Adds the stream to its topic, then reads what was known before, so that nothing lies between. */
+    void begin(StreamRequest request, OpenStream stream, Outbox outbox) {
+        if (streams.add(stream) && !(stream instanceof TopicSocket)) {
+            counters.opened();
+        }
+        if (stream.isClosed()) {
+            streams.remove(stream);
+        }
+        try {
+            beginners.execute(() -> {
+                try {
+                    feeds.add(request.topic(), stream);
+                    if (stream.isClosed()) { // while it was added
+                        feeds.remove(request.topic(), stream);
+                        return;
+                    }
+                    if (request.prime()) {
+                        List<FeedRecord> records = known.read(request.topic());
+                        outbox.prime(records);
+                        stream.flush();
+                    }
+                } catch (Problem e) {
+                    stream.end(e.getMessage());
+                } catch (KafkaException e) {
+                    LOG.warn("topic {} cannot be read", request.topic(), e);
+                    stream.end("topic '%s' cannot be read (%s)".formatted(request.topic(), e.getMessage()));
+                } catch (InterruptedException e) {
+                    Thread.currentThread().interrupt();
+                }
+            });
+        } catch (RejectedExecutionException e) {
+            stream.end("the dashboard stops");
+        }
+    }
+
+    void end(String topic, OpenStream stream, StreamCounters.Closing reason) {
+        streams.remove(stream);
+        counters.closed(reason);
+        quota.give(stream.credentials().client());
+        try {
+            beginners.execute(() -> feeds.remove(topic, stream));
+        } catch (RejectedExecutionException e) {
+            LOG.debug("closed already", e);
+        }
+    }
+
+    void later(Runnable task) {
+        try {
+            clock.schedule(task, CUT_SECONDS, TimeUnit.SECONDS);
+        } catch (RejectedExecutionException e) {
+            LOG.debug("closed already", e);
+        }
+    }
+
+    /** A token that was taken back opens no stream, and keeps none. */
+    private void askAgain() {
+        for (OpenStream stream : streams) {
+            try {
+                users.find(stream.credentials());
+                if (stream.credentials().isOfProxy()
+                        && System.nanoTime() - stream.openedAt() > MAX_BY_PROXY.toNanos()) {
+                    stream.revoke("the proxy is to be asked again who this is; register once more");
+                }
+            } catch (Problem e) {
+                if (e.status() == UNAUTHORIZED || e.error().equals(Users.NOT_TAKEN)) {
+                    stream.revoke("the token is not valid any more");
+                }
+            }
+        }
+    }
+
+    @Override
+    public void close() {
+        for (OpenStream stream : streams) {
+            if (stream instanceof TopicSocket socket) {
+                socket.end(TopicSocket.GOING_AWAY, "the dashboard stops", StreamCounters.Closing.STOPPING);
+            } else {
+                stream.end("the dashboard stops");
+            }
+        }
+        clock.shutdownNow();
+        beginners.shutdownNow();
+        try {
+            beginners.awaitTermination(Duration.ofSeconds(2).toMillis(), TimeUnit.MILLISECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+        feeds.close();
+        writer.close();
+    }
+}

@@ -1,0 +1,102 @@
+package io.furrow.dashboard.proxy;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.Properties;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.CompletionStage;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.clients.producer.RecordMetadata;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.dashboard.Problem;
+import io.furrow.dashboard.auth.Role;
+import io.furrow.dashboard.auth.User;
+import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** Writes what sockets send, in the name of their user. */
+final class TopicWriter implements AutoCloseable {
+    private static final String TIMEOUT_MILLIS = "10000";
+
+    private final TopicRules rules;
+    private final KafkaProducer<byte[], byte[]> producer;
+
+    TopicWriter(Properties client, TopicRules rules) {
+        this.rules = rules;
+        Properties settings = new Properties();
+        client.stringPropertyNames().forEach(name -> settings.setProperty(name, client.getProperty(name)));
+        settings.setProperty("max.block.ms", TIMEOUT_MILLIS);
+        settings.setProperty("request.timeout.ms", TIMEOUT_MILLIS);
+        settings.setProperty("delivery.timeout.ms", TIMEOUT_MILLIS);
+        settings.setProperty("linger.ms", "0");
+        producer = new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+    }
+
+    /**
+     * @return where it stands, when Kafka has it
+     * @throws Problem for a user or a topic that may not, and for a message that is no JSON object
+     */
+    CompletionStage<RecordMetadata> write(String topic, User user, String message) {
+        if (!rules.mayWrite(topic)) {
+            throw new Problem(
+                    403,
+                    "topic-not-allowed",
+                    "topic '%s' is not among those that may be written; --writable-topics names them".formatted(topic));
+        }
+        if (!user.role().includes(Role.OPERATOR)) {
+            throw new Problem(
+                    403,
+                    "forbidden",
+                    "this needs the role operator, and '%s' is %s"
+                            .formatted(user.name(), user.role().word()));
+        }
+        ObjectNode json = read(message);
+        json.put("user", user.name()); // nobody speaks for another
+        JsonNode id = json.path("requestId");
+        byte[] key = id.isTextual() ? id.asText().getBytes(StandardCharsets.UTF_8) : null;
+        CompletableFuture<RecordMetadata> written = new CompletableFuture<>();
+        try {
+            producer.send(new ProducerRecord<>(topic, key, NgsiJson.write(json)), (at, failure) -> {
+                if (failure == null) {
+                    written.complete(at);
+                } else {
+                    written.completeExceptionally(notWritten(topic, failure));
+                }
+            });
+        } catch (KafkaException e) {
+            written.completeExceptionally(notWritten(topic, e));
+        }
+        return written;
+    }
+
+    private static ObjectNode read(String message) {
+        try {
+            if (NgsiJson.read(message.getBytes(StandardCharsets.UTF_8)) instanceof ObjectNode object) {
+                return object;
+            }
+        } catch (UnreadableException e) {
+            throw new Problem(400, "not-json", "the message is no JSON: " + e.getMessage());
+        }
+        throw new Problem(400, "not-json", "the message is no JSON object");
+    }
+
+    private static Problem notWritten(String topic, Exception failure) {
+        return new Problem(
+                503,
+                "not-written",
+                "Kafka did not take it for topic '%s' within 10 s (%s); it may still come, send it again with its requestId"
+                        .formatted(topic, failure.getMessage()));
+    }
+
+    @Override
+    public void close() {
+        producer.close(Duration.ofSeconds(2));
+    }
+}

@@ -1,0 +1,2 @@
+/** Whether the dashboard is alive and ready, and what it has done. */
+package io.furrow.dashboard.status;

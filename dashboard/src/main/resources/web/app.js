@@ -1,0 +1,318 @@
+/** The frame of the page: who asks, where one is, and whether live or recorded things are shown. */
+import { api } from './core/api.js';
+import { feeds, introduce } from './core/feeds.js';
+import { clock, day, duration, zone } from './core/format.js';
+import { h, replace, setText } from './core/dom.js';
+import { icon } from './core/icons.js';
+import { linkTo, navigate, onRoute, route } from './core/router.js';
+import { store } from './core/store.js';
+import { t, texts } from './texts.js';
+
+const PLACES = [
+  ['map', 'map'], ['missions', 'flag'], ['replays', 'history'], ['analyses', 'chart'], ['topics', 'list'], ['platform', 'server'],
+];
+const MODULES = {
+  'furrow-map': './map/map.js',
+  'furrow-alarms': './alarms/alarms.js',
+  'furrow-cards': './cards/cards.js',
+  'furrow-timeline': './timeline/timeline.js',
+  'furrow-missions': './views/missions.js',
+  'furrow-replays': './views/replays.js',
+  'furrow-analyses': './views/analyses.js',
+  'furrow-topics': './views/topics.js',
+  'furrow-platform': './views/platform.js',
+};
+/** Views beside which the timeline stays. */
+const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
+
+class App extends HTMLElement {
+  connectedCallback() {
+    this.view = null;
+    this.mode = h('span.mode');
+    this.leave = h('button.button.small.mode-leave', { type: 'button', hidden: true, on: { click: () => store.leaveReplay() } }, t('app.toLive'));
+    this.crumbs = h('nav.crumbs', { 'aria-label': t('views.topics') });
+    this.time = h('span.now.numbers');
+    this.alarms = h('a.alarm-count', { href: linkTo('map') });
+    this.find = h('input', {
+      type: 'search', placeholder: t('app.find'), 'aria-label': t('app.find'), autocomplete: 'off', spellcheck: 'false',
+      on: { input: () => this.findChanged(), keydown: (event) => event.key === 'Escape' && this.clearFind() },
+    });
+    const narrow = matchMedia('(max-width: 560px)');
+    const place = () => (this.find.placeholder = t(narrow.matches ? 'app.findShort' : 'app.find'));
+    narrow.addEventListener('change', place);
+    place();
+    this.rail = h('nav.rail', { 'aria-label': t('app.places') }, PLACES.map(([name, symbol]) =>
+      h('a', { href: linkTo(name), 'aria-label': t(`views.${name}`), data: { view: name } }, icon(symbol, 22), h('span', { 'aria-hidden': 'true' }, t(`views.${name}`)))));
+    this.viewPlace = h('div.view-place', { hidden: true, tabindex: '0' });
+    this.notice = h('div.notice', { role: 'status', hidden: true });
+    this.announcer = h('div.visually-hidden', { role: 'status', 'aria-live': 'polite' });
+    this.map = this.load('furrow-map');
+    this.middle = h('main.middle', { id: 'content', tabindex: '-1' }, this.map, this.viewPlace);
+    this.side = h('aside.side', { 'aria-label': t('app.panel') }, this.load('furrow-alarms'), this.load('furrow-cards'));
+    this.timelinePlace = h('section.timeline-place', { 'aria-label': t('app.timeline') }, this.load('furrow-timeline'));
+
+    replace(this,
+      h('a.skip.button', { href: '#content', on: { click: (event) => { event.preventDefault(); this.middle.focus(); } } }, t('app.skip')),
+      h('header.topbar', null,
+        h('a.brand', { href: linkTo('map'), 'aria-label': t('app.title') }, icon('furrow', 22), h('span', null, t('app.title'))),
+        this.crumbs, this.mode, this.leave, h('span.spacer'),
+        h('div.find', { role: 'search' }, this.find, h('kbd', { 'aria-hidden': 'true' }, '/')),
+        this.time, this.alarms, settingsMenu()),
+      this.notice, this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
+
+    this.offs = [
+      onRoute(() => this.show()),
+      store.on('mode', () => this.showMode()),
+      store.on('clock', () => this.showTime()),
+      store.on('alarms', () => this.showAlarms()),
+      store.on('scope', () => this.showScope()),
+      store.on('connection', () => this.showConnection()),
+      store.on('replays', () => this.followLink()),
+    ];
+    document.addEventListener('keydown', (event) => this.key(event));
+    this.show();
+    this.showMode();
+    this.showTime();
+    this.showAlarms();
+    this.showScope();
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+  }
+
+  /** An element of a module that is loaded when it is needed; one that fails takes no other with it. */
+  load(name) {
+    const element = document.createElement(name);
+    if (!customElements.get(name)) {
+      import(MODULES[name]).catch((error) => {
+        console.error(`${MODULES[name]} could not be loaded`, error);
+        replace(element, h('p.error-note', { role: 'alert' }, icon('warning'), t('app.viewFailed', { reason: error.message })));
+      });
+    }
+    return element;
+  }
+
+  show() {
+    const { view, query } = route;
+    const isMap = view === 'map';
+    this.classList.toggle('plain', !isMap);
+    this.viewPlace.hidden = isMap;
+    this.map.hidden = !isMap;
+    this.timelinePlace.hidden = !WITH_TIMELINE.has(view);
+    for (const link of this.rail.children) {
+      link.dataset.view === view ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current');
+    }
+    if (view !== this.view) {
+      this.view = view;
+      replace(this.viewPlace, isMap ? null : this.load(`furrow-${view}`));
+      document.title = isMap ? t('app.title') : `${t(`views.${view}`)} · ${t('app.title')}`;
+      isMap || this.middle.focus({ preventScroll: true });
+    }
+    if (query.select) {
+      store.select(query.select, { reveal: true });
+    }
+    this.followLink();
+  }
+
+  /** A link to a moment of a replay: `#/map?replay=R&at=ISO`. */
+  async followLink() {
+    const { replay, at } = route.query;
+    const known = replay && store.replays.get(replay);
+    const link = `${replay} ${at}`;
+    if (!known?.topic || this.followed === link) {
+      return;
+    }
+    this.followed = link;
+    if (store.mode.replay !== replay) {
+      store.enterReplay(known);
+    }
+    if (at && store.may('operate')) {
+      const to = Number.isNaN(Number(at)) ? at : Number(at);
+      await api.post(`/api/replays/${encodeURIComponent(replay)}/seek`, { to }).catch((error) => this.say(error.message));
+    }
+  }
+
+  showMode() {
+    const replaying = store.isReplay;
+    const { mission, missions, position } = store.mode;
+    this.classList.toggle('replaying', replaying);
+    document.documentElement.classList.toggle('replaying', replaying);
+    const name = missions?.length > 1 ? missions.join(' + ') : mission;
+    setText(this.mode, replaying ? t('app.replayOf', { mission: name, day: day(position) }) : t('app.live'));
+    this.leave.hidden = !replaying;
+    if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
+      setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));
+      if (!replaying && route.query.replay) {
+        navigate(route.view);
+      }
+    }
+    this.wasReplaying = replaying;
+  }
+
+  showTime() {
+    const now = store.now();
+    replace(this.time, h('strong', null, clock(now)), ` ${zone(now)}`);
+    store.connection.state === 'lost' && this.showConnection();
+  }
+
+  showAlarms() {
+    const open = [...store.alarms.values()].filter((each) => each.state === 'open').length;
+    this.alarms.classList.toggle('open', open > 0);
+    this.alarms.setAttribute('aria-label', t('app.alarms', { count: open }));
+    replace(this.alarms, icon('warning', 18), h('span.numbers', { 'aria-hidden': 'true' }, open));
+  }
+
+  showScope() {
+    const { domain, mission } = store.scope;
+    replace(this.crumbs,
+      h('a', { href: linkTo('topics'), 'aria-current': domain ? null : 'true' }, domain ?? t('app.allDomains')),
+      mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span', { 'aria-current': 'true' }, mission)]);
+  }
+
+  showConnection() {
+    const { state, since, lastRecord, reason } = store.connection;
+    const lost = state === 'lost';
+    this.classList.toggle('lost', lost);
+    this.notice.hidden = !lost;
+    if (lost) {
+      const away = duration(Date.now() - since);
+      replace(this.notice, icon('warning'),
+        lastRecord ? t('app.lost', { duration: away, time: clock(lastRecord) }) : t('app.lostNever', { duration: away, reason: reason ?? '' }));
+    }
+  }
+
+  say(text) {
+    setText(this.announcer, text);
+  }
+
+  findChanged() {
+    clearTimeout(this.finding);
+    this.finding = setTimeout(() => store.setFilter(this.find.value), 120);
+    if (route.view !== 'map' && this.find.value) {
+      navigate('map');
+    }
+  }
+
+  clearFind() {
+    this.find.value = '';
+    store.setFilter('');
+    this.find.blur();
+  }
+
+  key(event) {
+    const typing = event.target.closest?.('input, textarea, select, [contenteditable]');
+    if (event.key === '/' && !typing && !event.ctrlKey && !event.metaKey) {
+      event.preventDefault();
+      this.find.focus();
+    }
+  }
+}
+
+/** Who one is, and the colours. */
+function settingsMenu() {
+  const schemes = h('div', { role: 'group', 'aria-label': t('app.scheme') });
+  const { user, role } = store.me;
+  const list = h('div.scheme-menu', { id: 'settings', popover: 'auto' },
+    user && h('p.me.small', null, h('strong', null, user), h('span.muted', null, ` · ${role}`)),
+    schemes,
+    api.token && h('button.button.quiet', { type: 'button', on: { click: signOut } }, icon('leave', 18), t('app.signOut')));
+  const symbols = { system: 'contrast', dark: 'moon', light: 'sun', sunlight: 'sun' };
+  const draw = () => replace(schemes, Object.entries(texts.app.schemes).map(([name, words]) => {
+    const chosen = (localStorage.getItem('furrow-scheme') ?? 'system') === name;
+    return h('button.button.quiet', {
+      type: 'button', 'aria-pressed': String(chosen),
+      on: { click: () => { chooseScheme(name); draw(); list.hidePopover(); } },
+    }, icon(chosen ? 'check' : symbols[name], 18), words);
+  }));
+  draw();
+  return h('div.menu', null,
+    h('button.button.quiet.square', { type: 'button', 'aria-label': t('app.settings'), title: t('app.settings'), popovertarget: 'settings' }, icon('contrast', 18)), list);
+}
+
+function signOut() {
+  api.token = null;
+  location.reload();
+}
+
+function chooseScheme(name) {
+  if (name === 'system') {
+    localStorage.removeItem('furrow-scheme');
+    delete document.documentElement.dataset.scheme;
+  } else {
+    localStorage.setItem('furrow-scheme', name);
+    document.documentElement.dataset.scheme = name;
+  }
+  window.dispatchEvent(new Event('schemechange'));
+}
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => window.dispatchEvent(new Event('schemechange')));
+
+customElements.define('furrow-app', App);
+
+// --- the start ---------------------------------------------------------------------------------------------------------
+
+const RETRY_MILLIS = 2_000;
+const RETRY_MOST = 30_000;
+const opening = document.querySelector('.opening');
+let failures = 0;
+let retrying = null;
+
+/** A link with `#token=…` signs in; the token leaves the address bar at once. */
+function takeTokenOfLink() {
+  const found = /^#token=([^&]+)/.exec(location.hash);
+  if (found) {
+    api.token = decodeURIComponent(found[1]);
+    history.replaceState(null, '', `${location.pathname}#/map`);
+  }
+}
+
+/** What the map place needs is loaded while the server is asked who this is. */
+function loadFirst() {
+  ['furrow-map', 'furrow-alarms', 'furrow-cards', 'furrow-timeline'].forEach((name) => import(MODULES[name]).catch(() => {})); // said where it is shown
+}
+
+async function start() {
+  clearTimeout(retrying);
+  try {
+    await introduce();
+  } catch (error) {
+    return error.status === 401 ? signIn() : unreachable(error);
+  }
+  feeds.start();
+  replace(document.body, document.createElement('furrow-app'));
+  api.onSignedOut(() => location.reload());
+}
+
+function signIn(wrong = Boolean(api.token)) {
+  api.token = null;
+  const token = h('input', { type: 'password', id: 'token', name: 'token', autocomplete: 'current-password', required: true, 'aria-describedby': 'token-hint' });
+  const submit = async (event) => {
+    event.preventDefault();
+    api.token = token.value.trim();
+    start();
+  };
+  replace(document.body, h('main.sign-in', null, h('form', { on: { submit } },
+    h('div.brand', null, icon('furrow', 26), t('app.title')),
+    h('h1', null, t('signIn.title')),
+    wrong && h('p.error-note', { role: 'alert' }, icon('warning'), t('signIn.wrong')),
+    h('div.field-row', null, h('label', { for: 'token' }, t('signIn.token')), token, h('p.small.muted', { id: 'token-hint' }, t('signIn.hint'))),
+    h('button.button.primary', { type: 'submit' }, t('signIn.submit')))));
+  token.focus();
+}
+
+/** Tried again by itself, each time after a longer while; the frame that index.html draws stays. */
+function unreachable(error) {
+  failures++;
+  const words = h('div.opening-words', null, h('div.stack', null,
+    h('p.error-note', { role: 'alert' }, icon('warning'), t('opening.away', { reason: error.message })),
+    h('p.small.muted', null, t('opening.again')),
+    h('button.button.primary', { type: 'button', on: { click: start } }, t('opening.retry'))));
+  const shown = document.querySelector('.opening-words');
+  shown?.textContent === words.textContent || replace(opening.querySelector('.middle'), words);
+  opening.isConnected || replace(document.body, opening);
+  retrying = setTimeout(start, Math.min(RETRY_MOST, RETRY_MILLIS * 2 ** (failures - 1)));
+}
+
+takeTokenOfLink();
+loadFirst();
+start();

@@ -1,0 +1,53 @@
+/** Which of an entity's attributes a card shows. */
+import { plain, quantity } from '../core/format.js';
+
+/** Frame of the entity, positions and times: told by the card itself. */
+const SILENT = new Set([
+  'Time', 'TimeInstant', 'dateModified', 'dateCreated', 'Latitude', 'Longitude', 'latitude', 'longitude', 'location', 'gnss', 'pose',
+  'Domain', 'Mission', 'name', 'Name', 'Image', 'cmd', 'heading', 'Heading', 'state', 'status', 'State', 'Status',
+]);
+const FIRST = [
+  'speed', 'temperature', 'battery', 'humidity', 'relativehumidity', 'soilmoisture', 'windspeed', 'pressure', 'atmosphericpressure', 'illuminance', 'precipitation',
+];
+const COMMAND = /_(status|info)$/;
+
+/**
+ * @param {import('../core/entity.js').Entity} entity
+ * @returns {{name: string, label: string, value: string, unit: string}[]} those that tell most, at most three
+ */
+export function telling(entity, most = 3) {
+  const found = [];
+  for (const [name, attribute] of Object.entries(entity.attributes)) {
+    if (SILENT.has(name) || COMMAND.test(name) || attribute.value === '' || attribute.value === null || typeof attribute.value === 'object') {
+      continue;
+    }
+    found.push({ name, rank: rankOf(name, attribute), ...quantity(name, attribute) });
+  }
+  found.sort((a, b) => a.rank - b.rank || (a.name < b.name ? -1 : 1));
+  return found.slice(0, most);
+}
+
+function rankOf(name, attribute) {
+  const known = FIRST.indexOf(name.toLowerCase());
+  return known >= 0 ? known : typeof attribute.value === 'number' ? 100 : 200;
+}
+
+/** All attributes, as texts. @returns {{name: string, type: string, value: string}[]} */
+export function allAttributes(entity) {
+  return Object.entries(entity.attributes)
+    .map(([name, attribute]) => ({ name, type: attribute.type, value: plain(attribute.value, 2_000) }))
+    .sort((a, b) => (a.name < b.name ? -1 : 1));
+}
+
+/** Of which numbers a card has a line: the most telling one that changes. */
+export function lineOf(entity) {
+  let best = null;
+  for (const [name, points] of entity.series) {
+    if (points.length < 3 || name === 'heading' || name === 'battery') {
+      continue;
+    }
+    const rank = rankOf(name, { value: 0 }) + (points.of('values').every((each) => each === points.values[0]) ? 50 : 0);
+    best = best === null || rank < best.rank ? { name, points, rank } : best;
+  }
+  return best;
+}

@@ -1,0 +1,176 @@
+/** The card of one entity. */
+import { api } from '../core/api.js';
+import { age, bytes, duration, temperature } from '../core/format.js';
+import { h, replace, setText } from '../core/dom.js';
+import { icon } from '../core/icons.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { allAttributes, lineOf, telling } from './attributes.js';
+import { commandsOf, infoOf, isPointless, outcomeOf } from './commands.js';
+import { Picture } from './picture.js';
+import { Sparkline } from './sparkline.js';
+
+export class Card {
+  /** @param {import('../core/entity.js').Entity} entity */
+  constructor(entity) {
+    this.entity = entity;
+    this.sent = null;
+    this.open = false;
+    this.name = h('button.card-name', { type: 'button', on: { click: () => store.select(entity.id, { reveal: true }) } });
+    this.mark = h('span.card-mark');
+    this.age = h('span.numbers.muted.small');
+    this.facts = h('dl.card-facts');
+    this.spark = new Sparkline();
+    this.picture = new Picture();
+    this.buttons = h('div.card-commands');
+    this.outcome = h('span.card-outcome.small', { role: 'status' });
+    this.details = h('div.card-details', { hidden: true, id: `details-${Card.count++}` });
+    this.more = h('button.button.quiet.square.small', {
+      type: 'button', 'aria-expanded': 'false', 'aria-controls': this.details.id, on: { click: () => this.toggle() },
+    }, icon('chevron-down', 18));
+    this.element = h('li.card.device', { data: { id: entity.id }, on: {
+      pointerenter: () => store.setHovered(entity.id), pointerleave: () => store.setHovered(null), focusin: () => store.setHovered(entity.id),
+    } },
+      h('div.card-head', null, h('h3.cut', null, this.name), this.mark, this.age, this.more),
+      this.facts, this.spark.element, this.picture.element, h('div.card-row', null, this.buttons, this.outcome), this.details);
+    this.element.card = this;
+  }
+
+  draw() {
+    const { entity } = this;
+    const now = store.now();
+    setText(this.name, entity.name);
+    setText(this.age, age(now - entity.time));
+    this.element.className = `card device is-${entity.state}${entity.id === store.selection ? ' selected' : ''}${entity.id === store.hovered ? ' hovered' : ''}`;
+    const word = this.wordOf();
+    setText(this.mark, word.text);
+    this.mark.className = `card-mark small ${word.className}`;
+    this.more.setAttribute('aria-label', t('cards.details', { name: entity.name }));
+    this.drawFacts(now);
+    const line = lineOf(entity);
+    const fact = line && telling(entity, 50).find((each) => each.name === line.name);
+    this.spark.draw(line, fact?.label ?? line?.name, fact?.unit ?? '');
+    this.picture.draw(entity);
+    this.drawCommands();
+    this.open && this.drawDetails();
+  }
+
+  wordOf() {
+    const { entity } = this;
+    if (entity.state === 'stale') {
+      return { text: t('states.stale'), className: 'muted' };
+    }
+    if (entity.suspect) {
+      return { text: t('cards.suspect'), className: 'warn' };
+    }
+    if (entity.positionFault) {
+      return { text: t('cards.noPosition'), className: 'warn' };
+    }
+    return entity.state === 'look' ? { text: t('states.look'), className: 'warn' } : { text: '', className: '' };
+  }
+
+  drawFacts() {
+    const { entity } = this;
+    const facts = [];
+    if (entity.word) {
+      facts.push({ label: t('cards.state'), value: entity.word, unit: '' });
+    }
+    facts.push(...telling(entity, 3));
+    const suspect = store.suspects.get(entity.id);
+    if (suspect) {
+      facts.splice(2, 0, { label: t('cards.fieldMean'), value: temperature(suspect.mean).replace(' °C', ''), unit: '°C' });
+    }
+    if (entity.cut) {
+      facts.unshift({ label: t('cards.tooLarge'), value: bytes(entity.cut), unit: '' });
+    }
+    const shown = facts.slice(0, 3);
+    while (this.facts.children.length > shown.length) {
+      this.facts.lastChild.remove();
+    }
+    shown.forEach((fact, index) => {
+      const place = this.facts.children[index] ?? this.facts.appendChild(h('div', null, h('dt.cut'), h('dd.cut.numbers')));
+      setText(place.firstChild, fact.label);
+      setText(place.lastChild, fact.unit ? `${fact.value} ${fact.unit}` : fact.value);
+      place.lastChild.title = place.lastChild.textContent;
+    });
+  }
+
+  // --- commands ----------------------------------------------------------------------------------------------------
+
+  drawCommands() {
+    const { entity } = this;
+    const commands = commandsOf(entity);
+    const recorded = store.isReplay;
+    const allowed = store.may('operate');
+    const key = `${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${allowed} ${this.sent?.waiting}`;
+    if (key !== this.commandsKey) {
+      this.commandsKey = key;
+      replace(this.buttons, commands.map((command) => h('button.button.small', {
+        type: 'button', class: command.primary ? 'primary' : '', disabled: recorded || !allowed || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
+        title: allowed ? null : t('cards.notAllowed'), on: { click: () => this.ask(command) },
+      }, command.name.charAt(0).toUpperCase() + command.name.slice(1))));
+      this.buttons.parentElement.hidden = commands.length === 0;
+    }
+    this.drawOutcome(recorded, allowed);
+  }
+
+  drawOutcome(recorded, allowed) {
+    let [text, kind] = ['', ''];
+    if (recorded) {
+      text = t('cards.recorded');
+    } else if (!allowed && this.buttons.children.length) {
+      text = t('cards.notAllowed');
+    } else if (this.sent) {
+      const { command, at, error } = this.sent;
+      const ago = t('format.ago', { duration: duration(Date.now() - at) });
+      if (error) {
+        [text, kind] = [t('cards.refused', { command, reason: error }), 'bad'];
+      } else {
+        const outcome = outcomeOf(this.entity, this.sent, Date.now());
+        kind = { ok: 'good', failed: 'bad', unanswered: 'warn', pending: '' }[outcome.state];
+        text = t(`cards.outcomes.${outcome.state}`, { command, ago, info: outcome.info ?? '' });
+      }
+    }
+    setText(this.outcome, text);
+    this.outcome.className = `card-outcome small ${kind || 'muted'}`;
+  }
+
+  ask(command) {
+    command.risky && !window.confirm(t('cards.confirm', { command: command.name, name: this.entity.name })) || this.send(command.name);
+  }
+
+  async send(command) {
+    const sent = (this.sent = { command, at: Date.now(), info: infoOf(this.entity, command), waiting: true });
+    this.drawCommands();
+    try {
+      await api.post(`/api/devices/${encodeURIComponent(this.entity.id)}/commands`, { command, ...(store.devices.has(this.entity.id) ? {} : { type: this.entity.type }) });
+    } catch (error) {
+      sent.error = error.message;
+    }
+    sent.waiting = false;
+    this.drawCommands();
+  }
+
+  // --- details -----------------------------------------------------------------------------------------------------
+
+  toggle() {
+    this.open = !this.open;
+    this.details.hidden = !this.open;
+    this.more.setAttribute('aria-expanded', String(this.open));
+    this.open && this.drawDetails();
+  }
+
+  drawDetails() {
+    const { entity } = this;
+    replace(this.details,
+      h('p.small.muted', null, [entity.type, entity.domain, entity.mission].filter(Boolean).join(' · ')),
+      h('p.small.muted.code', null, entity.id),
+      h('dl.attributes', null, allAttributes(entity).map(({ name, value }) => h('div', null, h('dt', null, name.slice(0, 80)), h('dd.numbers', null, value)))),
+      entity.omitted > 0 && h('p.small.muted', null, t('cards.omitted', { count: entity.omitted })));
+  }
+
+  release() {
+    this.picture.release();
+  }
+}
+Card.count = 0;

@@ -1,0 +1,209 @@
+/** The devices of the side panel: what needs a look first, then by name. */
+import { h, replace, setText } from '../core/dom.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { Card } from './card.js';
+
+/** Cards that are made at once; more as one scrolls to them. */
+const PORTION = 40;
+const REDRAW_MILLIS = 250;
+const ORDER_MILLIS = 1_000;
+const RANK = { look: 0, stale: 1, ok: 2, off: 2 };
+const byName = new Intl.Collator(undefined, { numeric: true, sensitivity: 'base' });
+
+class FurrowCards extends HTMLElement {
+  connectedCallback() {
+    this.cards = new Map();
+    this.limit = PORTION;
+    this.kind = null;
+    this.dirty = new Set();
+    this.visible = new Set();
+    this.count = h('span.numbers');
+    this.chips = h('div.chips', { role: 'group', 'aria-label': t('cards.filter') });
+    this.list = h('ul.card-list');
+    this.end = h('div.card-end', { 'aria-hidden': 'true' });
+    this.empty = h('div.empty', { hidden: true });
+    this.loading = h('div.stack', { 'aria-label': t('cards.loading'), role: 'status' }, [0, 1, 2].map(() =>
+      h('div.card', null, h('div.skeleton.line', null, '…'), h('div.skeleton.block', null, '…'))));
+    replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.loading, this.empty, this.list, this.end);
+    this.watcher = new IntersectionObserver((seen) => this.seen(seen), { rootMargin: '200px' });
+    this.watcher.observe(this.end);
+    this.offs = [
+      store.on('entities', (ids, all) => this.changed(ids, all)),
+      store.on('clock', () => this.redraw(this.visible)),
+      store.on('cursor', () => this.visible.forEach((card) => card.spark.cursor())),
+      store.on('selection', () => this.selected()),
+      store.on('hovered', () => this.redraw(this.visible)),
+      store.on('filter', () => this.order(true)),
+      store.on('scope', () => this.order(true)),
+      store.on('mode', () => this.redraw(this.visible)),
+      store.on('suspects', () => this.redraw(this.visible)),
+      store.on('images', (ids) => this.changed(ids, false)),
+      store.on('me', () => this.redraw(this.visible)),
+    ];
+    this.order(true);
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    this.watcher.disconnect();
+    this.cards.forEach((card) => card.release());
+    clearTimeout(this.drawing);
+    clearTimeout(this.ordering);
+  }
+
+  changed(ids, all) {
+    ids.forEach((id) => this.dirty.add(id));
+    if (!this.drawing) {
+      this.drawing = setTimeout(() => this.drawDirty(), REDRAW_MILLIS);
+    }
+    if (all) {
+      this.order(true);
+    } else if (!this.ordering) {
+      this.ordering = setTimeout(() => { this.ordering = null; this.order(false); }, ORDER_MILLIS);
+    }
+  }
+
+  drawDirty() {
+    this.drawing = null;
+    for (const id of this.dirty) {
+      const card = this.cards.get(id);
+      card && this.visible.has(card) && card.draw();
+    }
+    this.dirty.clear();
+  }
+
+  redraw(cards) {
+    cards.forEach((card) => card.draw());
+  }
+
+  /** Under a pointer nothing moves: an order that changed waits until it has gone. */
+  order(now) {
+    if (!now && this.list.matches(':hover, :focus-within') && this.cards.size) {
+      // What is new moves nothing at the end.
+      this.wanted().slice(0, this.limit).filter((each) => !this.cards.has(each.id)).forEach((each) => this.list.append(this.make(each).element));
+      return this.drawCounts();
+    }
+    const wanted = this.wanted();
+    const shown = wanted.slice(0, this.limit);
+    const ids = new Set(shown.map((each) => each.id));
+    for (const [id, card] of this.cards) {
+      if (!ids.has(id) || store.entities.get(id) !== card.entity) {
+        this.drop(id, card);
+      }
+    }
+    let previous = null;
+    for (const entity of shown) {
+      const card = this.cards.get(entity.id) ?? this.make(entity);
+      const place = previous ? previous.nextSibling : this.list.firstChild;
+      card.element !== place && this.list.insertBefore(card.element, place);
+      previous = card.element;
+    }
+    this.end.hidden = wanted.length <= this.limit;
+    this.drawCounts();
+  }
+
+  wanted() {
+    const found = [];
+    for (const entity of store.entities.values()) {
+      if (store.inScope(entity) && store.matches(entity) && (this.kind === null || entity.kind === this.kind || entity.state === this.kind)) {
+        found.push(entity);
+      }
+    }
+    const order = { robot: 0, camera: 2 };
+    return found.sort((a, b) => RANK[a.state] - RANK[b.state] || (order[a.kind] ?? 1) - (order[b.kind] ?? 1) || byName.compare(a.name, b.name));
+  }
+
+  make(entity) {
+    const card = new Card(entity);
+    this.cards.set(entity.id, card);
+    this.watcher.observe(card.element);
+    card.draw();
+    return card;
+  }
+
+  drop(id, card) {
+    this.watcher.unobserve(card.element);
+    this.visible.delete(card);
+    card.release();
+    card.element.remove();
+    this.cards.delete(id);
+  }
+
+  seen(entries) {
+    for (const { target, isIntersecting } of entries) {
+      if (target === this.end) {
+        if (isIntersecting && !this.end.hidden) {
+          this.limit += PORTION;
+          this.order(true);
+        }
+      } else if (isIntersecting) {
+        this.visible.add(target.card);
+        target.card.draw();
+      } else {
+        this.visible.delete(target.card);
+      }
+    }
+  }
+
+  selected() {
+    const id = store.selection;
+    const known = id && store.entities.get(id);
+    if (known && !this.cards.has(id)) {
+      this.limit = Math.max(this.limit, this.wanted().indexOf(known) + PORTION);
+      this.order(true);
+    }
+    this.redraw(this.visible);
+    const card = this.cards.get(id);
+    if (card) {
+      card.draw();
+      const smooth = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+      card.element.scrollIntoView({ block: 'nearest', behavior: smooth ? 'smooth' : 'auto' });
+    }
+  }
+
+  drawCounts() {
+    const counts = new Map();
+    let [all, reporting] = [0, 0];
+    for (const entity of store.entities.values()) {
+      if (store.inScope(entity)) {
+        all++;
+        reporting += entity.state === 'ok' || entity.state === 'look';
+        for (const key of [entity.kind, entity.state]) {
+          counts.set(key, (counts.get(key) ?? 0) + 1);
+        }
+      }
+    }
+    setText(this.count, all ? t('cards.count', { count: all, reporting }) : '');
+    this.loading.hidden = store.primed || all > 0;
+    this.drawEmpty(all);
+    const chips = [['robot', 'kinds'], ['sensor', 'kinds'], ['camera', 'kinds'], ['other', 'kinds'], ['look', 'states'], ['stale', 'states']].filter(([key]) => counts.get(key) || key === this.kind);
+    const key = `${this.kind} ${chips.map(([name]) => `${name}${counts.get(name)}`).join()}`;
+    if (key !== this.chipsKey) {
+      this.chipsKey = key;
+      const focused = this.chips.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+      replace(this.chips, chips.length > 1 && chips.map(([name, section]) => h('button.chip', {
+        type: 'button', data: { key: name }, 'aria-pressed': String(this.kind === name), on: { click: () => this.choose(name) },
+      }, t(`${section}.${name}`), h('span.numbers', null, counts.get(name) ?? 0))));
+      focused && this.chips.querySelector(`[data-key="${focused}"]`)?.focus();
+    }
+  }
+
+  choose(kind) {
+    this.kind = this.kind === kind ? null : kind;
+    this.limit = PORTION;
+    this.order(true);
+  }
+
+  drawEmpty(all) {
+    const none = store.primed && this.cards.size === 0;
+    this.empty.hidden = !none;
+    if (none) {
+      const searched = store.filter || this.kind;
+      replace(this.empty, h('h3', null, t(searched && all ? 'cards.noMatch' : store.isReplay ? 'cards.noneYet' : 'cards.none')),
+        h('p.small', null, t(searched && all ? 'cards.noMatchHint' : store.isReplay ? 'cards.noneYetHint' : 'cards.noneHint')));
+    }
+  }
+}
+
+customElements.define('furrow-cards', FurrowCards);

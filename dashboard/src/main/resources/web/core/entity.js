@@ -1,0 +1,291 @@
+/** What the page makes of an NGSI-v2 entity, whatever its attributes are. */
+import { shortId } from './format.js';
+import { Line } from './line.js';
+
+/** Points that are kept of a trail and of a number. */
+const POINTS = 120;
+/** Numbers of an entity that are kept. */
+const MOST_SERIES = 24;
+/** Of an entity with more attributes, or longer values, the rest is left out. */
+const MOST_ATTRIBUTES = 200;
+const LONGEST_VALUE = 4_000;
+/** Without a known period an entity is stale after this, ms. */
+const STALE_AFTER = 60_000;
+const FRAME = new Set(['id', 'type']);
+const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'latitude', 'longitude']);
+const OFF_WORDS = new Set(['off', 'stopped', 'standby', 'sleeping']);
+const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
+
+/**
+ * @typedef {Object} Entity
+ * @property {string} id
+ * @property {string} type
+ * @property {'robot'|'sensor'|'camera'|'other'} kind
+ * @property {string} name
+ * @property {Object<string, {type: string, value: *, metadata: Object}>} attributes values of FIROS are read
+ * @property {number} time of its newest report, event time, epoch ms
+ * @property {[number, number]|null} position degrees, longitude first
+ * @property {string|null} positionFault why there is none
+ * @property {number|null} heading degrees clockwise from north
+ * @property {number|null} speed m/s
+ * @property {number|null} period ms between reports, as seen
+ * @property {{lon: number, lat: number, time: number}|null} place where it came to last
+ * @property {Line} trail columns `lon`, `lat`, `time`, and for the map `x` and `y`; empty for one that never moved
+ * @property {Map<string, Line>} series numbers as they were, columns `times` and `values`
+ * @property {string|null} domain
+ * @property {string|null} mission
+ * @property {string|null} word what the entity says of its state
+ * @property {'ok'|'look'|'stale'|'off'} state
+ * @property {boolean} suspect
+ * @property {number} omitted attributes that were left out
+ */
+
+const NO_TRAIL = new Line(['lon', 'lat', 'time'], 0);
+
+/** @returns {Entity} */
+export function newEntity(id) {
+  return {
+    id, type: '', kind: 'other', name: shortId(id), attributes: {}, time: 0, position: null, positionFault: null, heading: null, speed: null,
+    period: null, place: null, trail: NO_TRAIL, series: new Map(), domain: null, mission: null, word: null, state: 'ok', suspect: false, omitted: 0,
+  };
+}
+
+/**
+ * Takes a report into an entity: its attributes in the place of those of the same names.
+ *
+ * @param {Entity} entity
+ * @param {import('./stream.js').TopicRecord} record
+ */
+export function takeReport(entity, record) {
+  const reported = record.value;
+  entity.type = text(reported.type) || entity.type;
+  let omitted = 0;
+  let count = Object.keys(entity.attributes).length;
+  for (const name in reported) {
+    if (FRAME.has(name)) {
+      continue;
+    }
+    if (!(name in entity.attributes) && ++count > MOST_ATTRIBUTES) {
+      omitted++;
+      continue;
+    }
+    entity.attributes[name] = readAttribute(reported[name]);
+  }
+  entity.omitted = omitted;
+  const newer = record.time > entity.time;
+  if (newer) {
+    if (entity.time > 0 && record.kind === 'event') {
+      const gap = record.time - entity.time;
+      entity.period = entity.period === null ? gap : entity.period + 0.2 * (gap - entity.period);
+    }
+    entity.time = record.time;
+  }
+  describe(entity, reported);
+  if (newer) {
+    remember(entity, reported, record.time);
+  }
+}
+
+function readAttribute(reported) {
+  if (reported === null || typeof reported !== 'object' || Array.isArray(reported) || !('value' in reported)) {
+    return { type: '', value: cut(reported), metadata: {} };
+  }
+  return { type: text(reported.type), value: readValue(text(reported.type), reported.value), metadata: reported.metadata ?? {} };
+}
+
+/** Values of FIROS are messages of ROS as text, whose quotes are written `%27`. */
+function readValue(type, value) {
+  if (typeof value !== 'string') {
+    return cut(value);
+  }
+  if (value.startsWith('{%27') && value.length < LONGEST_VALUE) {
+    try {
+      const message = JSON.parse(value.replaceAll('%27', '"'));
+      const names = Object.keys(message);
+      if (names.length === 1 && names[0] === 'data') {
+        return message.data;
+      }
+      return names.length === 1 && typeof message[names[0]] === 'number' ? message[names[0]] : message;
+    } catch {
+      return cut(value);
+    }
+  }
+  return cut(value);
+}
+
+function cut(value) {
+  if (typeof value === 'string') {
+    return value.length > LONGEST_VALUE ? `${value.slice(0, LONGEST_VALUE)}…` : value;
+  }
+  if (value !== null && typeof value === 'object') {
+    const size = JSON.stringify(value).length;
+    return size > LONGEST_VALUE ? `${JSON.stringify(value).slice(0, LONGEST_VALUE)}…` : value;
+  }
+  return value;
+}
+
+function describe(entity, reported) {
+  const attributes = entity.attributes;
+  const given = text(attributes.name?.value) || text(attributes.Name?.value);
+  entity.name = given ? given.slice(0, 80) : shortId(entity.id);
+  entity.kind = kindOf(entity);
+  entity.domain = text(attributes.Domain?.value) || null;
+  entity.mission = text(attributes.Mission?.value) || null;
+  entity.speed = numberOf(attributes.speed?.value ?? attributes.Speed?.value);
+  entity.heading = numberOf(attributes.heading?.value ?? attributes.Heading?.value);
+  entity.word = wordOf(attributes);
+  if (hasPosition(reported)) {
+    const found = positionOf(attributes);
+    entity.position = found.position ?? entity.position;
+    entity.positionFault = found.fault ?? null;
+  }
+}
+
+function kindOf(entity) {
+  const type = entity.type.toLowerCase();
+  const attributes = entity.attributes;
+  if (type.includes('robot') || type.includes('tractor') || type.includes('vehicle') || 'gnss' in attributes || 'cmd' in attributes) {
+    return 'robot';
+  }
+  if (type.includes('camera') || 'Image' in attributes) {
+    return 'camera';
+  }
+  const numbers = Object.entries(attributes).some(([name, each]) => typeof each.value === 'number' && !NOT_A_SERIES.has(name));
+  return numbers ? 'sensor' : 'other';
+}
+
+function wordOf(attributes) {
+  for (const name of ['state', 'status', 'State', 'Status']) {
+    const value = attributes[name]?.value;
+    if (typeof value === 'boolean') {
+      return value ? 'on' : 'off';
+    }
+    if (typeof value === 'string' && value) {
+      return value.slice(0, 40);
+    }
+  }
+  return null;
+}
+
+/** Where it is, as the analytics jobs read it: `gnss` or `pose`, `Latitude` and `Longitude`, `location`. */
+function positionOf(attributes) {
+  const message = attributes.gnss?.value ?? attributes.pose?.value;
+  if (message && typeof message === 'object') {
+    return checked(message.longitude, message.latitude);
+  }
+  const latitude = attributes.Latitude ?? attributes.latitude;
+  const longitude = attributes.Longitude ?? attributes.longitude;
+  if (latitude && longitude) {
+    return checked(longitude.value, latitude.value);
+  }
+  const location = attributes.location?.value;
+  if (typeof location === 'string') {
+    const [lat, lon] = location.split(',');
+    return checked(lon, lat);
+  }
+  return Array.isArray(location?.coordinates) && location.type === 'Point' ? checked(...location.coordinates) : {};
+}
+
+function checked(longitude, latitude) {
+  const [lon, lat] = [numberOf(longitude), numberOf(latitude)];
+  if (lon === null || lat === null) {
+    return { fault: 'no-number' };
+  }
+  if (Math.abs(lat) > 90 || Math.abs(lon) > 180) {
+    return { fault: 'out-of-range' };
+  }
+  return lat === 0 && lon === 0 ? { fault: 'no-fix' } : { position: [lon, lat] };
+}
+
+function remember(entity, reported, time) {
+  if (entity.position) {
+    addPlace(entity, ...entity.position, time);
+  }
+  for (const name in reported) {
+    const value = entity.attributes[name]?.value;
+    if (typeof value === 'number' && Number.isFinite(value) && !NOT_A_SERIES.has(name)) {
+      addNumber(entity.series, name, time, value);
+    }
+  }
+}
+
+function addPlace(entity, lon, lat, time) {
+  const before = entity.place;
+  if (before && before.lon === lon && before.lat === lat) {
+    return;
+  }
+  entity.place = { lon, lat, time };
+  if (!before) {
+    return;
+  }
+  if (entity.trail === NO_TRAIL) {
+    entity.trail = new Line(['lon', 'lat', 'time', 'x', 'y'], POINTS);
+    entity.trail.push(before.lon, before.lat, before.time, NaN, NaN);
+  }
+  entity.trail.push(lon, lat, time, NaN, NaN);
+}
+
+function addNumber(series, name, time, value) {
+  let line = series.get(name);
+  if (!line && series.size < MOST_SERIES) {
+    series.set(name, (line = new Line(['times', 'values'], POINTS)));
+  }
+  line?.push(time, value);
+}
+
+/**
+ * Takes what was reported before all that an entity holds of its trail and its series: in front of them. Its attributes stay.
+ *
+ * @param {Entity} entity
+ * @param {import('./stream.js').TopicRecord[]} records of the entity, oldest first
+ */
+export function takePast(entity, records) {
+  const past = { position: null, place: null, trail: NO_TRAIL, series: new Map(), attributes: {} };
+  for (const { time, value } of records) {
+    if (value === null || typeof value !== 'object' || Array.isArray(value) || time > entity.time) {
+      continue;
+    }
+    for (const name in value) {
+      !FRAME.has(name) && name in entity.attributes && (past.attributes[name] = readAttribute(value[name]));
+    }
+    past.position = hasPosition(value) ? positionOf(past.attributes).position ?? past.position : past.position;
+    remember(past, value, time);
+  }
+  entity.trail === NO_TRAIL ? (entity.trail = past.trail) : entity.trail.prepend(past.trail, 'time');
+  for (const [name, line] of past.series) {
+    entity.series.has(name) ? entity.series.get(name).prepend(line, 'times') : entity.series.set(name, line);
+  }
+  if (entity.period === null && records.length > 1) {
+    entity.period = (records.at(-1).time - records[0].time) / (records.length - 1);
+  }
+}
+
+function hasPosition(reported) {
+  return 'gnss' in reported || 'pose' in reported || 'Latitude' in reported || 'latitude' in reported || 'location' in reported;
+}
+
+/**
+ * @param {Entity} entity
+ * @param {number} now of what is shown, epoch ms
+ * @returns {'ok'|'look'|'stale'|'off'}
+ */
+export function stateOf(entity, now) {
+  const word = entity.word?.toLowerCase() ?? '';
+  if (OFF_WORDS.has(word)) {
+    return 'off';
+  }
+  const timeout = entity.period === null ? STALE_AFTER : Math.max(10_000, Math.min(10 * STALE_AFTER, 3 * entity.period));
+  if (now - entity.time > timeout) {
+    return 'stale';
+  }
+  return entity.suspect || entity.positionFault || LOOK_WORDS.has(word) ? 'look' : 'ok';
+}
+
+function text(value) {
+  return typeof value === 'string' ? value : '';
+}
+
+function numberOf(value) {
+  const number = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
+  return typeof number === 'number' && Number.isFinite(number) ? number : null;
+}

@@ -1,0 +1,242 @@
+/** Brings topics into the store: what is live, or what a replay plays. */
+import { api } from './api.js';
+import { resource } from './resource.js';
+import { store } from './store.js';
+import { streams } from './stream.js';
+
+const LISTS = {
+  domains: { path: '/api/domains', key: 'domain', topics: ['service.domains'] },
+  missions: { path: '/api/missions', key: 'mission', topics: ['service.missions', 'service.missions.status'] },
+  devices: { path: '/api/devices', key: 'id', topics: ['service.devices'] },
+  recordings: { path: '/api/recordings', key: 'mission', topics: ['service.recordings'] },
+};
+/** How often a replay looks for newer pictures. */
+const IMAGES_MILLIS = 5_000;
+/** How far back lines and trails reach when the page is opened, and from how many reports at most. */
+const PAST_MILLIS = 300_000;
+const PAST_REPORTS = 3_000;
+const OVER = new Set(['ended', 'stopped', 'failed']);
+
+class Feeds {
+  start() {
+    store.feeds = this;
+    this.shared = [
+      this.feed('service.fields', 'all', (record) => store.takeField(record)),
+      this.feed('service.alarms', 'all', (record) => store.takeAlarm(record), { known: () => store.alarmsRead() }),
+      this.feed('service.replays', 'all', (record) => this.takeReplay(record)),
+      this.feed('service.replays.status', 'latest', (record) => this.takeStatus(record)),
+    ];
+    Object.entries(LISTS).forEach(([name, list]) => this.keep(name, list));
+    this.live();
+    setInterval(() => document.hidden || store.tick(), 1000);
+    setInterval(() => document.hidden || this.readImages(), IMAGES_MILLIS);
+  }
+
+  /** A topic whose records one function takes, with its figures in `store.topics`. */
+  feed(topic, mode, take, { main = false, known = null } = {}) {
+    const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
+    store.topics.set(topic, figures);
+    const stream = streams.subscribe(topic, { mode, prime: true }, {
+      records: (records, merged) => {
+        for (const record of records) {
+          take(record);
+          record.kind === 'event' && figures.count++;
+        }
+        figures.count += merged;
+        figures.last = Date.now();
+        main && (store.connection.lastRecord = Date.now());
+        store.tell('topics');
+      },
+      primed: () => {
+        known?.();
+        if (main) {
+          store.primed = true;
+          store.tell('entities');
+          store.isReplay || this.readPast();
+        }
+      },
+      gap: (missed) => (figures.gap += missed),
+      state: (state, reason) => {
+        Object.assign(figures, { state, reason });
+        store.tell('topics');
+        main && this.connection(state, reason);
+      },
+    });
+    return { close: () => { stream.close(); store.topics.delete(topic); store.tell('topics'); } };
+  }
+
+  connection(state, reason) {
+    const next = state === 'open' || state === 'paused' ? 'open' : state === 'connecting' && store.connection.state !== 'lost' ? 'connecting' : 'lost';
+    if (next !== store.connection.state) {
+      Object.assign(store.connection, { state: next, since: Date.now() });
+    }
+    store.connection.reason = reason;
+    store.tell('connection');
+  }
+
+  /** A list of the REST API in the store. */
+  keep(name, { path, key, topics }) {
+    const list = resource(path, { topics });
+    list.on(() => {
+      if (!list.error) {
+        store[name] = new Map((list.value ?? []).map((each) => [each[key], each]));
+      }
+      store.tell(name);
+    });
+  }
+
+  live() {
+    this.shown?.forEach((each) => each.close());
+    store.setMode({ kind: 'live' });
+    this.shown = [
+      this.feed('data.raw', 'latest', (record) => store.takeEntity(record), { main: true }),
+      this.feed('data.collision', 'all', (record) => store.takeEncounter(record)),
+      this.feed('data.temperature', 'all', (record) => store.takeTemperature(record)),
+      this.feed('data.images', 'latest', (record) => store.takeImage(record)),
+    ];
+  }
+
+  /** Once: after a lost connection lines go on where they ended. */
+  async readPast() {
+    if (this.pastRead) {
+      return;
+    }
+    this.pastRead = true;
+    try {
+      const { records } = await api.get(`/api/history/data.raw?${new URLSearchParams({ from: Date.now() - PAST_MILLIS, limit: PAST_REPORTS })}`);
+      store.isReplay || store.takePast(records);
+    } catch {
+      // lines and trails begin now
+    }
+  }
+
+  // --- replays -----------------------------------------------------------------------------------------------------
+
+  takeReplay(record) {
+    const known = store.replays.get(record.key);
+    if (record.value === null) {
+      known && store.replays.set(record.key, { ...known, gone: true });
+    } else {
+      store.replays.set(record.key, { ...record.value, status: known?.status });
+    }
+    store.tell('replays');
+    this.follow(record.key);
+  }
+
+  takeStatus(record) {
+    const known = store.replays.get(record.key) ?? { replay: record.key };
+    if (record.value === null) {
+      store.replays.delete(record.key);
+    } else {
+      store.replays.set(record.key, { ...known, status: { ...record.value, time: record.time } });
+    }
+    store.tell('replays');
+    this.follow(record.key);
+  }
+
+  /** Takes what is said of the replay that is shown. */
+  follow(name) {
+    const mode = store.mode;
+    if (mode.kind !== 'replay' || mode.replay !== name) {
+      return;
+    }
+    const replay = store.replays.get(name);
+    const status = replay?.status;
+    const progress = status?.progress ?? {};
+    store.setProgress({
+      state: status?.state ?? 'starting', reason: status?.reason, over: OVER.has(status?.state),
+      speed: replay?.speed ?? mode.speed, range: replay?.range ?? null, group: replay?.group ?? mode.group, wanted: replay?.wanted,
+      position: progress.position ?? mode.position, from: progress.from ?? mode.from, to: progress.to ?? mode.to,
+      at: status?.time ?? Date.now(), progress, waiting: progress.waiting,
+    });
+  }
+
+  /** @param {{replay: string, mission: string, topic: string, group: string=}} replay */
+  enterReplay(replay) {
+    const topic = replay.topic ?? store.replays.get(replay.replay)?.topic;
+    const known = store.replays.get(replay.replay);
+    const mission = replay.mission ?? known?.mission;
+    if (!topic || !mission) {
+      return; // only its status is known yet; it is entered when the rest is
+    }
+    const group = replay.group ?? known?.group;
+    const members = group ? [...store.replays.values()].filter((each) => each.group === group) : [{ ...known, ...replay, topic }];
+    this.shown?.forEach((each) => each.close());
+    const span = store.recordings.get(mission);
+    store.setMode({
+      kind: 'replay', replay: replay.replay, group, mission, topic, missions: members.map((each) => each.mission),
+      results: { collision: `${topic}.collision`, temperature: `${topic}.temperature`, presence: `${topic}.presence` },
+      state: 'starting', speed: known?.speed ?? 1, position: span?.first, from: span?.first, to: span?.last, at: Date.now(), epoch: -1,
+    });
+    this.epochs = new Map();
+    this.shown = members.flatMap((each, index) => [
+      this.feed(each.topic, 'latest', (record) => this.takeReplayed(record), { main: index === 0 }),
+      this.feed(`${each.topic}.collision`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeEncounter(record))),
+      this.feed(`${each.topic}.temperature`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeTemperature(record))),
+    ]);
+    this.follow(replay.replay);
+    this.readImages();
+  }
+
+  /** A jump begins an epoch: nothing of the one before is shown any more. */
+  takeReplayed(record) {
+    const epoch = Number(record.headers['replay-epoch'] ?? 0);
+    const known = this.epochs.get(record.topic) ?? -1;
+    if (epoch < known) {
+      return;
+    }
+    if (epoch > known) {
+      this.epochs.set(record.topic, epoch);
+      if (known >= 0 && epoch > store.mode.epoch) {
+        store.clearShown();
+        this.readImages();
+      }
+      store.mode.epoch = Math.max(store.mode.epoch, epoch);
+    }
+    if (record.headers['replay-kind'] !== 'end') {
+      store.takeEntity(record.headers['replay-kind'] === 'prime' ? { ...record, kind: 'prime' } : record);
+    }
+  }
+
+  takeResult(record, topic, take) {
+    const epoch = Number(record.headers['replay-epoch'] ?? 0);
+    if (epoch >= (this.epochs.get(topic) ?? 0)) {
+      take();
+    }
+  }
+
+  /** Pictures are stored once, and not played: a replay shows those that were the newest at its moment. */
+  async readImages() {
+    const { kind, from, replay } = store.mode;
+    if (kind !== 'replay' || !from || this.readingImages) {
+      return;
+    }
+    this.readingImages = true;
+    try {
+      const range = new URLSearchParams({ from, to: Math.ceil(store.now()) + 1, newest: 'entity' });
+      const found = await api.get(`/api/history/data.images?${range}`);
+      if (store.mode.replay === replay) {
+        found.records.forEach((record) => store.takeImage(record));
+      }
+    } catch {
+      // the cards say that there is no picture
+    } finally {
+      this.readingImages = false;
+    }
+  }
+
+  leaveReplay() {
+    if (store.mode.kind === 'replay') {
+      this.live();
+    }
+  }
+}
+
+export const feeds = new Feeds();
+
+/** Who asks, and what the server says of itself. @throws {import('./api.js').ApiError} */
+export async function introduce() {
+  store.me = await api.get('/api/me');
+  store.config = await api.get('/config.json').catch(() => ({}));
+  store.tell('me');
+}

@@ -1,0 +1,164 @@
+/** How numbers, times and names are written on the page. */
+import { t } from '../texts.js';
+
+const SECOND = 1000;
+const MINUTE = 60 * SECOND;
+const HOUR = 60 * MINUTE;
+const DAY = 24 * HOUR;
+
+const clockFormat = new Intl.DateTimeFormat(undefined, { hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23' });
+const dayFormat = new Intl.DateTimeFormat(undefined, { day: 'numeric', month: 'short' });
+const dateTimeFormat = new Intl.DateTimeFormat(undefined, {
+  day: 'numeric', month: 'short', year: 'numeric', hour: '2-digit', minute: '2-digit', second: '2-digit', hourCycle: 'h23',
+});
+const zoneFormat = new Intl.DateTimeFormat(undefined, { timeZoneName: 'short' });
+
+/** "0.4 s ago". @param {number} ms how long ago */
+export function age(ms) {
+  return t('format.ago', { duration: duration(Math.max(0, ms)) });
+}
+
+/** "0.4 s", "12 s", "3 min", "2 h", "5 d". */
+export function duration(ms) {
+  if (!Number.isFinite(ms)) {
+    return '–';
+  }
+  if (ms < 10 * SECOND) {
+    return `${(ms / SECOND).toFixed(1)} s`;
+  }
+  if (ms < 2 * MINUTE) {
+    return `${Math.floor(ms / SECOND)} s`;
+  }
+  if (ms < 2 * HOUR) {
+    return `${Math.floor(ms / MINUTE)} min`;
+  }
+  return ms < 2 * DAY ? `${Math.floor(ms / HOUR)} h` : `${Math.floor(ms / DAY)} d`;
+}
+
+/** "1:02:03" or "2:03": of a length on a time axis. */
+export function span(ms) {
+  const seconds = Math.max(0, Math.floor(ms / SECOND));
+  const [hours, minutes, rest] = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60, seconds % 60];
+  const two = (n) => String(n).padStart(2, '0');
+  return hours ? `${hours}:${two(minutes)}:${two(rest)}` : `${minutes}:${two(rest)}`;
+}
+
+/** "10:42:07", local. */
+export function clock(epochMs) {
+  return Number.isFinite(epochMs) ? clockFormat.format(epochMs) : '–';
+}
+
+/** "21 Nov". */
+export function day(epochMs) {
+  return Number.isFinite(epochMs) ? dayFormat.format(epochMs) : '–';
+}
+
+/** "21 Nov 2026, 10:42:07". */
+export function dateTime(epochMs) {
+  return Number.isFinite(epochMs) ? dateTimeFormat.format(epochMs) : '–';
+}
+
+/** "UTC+1". */
+export function zone(epochMs) {
+  const part = zoneFormat.formatToParts(epochMs).find((each) => each.type === 'timeZoneName')?.value ?? 'UTC';
+  return part.replace('GMT', 'UTC');
+}
+
+/** At most three significant decimals, and no more digits than help. */
+export function number(value) {
+  if (!Number.isFinite(value)) {
+    return '–';
+  }
+  const size = Math.abs(value);
+  if (size >= 1e9 || (size > 0 && size < 0.001)) {
+    return value.toExponential(2);
+  }
+  return size >= 100 || Number.isInteger(value)
+    ? Math.round(value).toLocaleString('en').replaceAll(',', ' ')
+    : value.toFixed(size >= 10 ? 1 : 2);
+}
+
+/** "4.6 m", "1.2 km". */
+export function distance(meters) {
+  if (!Number.isFinite(meters)) {
+    return '–';
+  }
+  return meters < 1000 ? `${meters.toFixed(meters < 100 ? 1 : 0)} m` : `${(meters / 1000).toFixed(1)} km`;
+}
+
+/** "12.4 °C". */
+export function temperature(celsius) {
+  return Number.isFinite(celsius) ? `${celsius.toFixed(1)} °C` : '–';
+}
+
+/** "1.2 kB", "3.4 MB". */
+export function bytes(count) {
+  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
+  let value = count;
+  let unit = 0;
+  while (value >= 1000 && unit < units.length - 1) {
+    value /= 1000;
+    unit++;
+  }
+  return `${unit === 0 ? value : value.toFixed(1)} ${units[unit]}`;
+}
+
+/** Units of UN/CEFACT that FIWARE's data models use, and those of attributes that say none. */
+const UNIT_CODES = { CEL: '°C', MTS: 'm/s', KMH: 'km/h', P1: '%', MTR: 'm', DD: '°', HPA: 'hPa', A97: 'hPa', LUX: 'lx', VLT: 'V', AMP: 'A', WTT: 'W', MMT: 'mm', D54: 'W/m²' };
+const KNOWN_UNITS = {
+  temperature: '°C', soiltemperature: '°C', dewpoint: '°C', speed: 'm/s', windspeed: 'm/s', heading: '°', winddirection: '°', humidity: '%', relativehumidity: '%',
+  soilmoisture: '%', battery: '%', pressure: 'hPa', atmosphericpressure: 'hPa', altitude: 'm', illuminance: 'lx', voltage: 'V', precipitation: 'mm', rainfall: 'mm', solarradiation: 'W/m²',
+};
+const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel']);
+
+/**
+ * What an attribute says, in words.
+ *
+ * @param {string} name
+ * @param {{value: *, metadata: Object=}} attribute its value read by `core/entity.js`
+ * @returns {{label: string, value: string, unit: string, numeric: boolean}}
+ */
+export function quantity(name, attribute) {
+  const known = name.toLowerCase();
+  let value = attribute.value;
+  if (typeof value === 'number') {
+    const code = attribute.metadata?.unitCode?.value ?? attribute.metadata?.unit?.value;
+    const unit = typeof code === 'string' ? UNIT_CODES[code] ?? code.slice(0, 12) : KNOWN_UNITS[known] ?? '';
+    if (SHARES.has(known) && value >= 0 && value <= 1 && unit === '%') {
+      value *= 100;
+    }
+    return { label: label(name), value: unit === '%' || unit === '°' ? String(Math.round(value)) : number(value), unit, numeric: true };
+  }
+  return { label: label(name), value: plain(value), unit: '', numeric: false };
+}
+
+/** A value as one line of text, cut to what a line can show. */
+export function plain(value, limit = 120) {
+  if (value === null || value === undefined || value === '') {
+    return '–';
+  }
+  if (typeof value === 'boolean') {
+    return t(value ? 'format.yes' : 'format.no');
+  }
+  const text = typeof value === 'object' ? JSON.stringify(value).slice(0, limit + 1) : String(value).slice(0, limit + 1);
+  return text.length > limit ? `${text.slice(0, limit)}…` : text;
+}
+
+/** "windSpeed", "wind_speed" → "Wind speed". */
+export function label(name) {
+  const words = name.slice(0, 60).replace(/([a-z0-9])([A-Z])/g, '$1 $2').replace(/[_\s]+/g, ' ').trim();
+  const lower = /^[A-Z0-9]{2,5}$/.test(words) ? words : words.toLowerCase();
+  return lower.charAt(0).toUpperCase() + lower.slice(1);
+}
+
+/** "urn:ngsi-ld:Thermometer:4" → "Thermometer 4". */
+export function shortId(id) {
+  const text = String(id).slice(0, 120);
+  const parts = text.split(':');
+  return text.startsWith('urn:ngsi-ld:') && parts.length >= 4 ? `${parts[2]} ${parts.slice(3).join(':')}` : text;
+}
+
+/** Ids inside a sentence in their readable form. */
+export function readable(sentence) {
+  return String(sentence).slice(0, 500).replace(/urn:ngsi-ld:[A-Za-z]+:[\w-]+/g, (id) => shortId(id));
+}

@@ -1,0 +1,372 @@
+/** All that the page shows. Feeds write it, elements listen to it. */
+import { newEntity, stateOf, takePast, takeReport } from './entity.js';
+
+/** Most entities that are kept; beyond it those not heard of for longest go. */
+const MOST_ENTITIES = 5_000;
+/** How long an encounter that ended stays to be seen, ms of what is shown. */
+const ENDED_SHOWN = 10_000;
+
+class Store {
+  constructor() {
+    this.handlers = new Map();
+    this.changed = new Map();
+    this.domains = new Map();
+    this.missions = new Map();
+    this.devices = new Map();
+    this.recordings = new Map();
+    this.replays = new Map();
+    this.alarms = new Map();
+    this.alarmsKnown = false;
+    this.topics = new Map();
+    this.me = { user: null, role: null };
+    this.config = {};
+    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null };
+    this.mode = { kind: 'live' };
+    this.scope = { domain: null, mission: null };
+    this.selection = null;
+    this.hovered = null;
+    this.cursor = null;
+    this.filter = '';
+    this.primed = false;
+    this.fields = new Map();
+    this.clearShown();
+  }
+
+  /** What belongs to one run of time: all goes when a replay begins, jumps or ends. */
+  clearShown() {
+    this.entities = new Map();
+    this.encounters = new Map();
+    this.suspects = new Map();
+    this.images = new Map();
+    this.fields.forEach((field) => (field.average = null));
+    this.all = true;
+    ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.tell(name));
+  }
+
+  // --- who listens -------------------------------------------------------------------------------------------------
+
+  /** @returns {function()} ends it. Handlers are called once per name and animation frame at most. */
+  on(name, handler) {
+    if (!this.handlers.has(name)) {
+      this.handlers.set(name, new Set());
+    }
+    this.handlers.get(name).add(handler);
+    return () => this.handlers.get(name).delete(handler);
+  }
+
+  /** Says that something changed. @param {string=} id of the entity, for `entities` */
+  tell(name, id) {
+    if (!this.changed.has(name)) {
+      this.changed.set(name, new Set());
+    }
+    id !== undefined && this.changed.get(name).add(id);
+    if (!this.scheduled) {
+      this.scheduled = true;
+      // a hidden tab draws no frames, but has to let go of what it remembers
+      document.hidden ? setTimeout(() => this.flush(), 1000) : requestAnimationFrame(() => this.flush());
+    }
+  }
+
+  flush() {
+    this.scheduled = false;
+    const changed = this.changed;
+    const all = this.all;
+    this.changed = new Map();
+    this.all = false;
+    for (const [name, ids] of changed) {
+      for (const handler of this.handlers.get(name) ?? []) {
+        try {
+          handler(ids, all);
+        } catch (error) {
+          console.error(`handler of ${name} failed`, error);
+        }
+      }
+    }
+  }
+
+  // --- time --------------------------------------------------------------------------------------------------------
+
+  /** Of what is shown, epoch ms: the clock, or where the replay is. */
+  now() {
+    if (this.mode.kind === 'live') {
+      return Date.now();
+    }
+    const { position, at, speed, state, to } = this.mode;
+    const moved = state === 'running' && typeof speed === 'number' ? (Date.now() - at) * speed : 0;
+    return Math.min(to ?? Infinity, (position ?? Date.now()) + Math.max(0, Math.min(moved, 2_000 * (speed || 1))));
+  }
+
+  stateOf(entity) {
+    return stateOf(entity, this.now());
+  }
+
+  /** Whether what is shown stands for now, or was recorded. */
+  get isReplay() {
+    return this.mode.kind === 'replay';
+  }
+
+  setMode(mode) {
+    const changed = mode.kind !== this.mode.kind || mode.replay !== this.mode.replay;
+    this.mode = mode;
+    if (changed) {
+      this.primed = false;
+      this.clearShown();
+    }
+    this.tell('mode');
+    this.tell('clock');
+  }
+
+  /** Where a replay is. @param {Object} progress */
+  setProgress(progress) {
+    Object.assign(this.mode, progress);
+    this.tell('mode');
+    this.tell('clock');
+  }
+
+  /** Shows a replay instead of what is live. @param {{replay: string, mission: string, topic: string}} replay of `/api/replays` */
+  enterReplay(replay) {
+    this.feeds?.enterReplay(replay);
+  }
+
+  leaveReplay() {
+    this.feeds?.leaveReplay();
+  }
+
+  // --- records -----------------------------------------------------------------------------------------------------
+
+  /** @param {import('./stream.js').TopicRecord} record of an entity */
+  takeEntity(record) {
+    const id = record.value?.id ?? record.key;
+    if (typeof id !== 'string' || id === '') {
+      return;
+    }
+    if (record.value === null && !record.cut) {
+      this.entities.delete(id);
+      this.all = true;
+      this.tell('entities', id);
+      return;
+    }
+    let entity = this.entities.get(id);
+    if (!entity) {
+      entity = newEntity(id);
+      this.entities.set(id, entity);
+      this.entities.size > MOST_ENTITIES && this.forgetOldest();
+    }
+    if (record.cut) {
+      entity.cut = record.cut;
+      entity.time = Math.max(entity.time, record.time);
+    } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
+      takeReport(entity, record);
+    }
+    entity.suspect = this.suspects.has(id);
+    entity.state = this.stateOf(entity);
+    this.tell('entities', id);
+  }
+
+  /** What was reported before the page was opened. @param {import('./stream.js').TopicRecord[]} records oldest first */
+  takePast(records) {
+    const reports = new Map();
+    records.forEach((record) => reports.has(record.key) ? reports.get(record.key).push(record) : reports.set(record.key, [record]));
+    for (const [id, of] of reports) {
+      const entity = this.entities.get(id);
+      if (entity) {
+        takePast(entity, of);
+        entity.state = this.stateOf(entity);
+        this.tell('entities', id);
+      }
+    }
+  }
+
+  forgetOldest() {
+    let oldest = null;
+    for (const each of this.entities.values()) {
+      oldest = oldest === null || each.time < oldest.time ? each : oldest;
+    }
+    this.entities.delete(oldest.id);
+    this.all = true;
+  }
+
+  /** States that change by time alone. */
+  tick() {
+    for (const entity of this.entities.values()) {
+      const state = this.stateOf(entity);
+      if (state !== entity.state) {
+        entity.state = state;
+        this.tell('entities', entity.id);
+      }
+    }
+    const now = this.now();
+    for (const [pair, encounter] of this.encounters) {
+      const timeout = encounter.phase === 'ended' || encounter.phase === 'crossed' ? ENDED_SHOWN : 60_000;
+      if (now - encounter.time > timeout) {
+        this.encounters.delete(pair);
+        this.tell('encounters');
+      }
+    }
+    this.tell('clock');
+  }
+
+  takeEncounter(record) {
+    const value = record.value;
+    if (!value || value.type !== 'Analytics:Collision') {
+      return;
+    }
+    const of = (name) => value[name]?.value;
+    const [a, b, phase] = [of('Device1_ID'), of('Device2_ID'), of('phase')];
+    if (typeof a !== 'string' || typeof b !== 'string') {
+      return;
+    }
+    const pair = `${a}|${b}`;
+    const known = this.encounters.get(pair);
+    if (known && known.time > record.time) {
+      return;
+    }
+    if (phase === 'withdrawn') {
+      this.encounters.delete(pair);
+      this.tell('encounters');
+      return;
+    }
+    if (phase === 'predicted' && known && (known.phase === 'started' || known.phase === 'ongoing')) {
+      return;
+    }
+    this.encounters.set(pair, {
+      pair, a, b, phase, id: of('encounter'),
+      distance: of('distance'), minDistance: of('minDistance') ?? of('dcpa') ?? of('distance'),
+      time: record.time, start: of('startTime') ?? record.time, tcpa: of('tcpa'),
+      at: [[of('Device1_longitude'), of('Device1_latitude')], [of('Device2_longitude'), of('Device2_latitude')]],
+    });
+    this.tell('encounters');
+  }
+
+  takeTemperature(record) {
+    const value = record.value;
+    const of = (name) => value?.[name]?.value;
+    const field = this.fields.get(of('field'));
+    if (value?.type !== 'Analytics:FieldTemperature' || !field) {
+      return;
+    }
+    if (field.average && field.average.time > record.time) {
+      return;
+    }
+    const suspects = Array.isArray(of('suspects')) ? of('suspects') : [];
+    field.average = {
+      value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
+      verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
+    };
+    for (const [device, suspect] of this.suspects) {
+      if (suspect.field === field.id && !suspects.includes(device)) {
+        this.suspects.delete(device);
+        this.remark(device);
+      }
+    }
+    for (const device of suspects) {
+      this.suspects.set(device, { field: field.id, mean: of('averageTemperature'), time: record.time });
+      this.remark(device);
+    }
+    this.tell('suspects');
+    this.tell('fields');
+  }
+
+  remark(id) {
+    const entity = this.entities.get(id);
+    if (entity) {
+      entity.suspect = this.suspects.has(id);
+      entity.state = this.stateOf(entity);
+      this.tell('entities', id);
+    }
+  }
+
+  /** A version of a field; of several the one that holds now. */
+  takeField(record) {
+    const [id, from] = String(record.key).split('@');
+    const validFrom = Date.parse(from) || 0;
+    const known = this.fields.get(id);
+    if ((known && known.validFrom > validFrom) || validFrom > this.now()) {
+      return;
+    }
+    if (!record.value?.geometry) {
+      this.fields.delete(id);
+    } else {
+      const properties = record.value.properties ?? {};
+      this.fields.set(id, {
+        id, validFrom, properties, geometry: record.value.geometry, name: typeof properties.name === 'string' ? properties.name : id,
+        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined, average: known?.average ?? null,
+      });
+    }
+    this.tell('fields');
+  }
+
+  takeImage(record) {
+    const image = record.value;
+    if (image?.entity) {
+      this.images.set(image.entity, { ...image, time: record.time });
+      this.tell('images', image.entity);
+    }
+  }
+
+  takeAlarm(record) {
+    record.value ? this.alarms.set(record.key, record.value) : this.alarms.delete(record.key);
+    this.tell('alarms');
+  }
+
+  /** All alarms that there were are known. */
+  alarmsRead() {
+    this.alarmsKnown = true;
+    this.tell('alarms');
+  }
+
+  // --- what is looked at -------------------------------------------------------------------------------------------
+
+  /** Entities of the chosen domain and mission; what belongs to none is always in it. */
+  inScope(entity) {
+    const { domain, mission } = this.scope;
+    return (domain === null || entity.domain === domain) && (mission === null || entity.mission === mission);
+  }
+
+  /** Whether a name, type or attribute holds what is searched for. */
+  matches(entity) {
+    const wanted = this.filter.trim().toLowerCase();
+    return wanted === ''
+      || entity.name.toLowerCase().includes(wanted)
+      || entity.id.toLowerCase().includes(wanted)
+      || entity.type.toLowerCase().includes(wanted)
+      || (entity.mission ?? '').toLowerCase().includes(wanted);
+  }
+
+  select(id, { reveal = false } = {}) {
+    this.selection = id;
+    this.reveal = reveal;
+    this.tell('selection');
+  }
+
+  setHovered(id) {
+    if (this.hovered !== id) {
+      this.hovered = id;
+      this.tell('hovered');
+    }
+  }
+
+  setCursor(time) {
+    this.cursor = time;
+    this.tell('cursor');
+  }
+
+  setFilter(text) {
+    this.filter = text;
+    this.tell('filter');
+  }
+
+  setScope(scope) {
+    this.scope = { domain: scope.domain ?? null, mission: scope.mission ?? null };
+    this.all = true;
+    this.tell('scope');
+    this.tell('entities');
+  }
+
+  /** @param {'operate'|'administer'} what */
+  may(what) {
+    return this.me.role === 'admin' || (what === 'operate' && this.me.role === 'operator');
+  }
+}
+
+export const store = new Store();

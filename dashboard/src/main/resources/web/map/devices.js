@@ -1,0 +1,215 @@
+/** Devices with trails and names, drawn anew in each frame in which something changed. */
+import { age } from '../core/format.js';
+import { store } from '../core/store.js';
+import { cluster, drawCluster } from './clusters.js';
+import { drawEncounters } from './encounters.js';
+import { LabelPlaces, drawText, widthOf } from './labels.js';
+import { colourOf } from './palette.js';
+import { isOnMap, project, projectPoint } from './projection.js';
+import { SIZE, drawSymbol, shapeOf } from './symbols.js';
+
+/** Points of trails in one frame; the more devices move, the shorter their trails. */
+const TRAIL_POINTS = 6_000;
+/** Trails of more than so many points are drawn anew only after this, ms, while the map stands still. */
+const FEW_POINTS = 1_500;
+const TRAIL_PAUSE = 500;
+/** So many names at most; beyond it only those that matter have one. */
+const MOST_LABELS = 60;
+const REACH = 14;
+/** Px; nearer to each other than so, devices cannot be told apart. */
+const SAME_SPOT = 4;
+/** Px; on a narrower map only those that matter have a name. */
+const NARROW = 560;
+/** The corner in which the map's buttons lie, px. */
+const CONTROLS = { width: 62, height: 244 };
+
+export class DeviceDrawing {
+  constructor(fields) {
+    this.fields = fields;
+    this.spots = [];
+    this.clusters = [];
+    this.byId = new Map();
+  }
+
+  draw(frame, palette, options) {
+    const { context, ratio } = frame;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, frame.width, frame.height);
+    const places = new LabelPlaces();
+    places.block(frame.width - CONTROLS.width, 0, frame.width, CONTROLS.height);
+    const inView = this.collect(frame);
+    const close = devicesOfEncounters();
+    const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'look' || close.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });
+    this.spots = single;
+    this.clusters = clusters;
+    // names of fields keep clear of what stands still, and do not run away from what moves
+    const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
+    standing.forEach((spot) => blockSymbol(places, spot));
+    this.fields.drawLabels(frame, palette, places);
+    moving.forEach((spot) => blockSymbol(places, spot));
+    drawEncounters(frame, palette, places, (id) => this.byId.get(id));
+    for (const each of clusters) {
+      each.radius = drawCluster(context, each, palette);
+      places.block(each.x - each.radius, each.y - each.radius, each.x + each.radius, each.y + each.radius);
+    }
+    this.drawSymbols(context, single, palette, ratio);
+    options.labels && this.drawLabels(frame, single, places, palette);
+  }
+
+  /** Which devices of the scope are in view of this frame, and where. */
+  collect(frame) {
+    const inView = [];
+    this.byId.clear();
+    const margin = 40;
+    for (const entity of store.entities.values()) {
+      if (!entity.position || !isOnMap(...entity.position) || !store.inScope(entity)) {
+        continue;
+      }
+      if (entity.drawnFrom !== entity.position) {
+        entity.drawnFrom = entity.position;
+        entity.xy = project(entity.position[0], entity.position[1]);
+      }
+      const x = frame.x(entity.xy[0], entity.xy[1]);
+      const y = frame.y(entity.xy[0], entity.xy[1]);
+      const spot = { entity, x, y };
+      this.byId.set(entity.id, spot);
+      if (x > -margin && y > -margin && x < frame.width + margin && y < frame.height + margin) {
+        inView.push(spot);
+      }
+    }
+    return inView;
+  }
+
+  /** Trails lie below and change slowly: those of many are not drawn in each frame. */
+  drawTrails(frame, frameState, palette, options) {
+    const key = `${frameState.coordinateToPixelTransform.join()} ${frame.width} ${frame.height} ${frame.ratio} ${palette.background} ${options.trails} ${store.selection} ${store.filter} ${store.scope.domain} ${store.scope.mission}`;
+    const now = performance.now();
+    if (key === this.trailKey && store.entities === this.trailsOf && this.trailPoints > FEW_POINTS && now - this.trailTime < TRAIL_PAUSE) {
+      return;
+    }
+    Object.assign(this, { trailKey: key, trailsOf: store.entities, trailTime: now, trailPoints: 0 });
+    const { context, ratio } = frame;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, frame.width, frame.height);
+    if (!options.trails) {
+      return;
+    }
+    const moving = [...store.entities.values()].filter((entity) =>
+      entity.position && isOnMap(...entity.position) && store.inScope(entity) && entity.trail.length > 1 && (entity.kind === 'robot' || entity.trail.length > 3));
+    const length = Math.max(2, Math.min(120, Math.floor(TRAIL_POINTS / Math.max(1, moving.length))));
+    context.lineCap = 'round';
+    context.lineJoin = 'round';
+    for (const entity of moving) {
+      const chosen = entity.id === store.selection;
+      const begin = chosen ? 0 : Math.max(0, entity.trail.length - length);
+      this.trailPoints += entity.trail.length - begin;
+      drawTrail(frame, entity.trail, begin, colourOf(entity, palette), chosen ? 3 : 2.5, dimmed(entity) ? 0.12 : 0.55);
+    }
+    context.globalAlpha = 1;
+  }
+
+  drawSymbols(context, spots, palette, ratio) {
+    // those that need a look last, so that none hides them
+    const order = { ok: 0, off: 1, stale: 2, look: 3 };
+    spots.sort((a, b) => (a.entity.kind === 'robot') - (b.entity.kind === 'robot') || order[a.entity.state] - order[b.entity.state]);
+    for (const { entity, x, y } of spots) {
+      const chosen = entity.id === store.selection;
+      if (chosen || entity.id === store.hovered) {
+        drawRing(context, x, y, SIZE[shapeOf(entity)] + 7, chosen ? palette.accent : palette.muted);
+      }
+      drawSymbol(context, entity, x, y, colourOf(entity, palette), palette, { ratio, alpha: dimmed(entity) ? 0.25 : 1 });
+    }
+  }
+
+  drawLabels(frame, spots, places, palette) {
+    const { context } = frame;
+    const rank = ({ entity }) =>
+      (entity.id === store.selection) * 16 + (entity.id === store.hovered) * 8 + (entity.state === 'look') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
+    const narrow = frame.width < NARROW;
+    const wanted = spots.filter(({ entity }) => !dimmed(entity) && (!narrow || rank({ entity }) > 1)).sort((a, b) => rank(b) - rank(a) || (a.entity.id < b.entity.id ? -1 : 1)).slice(0, MOST_LABELS);
+    for (const { entity, x, y } of wanted) {
+      const look = entity.state === 'look';
+      const stale = entity.state === 'stale';
+      const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
+      context.font = `${look || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
+      const place = places.beside(x, y, SIZE[shapeOf(entity)], widthOf(context, text), frame.width);
+      if (place) {
+        drawText(context, text, place.x, place.y, look ? palette.warning : stale ? palette.muted : palette.text, palette.background);
+      }
+    }
+  }
+
+  /** What is at a point: a device, several on one spot, or a cluster of them; of several `spots`. */
+  at(x, y) {
+    const nearest = this.nearest(x, y);
+    if (!nearest) {
+      return this.clusters.find((each) => (each.x - x) ** 2 + (each.y - y) ** 2 <= each.radius ** 2) ?? null;
+    }
+    const spots = this.spots.filter((each) => (each.x - nearest.x) ** 2 + (each.y - nearest.y) ** 2 <= SAME_SPOT * SAME_SPOT);
+    return spots.length > 1 ? { x: nearest.x, y: nearest.y, count: spots.length, spots } : nearest;
+  }
+
+  nearest(x, y) {
+    let nearest = null;
+    let least = REACH * REACH;
+    for (const spot of this.spots) {
+      const square = (spot.x - x) ** 2 + (spot.y - y) ** 2;
+      if (square <= least) {
+        least = square;
+        nearest = spot;
+      }
+    }
+    return nearest;
+  }
+}
+
+/** Those that are close to another must be seen, however many there are. */
+function devicesOfEncounters() {
+  const found = new Set();
+  for (const { a, b, phase } of store.encounters.values()) {
+    phase === 'ended' || phase === 'crossed' || found.add(a).add(b);
+  }
+  return found;
+}
+
+function isRobot({ entity }) {
+  return entity.kind === 'robot';
+}
+
+function blockSymbol(places, { entity, x, y }) {
+  const half = SIZE[shapeOf(entity)];
+  places.block(x - half, y - half, x + half, y + half);
+}
+
+function dimmed(entity) {
+  return store.filter !== '' && !store.matches(entity);
+}
+
+/** The older a part, the fainter: in four parts, which is enough to be seen. */
+function drawTrail(frame, trail, begin, colour, width, alpha) {
+  const { context } = frame;
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  const steps = trail.length - 1 - begin;
+  const parts = steps > 7 ? 4 : 1;
+  for (let part = 0; part < parts; part++) {
+    const from = begin + Math.floor(part * steps / parts);
+    const to = begin + Math.floor((part + 1) * steps / parts);
+    context.globalAlpha = alpha * (part + 1) / parts;
+    context.beginPath();
+    for (let i = from; i <= to; i++) {
+      projectPoint(trail, i);
+      const [x, y] = [frame.x(trail.x[i], trail.y[i]), frame.y(trail.x[i], trail.y[i])];
+      i === from ? context.moveTo(x, y) : context.lineTo(x, y);
+    }
+    context.stroke();
+  }
+}
+
+function drawRing(context, x, y, radius, colour) {
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.lineWidth = 2;
+  context.strokeStyle = colour;
+  context.stroke();
+}

@@ -1,0 +1,99 @@
+/** Encounters: who is too close to whom, and by how much. */
+import { distance } from '../core/format.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { isOnMap, project } from './projection.js';
+
+const FADING = 10_000;
+/** How long after its moment a prediction that did not come true stays, ms: nothing says that it is over. */
+const PREDICTION_STAYS = 3_000;
+
+/** @param {function(string): ({x: number, y: number}|undefined)} spotOf where a device is drawn */
+export function drawEncounters(frame, palette, places, spotOf) {
+  for (const encounter of store.encounters.values()) {
+    const ends = [spotOf(encounter.a) ?? reported(frame, encounter.at[0]), spotOf(encounter.b) ?? reported(frame, encounter.at[1])];
+    if (ends[0] && ends[1]) {
+      drawEncounter(frame.context, encounter, ends, palette, places);
+    }
+  }
+}
+
+function reported(frame, [lon, lat]) {
+  if (!isOnMap(lon, lat)) {
+    return null;
+  }
+  const [x, y] = project(lon, lat);
+  return { x: frame.x(x, y), y: frame.y(x, y) };
+}
+
+function drawEncounter(context, encounter, [from, to], palette, places) {
+  const look = lookOf(encounter, palette);
+  if (look.alpha <= 0) {
+    return;
+  }
+  const middle = { x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 };
+  const radius = Math.max(26, Math.hypot(to.x - from.x, to.y - from.y) / 2 + 20);
+  context.globalAlpha = look.alpha;
+  context.strokeStyle = look.colour;
+  context.lineWidth = 3;
+  context.setLineDash(look.dash);
+  context.beginPath();
+  context.moveTo(from.x, from.y);
+  context.lineTo(to.x, to.y);
+  context.stroke();
+  context.lineWidth = 1.5;
+  context.setLineDash([4, 4]);
+  context.beginPath();
+  context.arc(middle.x, middle.y, radius, 0, 2 * Math.PI);
+  context.stroke();
+  context.setLineDash([]);
+  drawPill(context, textOf(encounter), middle.x, middle.y - radius - 14, look, palette, places);
+  context.globalAlpha = 1;
+}
+
+function lookOf(encounter, palette) {
+  if (encounter.phase === 'predicted' && store.now() - encounter.time > (encounter.tcpa ?? 0) * 1000 + PREDICTION_STAYS) {
+    return { alpha: 0 };
+  }
+  if (encounter.phase === 'ended' || encounter.phase === 'crossed') {
+    const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADING);
+    return { colour: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
+  }
+  return encounter.phase === 'predicted' || encounter.phase === 'provisional'
+    ? { colour: palette.warning, ink: palette.background, dash: [7, 5], alpha: 1 }
+    : { colour: palette.critical, ink: palette['on-critical'], dash: [], alpha: 1 };
+}
+
+function textOf(encounter) {
+  if (encounter.phase === 'predicted') {
+    return t('map.predicted', { distance: distance(encounter.minDistance), time: Math.max(0, Math.round(encounter.tcpa ?? 0)) });
+  }
+  return encounter.phase === 'ended' || encounter.phase === 'crossed'
+    ? t('map.ended', { distance: distance(encounter.minDistance) })
+    : distance(currentDistance(encounter));
+}
+
+/** Between the newest positions, which are newer than what was told of the encounter. */
+function currentDistance(encounter) {
+  const [a, b] = [store.entities.get(encounter.a), store.entities.get(encounter.b)];
+  if (!a?.position || !b?.position) {
+    return encounter.distance;
+  }
+  const radians = Math.PI / 180;
+  const x = (b.position[0] - a.position[0]) * Math.cos((a.position[1] + b.position[1]) / 2 * radians);
+  return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
+}
+
+function drawPill(context, text, x, y, look, palette, places) {
+  context.font = `700 13px ${palette.family}`;
+  const half = context.measureText(text).width / 2 + 12;
+  context.beginPath();
+  context.roundRect(x - half, y - 12, 2 * half, 24, 12);
+  context.fillStyle = look.colour;
+  context.fill();
+  context.fillStyle = look.ink;
+  context.textAlign = 'center';
+  context.textBaseline = 'middle';
+  context.fillText(text, x, y + 0.5);
+  places.block(x - half, y - 12, x + half, y + 12);
+}

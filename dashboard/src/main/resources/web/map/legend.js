@@ -1,0 +1,47 @@
+/** What the symbols mean, and how long a stretch on the map is. */
+import { distance } from '../core/format.js';
+import { h, replace } from '../core/dom.js';
+import { t } from '../texts.js';
+import { readPalette } from './palette.js';
+import { trace } from './symbols.js';
+import { groundScale } from './projection.js';
+
+const WIDEST_BAR = 90;
+
+export function legend() {
+  const items = h('ul.legend-items');
+  const bar = h('span.scale-bar', { 'aria-hidden': 'true' });
+  const length = h('span.numbers');
+  const element = h('div.map-legend', { 'aria-label': t('map.legend') }, items, h('span.scale', null, length, bar));
+  return {
+    element,
+    draw() {
+      const palette = readPalette();
+      replace(items, [
+        [symbol('robot', palette['kind-robot']), t('kinds.robot')],
+        [symbol('sensor', palette['kind-sensor']), t('kinds.sensor')],
+        [symbol('camera', palette['kind-camera']), t('kinds.camera')],
+        [symbol('look', palette.warning), t('states.look')],
+        [h('span.legend-line', { 'aria-hidden': 'true' }), t('map.encounter')],
+      ].map(([image, words]) => h('li', null, image, words)));
+    },
+    scale(view) {
+      const center = ol.proj.toLonLat(view.getCenter());
+      const meters = view.getResolution() * groundScale(center[1]) * WIDEST_BAR;
+      const power = 10 ** Math.floor(Math.log10(meters));
+      const round = [5, 2, 1].map((each) => each * power).find((each) => each <= meters) ?? power;
+      bar.style.width = `${Math.round(WIDEST_BAR * round / meters)}px`;
+      length.textContent = distance(round).replace('.0', '');
+    },
+  };
+}
+
+function symbol(shape, colour) {
+  const canvas = h('canvas', { width: 40, height: 40, 'aria-hidden': 'true' });
+  const context = canvas.getContext('2d');
+  context.translate(20, 20);
+  trace(context, shape, shape === 'robot' || shape === 'look' ? 1.3 : 1.5);
+  context.fillStyle = colour;
+  context.fill();
+  return canvas;
+}

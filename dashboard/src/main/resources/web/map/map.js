@@ -1,0 +1,270 @@
+/** The map: fields, devices, encounters. */
+import { age } from '../core/format.js';
+import { h, replace } from '../core/dom.js';
+import { icon } from '../core/icons.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { CELL } from './clusters.js';
+import { DeviceDrawing } from './devices.js';
+import { FieldDrawing } from './fields.js';
+import { legend } from './legend.js';
+import { readPalette } from './palette.js';
+import { canvasLayer, isOnMap, project } from './projection.js';
+import { clearSymbols } from './symbols.js';
+import { mapTables } from './table.js';
+import { tiles } from './tiles.js';
+
+const OPTIONS = ['trails', 'labels', 'rows'];
+/** Devices farther from the median than so many times the spread of the middle half, and at least so many meters, do not widen the first view. */
+const FAR = 8;
+const NEIGHBOURHOOD = 250;
+/** As near as one comes to a cluster. */
+const CLOSEST = 22;
+const MOST_LISTED = 100;
+const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
+
+class FurrowMap extends HTMLElement {
+  static observedAttributes = ['hidden'];
+
+  connectedCallback() {
+    this.options = { trails: true, labels: true, rows: true };
+    this.fieldsVersion = 0;
+    this.palette = readPalette();
+    this.fields = new FieldDrawing();
+    this.devices = new DeviceDrawing(this.fields);
+    this.legend = legend();
+    this.tiles = tiles();
+    this.table = mapTables(() => this.toggleTable());
+    this.target = h('div.map-target', { tabindex: '0', role: 'application', 'aria-label': t('map.label') });
+    this.tooltip = h('div.map-tooltip', { hidden: true, role: 'status' });
+    this.empty = h('div.empty.map-empty', { hidden: true }, h('h2', null, t('map.emptyTitle')), h('p', null, t('map.emptyText')), h('code', null, './furrow scenario'));
+    this.list = h('div.map-list', { popover: 'auto' });
+    replace(this, this.target, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
+    this.createMap();
+    this.legend.draw();
+    this.offs = this.listen();
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    this.table.close();
+    this.map.setTarget(null);
+    this.map = null;
+  }
+
+  attributeChangedCallback() {
+    if (this.map && !this.hidden) {
+      this.map.updateSize();
+      this.fitFirst();
+      this.draw();
+    }
+  }
+
+  /** Behind another view nothing is drawn. */
+  draw() {
+    this.hidden || this.map?.render();
+  }
+
+  createMap() {
+    this.view = new ol.View({ center: project(10, 50), zoom: 4, minZoom: 2, maxZoom: 23, constrainResolution: false });
+    this.layers = {
+      fields: canvasLayer((frame, state) => this.fields.draw(frame, state, this.palette, this.options, this.fieldsVersion), 1),
+      trails: canvasLayer((frame, state) => this.devices.drawTrails(frame, state, this.palette, this.options), 2),
+      devices: canvasLayer((frame) => this.devices.draw(frame, this.palette, this.options), 3),
+    };
+    this.map = new ol.Map({
+      target: this.target, view: this.view, controls: [], layers: [...this.tiles.layers, ...Object.values(this.layers)], moveTolerance: 3,
+    });
+    this.map.on('moveend', () => this.legend.scale(this.view));
+    this.map.on('change:size', () => this.fitFirst());
+    this.map.on('pointerdrag', () => (this.moved = true));
+    this.map.on('pointermove', (event) => event.dragging || this.hover(event));
+    this.map.on('click', (event) => this.click(event));
+    this.target.addEventListener('pointerleave', () => this.leave());
+    this.target.addEventListener('wheel', () => (this.moved = true), { passive: true });
+    this.target.addEventListener('keydown', (event) => event.key.startsWith('Arrow') && (this.moved = true));
+    this.addEventListener('keydown', (event) => event.key === 'Escape' && (this.tooltip.hidden = true));
+  }
+
+  /** @returns {(function())[]} that end it */
+  listen() {
+    const draw = () => this.draw();
+    const fieldsChanged = () => {
+      this.fieldsVersion++;
+      this.fitFirst();
+      this.table.changed();
+      draw();
+    };
+    const schemeChanged = () => {
+      this.palette = readPalette();
+      clearSymbols();
+      this.fieldsVersion++;
+      this.legend.draw();
+      draw();
+    };
+    window.addEventListener('schemechange', schemeChanged);
+    fieldsChanged();
+    return [
+      ...['encounters', 'hovered', 'filter', 'scope'].map((name) => store.on(name, draw)),
+      store.on('entities', () => {
+        this.fitFirst();
+        this.table.changed();
+        this.showEmpty();
+        draw();
+      }),
+      store.on('clock', () => { draw(); this.table.changed(); }),
+      store.on('fields', fieldsChanged),
+      store.on('mode', () => { this.classList.toggle('is-replay', store.isReplay); draw(); }),
+      store.on('selection', () => { store.reveal && this.reveal(); draw(); }),
+      () => window.removeEventListener('schemechange', schemeChanged),
+    ];
+  }
+
+  // --- the view ----------------------------------------------------------------------------------------------------
+
+  /** The farm fills the map until somebody moves it. */
+  fitFirst() {
+    const shown = `${store.fields.size} ${store.primed} ${this.map?.getSize()}`;
+    if (!this.hidden && !this.moved && this.fitted !== shown) {
+      this.fitted = shown;
+      this.fit(0);
+    }
+  }
+
+  fit(duration = 300) {
+    const extent = this.fields.extent() ?? this.devicesExtent();
+    if (extent && this.map.getSize()) {
+      const [width, height] = this.map.getSize();
+      const narrow = width < 600;
+      // the controls are on the right, the scale and the legend below
+      const padding = narrow ? [20, 60, 44, 16] : [36, 72, 84, 36];
+      this.view.fit(extent, { padding: height < 240 ? [16, 16, 16, 16] : padding, maxZoom: 20, duration: reducedMotion.matches ? 0 : duration });
+      this.legend.scale(this.view);
+    }
+  }
+
+  /** Of the devices, but for those far from the middle half of them: one that is lost does not make the farm a dot. */
+  devicesExtent() {
+    const points = [...store.entities.values()].filter((each) => each.position && isOnMap(...each.position) && store.inScope(each)).map((each) => project(...each.position));
+    if (!points.length) {
+      return null;
+    }
+    const [x, y] = [0, 1].map((axis) => middleOf(points.map((point) => point[axis])));
+    const reach = Math.max(x.spread, y.spread, NEIGHBOURHOOD) * FAR;
+    const near = points.filter((point) => Math.abs(point[0] - x.median) <= reach && Math.abs(point[1] - y.median) <= reach);
+    return ol.extent.buffer(ol.extent.boundingExtent(near.length ? near : points), 50);
+  }
+
+  reveal() {
+    const entity = store.entities.get(store.selection);
+    if (entity?.position && isOnMap(...entity.position)) {
+      const center = project(...entity.position);
+      this.moved = true;
+      const near = this.view.getResolution() > 2 ? { zoom: 18 } : {};
+      this.view.animate({ center, ...near, duration: reducedMotion.matches ? 0 : 350 });
+    }
+  }
+
+  zoom(by) {
+    this.moved = true;
+    this.view.animate({ zoom: this.view.getZoom() + by, duration: reducedMotion.matches ? 0 : 160 });
+  }
+
+  // --- pointer -----------------------------------------------------------------------------------------------------
+
+  hover(event) {
+    const found = this.devices.at(...event.pixel);
+    this.target.style.cursor = found ? 'pointer' : '';
+    store.setHovered(found?.entity?.id ?? null);
+    this.tooltip.hidden = !found;
+    if (found) {
+      replace(this.tooltip, found.entity ? tooltipOf(found.entity) : t('map.cluster', { count: found.count }));
+      const right = found.x > this.clientWidth - 220;
+      this.tooltip.style.transform = `translate(${Math.round(found.x + (right ? -18 : 18))}px, ${Math.round(found.y + 14)}px)${right ? ' translateX(-100%)' : ''}`;
+    }
+  }
+
+  leave() {
+    store.setHovered(null);
+    this.tooltip.hidden = true;
+  }
+
+  click(event) {
+    const found = this.devices.at(...event.pixel);
+    if (found?.entity) {
+      store.select(found.entity.id);
+    } else if (found) {
+      const extent = ol.extent.boundingExtent(found.spots.map((each) => each.entity.xy));
+      const spread = Math.max(ol.extent.getWidth(extent), ol.extent.getHeight(extent));
+      spread / this.view.getResolutionForZoom(CLOSEST) < CELL ? this.openList(found) : this.open(extent);
+    } else {
+      store.select(null);
+    }
+  }
+
+  open(extent) {
+    this.moved = true;
+    this.view.fit(ol.extent.buffer(extent, 5), { padding: [80, 80, 80, 80], maxZoom: CLOSEST, duration: reducedMotion.matches ? 0 : 300 });
+  }
+
+  /** Of devices that no zoom tells apart. */
+  openList({ x, y, spots }) {
+    const names = spots.map(({ entity }) => entity).sort((a, b) => (a.name < b.name ? -1 : 1)).slice(0, MOST_LISTED);
+    replace(this.list,
+      h('p.small.muted', null, t('map.oneSpot', { count: spots.length })),
+      h('ul', null, names.map((entity) => h('li', null, h('button.button.quiet', {
+        type: 'button', on: { click: () => { this.list.hidePopover(); store.select(entity.id, { reveal: false }); } },
+      }, h('span', null, entity.name), h('span.small.muted', null, t(`states.${entity.state}`)))))));
+    const box = this.getBoundingClientRect();
+    this.list.style.left = `${Math.max(8, Math.min(box.left + x + 12, innerWidth - 268))}px`;
+    this.list.style.top = `${Math.max(8, Math.min(box.top + y + 12, innerHeight - 328))}px`;
+    // after the click is over, which would close it
+    setTimeout(() => {
+      this.list.showPopover();
+      this.list.querySelector('button').focus();
+    });
+  }
+
+  // --- controls ----------------------------------------------------------------------------------------------------
+
+  controls() {
+    const button = (symbol, words, click, attributes = {}) =>
+      h('button.button.square', { type: 'button', 'aria-label': words, title: words, on: { click }, ...attributes }, icon(symbol, 18));
+    const menu = h('div.map-menu', { id: 'map-layers', popover: 'auto' }, OPTIONS.map((name) => h('label.check', null,
+      h('input', { type: 'checkbox', checked: true, on: { change: (event) => this.setOption(name, event.target.checked) } }), t(`map.options.${name}`))));
+    this.tableButton = button('table', t('map.table'), () => this.toggleTable(), { 'aria-expanded': 'false' });
+    return h('div.map-controls', { role: 'group', 'aria-label': t('map.controls') },
+      button('plus', t('map.zoomIn'), () => this.zoom(1)),
+      button('minus', t('map.zoomOut'), () => this.zoom(-1)),
+      button('locate', t('map.fit'), () => { this.moved = false; this.fit(); }),
+      button('layers', t('map.layers'), () => {}, { popovertarget: 'map-layers' }),
+      this.tableButton, menu);
+  }
+
+  setOption(name, on) {
+    this.options[name] = on;
+    this.draw();
+  }
+
+  toggleTable() {
+    const open = this.table.toggle();
+    this.tableButton.setAttribute('aria-expanded', String(open));
+    open ? this.table.element.querySelector('button')?.focus() : this.tableButton.focus();
+  }
+
+  showEmpty() {
+    this.empty.hidden = !store.primed || store.entities.size > 0 || store.isReplay;
+  }
+}
+
+function middleOf(values) {
+  const sorted = values.sort((a, b) => a - b);
+  const at = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+  return { median: at(0.5), spread: at(0.75) - at(0.25) };
+}
+
+function tooltipOf(entity) {
+  return [h('strong', null, entity.name), h('span.muted', null, `${t(`kinds.${entity.kind}`)} · ${t(`states.${entity.state}`)} · ${age(store.now() - entity.time)}`)];
+}
+
+customElements.define('furrow-map', FurrowMap);

@@ -1,0 +1,30 @@
+/** The tokens' colours for what is drawn on canvases. */
+
+const NAMES = [
+  'background', 'panel', 'raised', 'line', 'text', 'muted', 'accent', 'live', 'replay', 'warning', 'critical', 'on-critical', 'information',
+  'field', 'field-row', 'field-border', 'kind-robot', 'kind-robot-2', 'kind-sensor', 'kind-camera', 'kind-other',
+];
+
+/** @returns {Object<string, string>} by the token's name */
+export function readPalette() {
+  const style = getComputedStyle(document.documentElement);
+  const palette = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  palette.family = style.getPropertyValue('--family').trim();
+  return palette;
+}
+
+/** Robots differ in colour, so that their trails can be told apart; others are coloured by kind. */
+export function colourOf(entity, palette) {
+  if (entity.kind === 'robot') {
+    return hash(entity.id) % 2 === 0 ? palette['kind-robot'] : palette['kind-robot-2'];
+  }
+  return palette[`kind-${entity.kind}`] ?? palette['kind-other'];
+}
+
+function hash(text) {
+  let sum = 0;
+  for (let i = 0; i < text.length; i++) {
+    sum = (sum * 31 + text.charCodeAt(i)) | 0;
+  }
+  return Math.abs(sum);
+}

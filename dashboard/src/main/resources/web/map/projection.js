@@ -1,0 +1,64 @@
+/** Web Mercator, and from it to pixels of the frame that is drawn. */
+
+const RADIUS = 6_378_137;
+const LIMIT = 85.05;
+
+/** Whether a place can be drawn: Web Mercator ends before the poles. */
+export function isOnMap(lon, lat) {
+  return Number.isFinite(lon) && Number.isFinite(lat) && Math.abs(lon) <= 180 && Math.abs(lat) <= LIMIT;
+}
+
+/** @returns {[number, number]} meters of EPSG:3857 */
+export function project(lon, lat) {
+  const bounded = Math.max(-LIMIT, Math.min(LIMIT, lat));
+  return [RADIUS * lon * Math.PI / 180, RADIUS * Math.log(Math.tan(Math.PI / 4 + bounded * Math.PI / 360))];
+}
+
+/** A point of a trail, which keeps what it comes to. @param {import('../core/line.js').Line} trail */
+export function projectPoint(trail, index) {
+  if (Number.isNaN(trail.x[index])) {
+    [trail.x[index], trail.y[index]] = project(trail.lon[index], trail.lat[index]);
+  }
+}
+
+/** How many meters on the ground a meter of the projection is there. */
+export function groundScale(lat) {
+  return Math.cos(lat * Math.PI / 180);
+}
+
+/**
+ * A canvas of the size of the map, and how coordinates come to pixels on it.
+ *
+ * @param {HTMLCanvasElement} canvas
+ * @param {Object} frameState of OpenLayers
+ */
+export function frameOf(canvas, frameState) {
+  const ratio = frameState.pixelRatio;
+  const [width, height] = frameState.size;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
+  }
+  const [a, b, c, d, e, f] = frameState.coordinateToPixelTransform;
+  return {
+    context: canvas.getContext('2d'), ratio, width, height, resolution: frameState.viewState.resolution, rotation: frameState.viewState.rotation,
+    x: (x, y) => a * x + c * y + e,
+    y: (x, y) => b * x + d * y + f,
+  };
+}
+
+/** A layer that a function draws on a canvas of its own. */
+export function canvasLayer(draw, zIndex) {
+  const canvas = document.createElement('canvas');
+  canvas.className = 'map-canvas';
+  return new ol.layer.Layer({
+    zIndex,
+    source: new ol.source.Source({}),
+    render: (frameState) => {
+      draw(frameOf(canvas, frameState), frameState);
+      return canvas;
+    },
+  });
+}

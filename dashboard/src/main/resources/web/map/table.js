@@ -1,0 +1,123 @@
+/** What the map shows, as tables. */
+import { age, distance, number, shortId, temperature } from '../core/format.js';
+import { h, replace } from '../core/dom.js';
+import { icon } from '../core/icons.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { isOnMap } from './projection.js';
+
+const COLUMNS = ['name', 'kind', 'state', 'position', 'speed', 'age'];
+const NUMBERS = new Set(['speed', 'age', 'average', 'devices', 'distance', 'closest']);
+const MOST_ROWS = 500;
+const REDRAW_MILLIS = 1_000;
+
+export function mapTables(onClose) {
+  let sorted = 'name';
+  let down = false;
+  let waiting = null;
+  const body = h('tbody');
+  const head = h('tr');
+  const more = h('p.small.muted');
+  const fields = h('div');
+  const encounters = h('div');
+  const element = h('section.map-table', { hidden: true, 'aria-label': t('map.table') },
+    h('header', null, h('h2', null, t('map.table')), h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('map.closeTable'), on: { click: onClose } }, icon('close', 18))),
+    h('div.map-tables', { tabindex: '0', role: 'group', 'aria-label': t('map.table') },
+      encounters,
+      h('div', null, h('h3', null, t('map.tables.devices')), h('div.table-frame', null, h('table.table', { 'aria-label': t('map.tables.devices') }, h('thead', null, head), body)), more),
+      fields));
+
+  function drawHead() {
+    replace(head, COLUMNS.map((name) => h('th', { scope: 'col', 'aria-sort': name === sorted ? (down ? 'descending' : 'ascending') : null, class: NUMBERS.has(name) ? 'numbers' : '' },
+      h('button.sort', { type: 'button', on: { click: () => { down = name === sorted && !down; sorted = name; drawHead(); draw(); } } }, t(`map.columns.${name}`)))));
+  }
+
+  function draw() {
+    const now = store.now();
+    const rows = [...store.entities.values()].filter((each) => store.inScope(each) && store.matches(each));
+    rows.sort((a, b) => compare(valueOf(a, sorted), valueOf(b, sorted)) * (down ? -1 : 1) || compare(a.id, b.id));
+    const focused = body.contains(document.activeElement) ? document.activeElement.dataset.id : null;
+    replace(body, rows.slice(0, MOST_ROWS).map((each) => row(each, now)));
+    more.textContent = rows.length > MOST_ROWS ? t('map.moreRows', { count: rows.length - MOST_ROWS }) : '';
+    focused && body.querySelector(`[data-id="${CSS.escape(focused)}"]`)?.focus();
+    drawTable(encounters, 'encounters', ['pair', 'phase', 'distance', 'closest', 'age'], [...store.encounters.values()].sort((a, b) => b.time - a.time).map((each) => encounterRow(each, now)));
+    drawTable(fields, 'fields', ['field', 'average', 'devices', 'suspects', 'age'], [...store.fields.values()].sort((a, b) => compare(a.name, b.name)).map((each) => fieldRow(each, now)));
+  }
+
+  drawHead();
+  return {
+    element,
+    /** Once a second is often enough for whoever reads. */
+    changed() {
+      if (!element.hidden && waiting === null) {
+        waiting = setTimeout(() => { waiting = null; draw(); }, REDRAW_MILLIS);
+      }
+    },
+    toggle() {
+      element.hidden = !element.hidden;
+      element.hidden || draw();
+      return !element.hidden;
+    },
+    close() {
+      clearTimeout(waiting);
+    },
+  };
+}
+
+/** Nothing where there is nothing to tell. */
+function drawTable(place, name, columns, rows) {
+  replace(place, rows.length > 0 && [h('h3', null, t(`map.tables.${name}`)), h('div.table-frame', null, h('table.table', { 'aria-label': t(`map.tables.${name}`) },
+    h('thead', null, h('tr', null, columns.map((each) => h('th', { scope: 'col', class: NUMBERS.has(each) ? 'numbers' : '' }, t(`map.columns.${each}`))))),
+    h('tbody', null, rows)))]);
+}
+
+function encounterRow(encounter, now) {
+  return h('tr', null,
+    h('th', { scope: 'row' }, `${nameOf(encounter.a)} – ${nameOf(encounter.b)}`),
+    h('td', null, t(`map.phases.${encounter.phase}`)),
+    h('td.numbers', null, distance(encounter.distance)),
+    h('td.numbers', null, distance(encounter.minDistance)),
+    h('td.numbers', null, age(now - encounter.time)));
+}
+
+function fieldRow(field, now) {
+  const { average } = field;
+  return h('tr', null,
+    h('th', { scope: 'row' }, field.name),
+    h('td.numbers', null, field.exclusion ? t('map.noAlarms') : average ? temperature(average.value) : '–'),
+    h('td.numbers', null, average ? `${average.count}${average.verified ? '' : ` · ${t('map.unverified')}`}` : '–'),
+    h('td', null, average?.suspects.length ? average.suspects.map(nameOf).join(', ') : '–'),
+    h('td.numbers', null, average ? age(now - average.time) : '–'));
+}
+
+function nameOf(id) {
+  return store.entities.get(id)?.name ?? shortId(id);
+}
+
+function row(entity, now) {
+  return h('tr', { class: entity.id === store.selection ? 'selected' : '' },
+    h('th', { scope: 'row' }, h('button.sort', { type: 'button', data: { id: entity.id }, on: { click: () => store.select(entity.id, { reveal: true }), focus: () => store.setHovered(entity.id) } }, entity.name)),
+    h('td', null, t(`kinds.${entity.kind}`)),
+    h('td', null, t(`states.${entity.state}`)),
+    h('td.numbers', null, place(entity)),
+    h('td.numbers', null, entity.speed === null ? '–' : `${number(entity.speed)} m/s`),
+    h('td.numbers', null, age(now - entity.time)));
+}
+
+function place(entity) {
+  if (entity.position && !isOnMap(...entity.position)) {
+    return t('map.faults.out-of-range');
+  }
+  if (entity.position) {
+    return `${entity.position[1].toFixed(5)}, ${entity.position[0].toFixed(5)}`;
+  }
+  return entity.positionFault ? t(`map.faults.${entity.positionFault}`) : '–';
+}
+
+function valueOf(entity, column) {
+  return { name: entity.name.toLowerCase(), kind: entity.kind, state: entity.state, position: entity.position?.[1] ?? -99, speed: entity.speed ?? -1, age: -entity.time }[column];
+}
+
+function compare(a, b) {
+  return typeof a === 'number' ? a - b : String(a).localeCompare(String(b), undefined, { numeric: true });
+}

@@ -1,0 +1,254 @@
+/** All words of the page, for translation: `t('section.name', {count: 3})`. */
+
+export const texts = {
+  app: {
+    title: 'Furrow',
+    skip: 'Skip to content',
+    find: 'Find a device, field or alarm', findShort: 'Find …',
+    live: 'Live',
+    replayOf: 'Replay of {mission} · {day}',
+    toLive: 'Back to live',
+    alarms: '{count} open alarms',
+    places: 'Places',
+    settings: 'Settings',
+    signOut: 'Sign out',
+    scheme: 'Appearance',
+    schemes: { system: 'As the system', dark: 'Dark', light: 'Light', sunlight: 'Sunlight, high contrast' },
+    allDomains: 'All domains',
+    viewFailed: 'This part of the page could not be loaded: {reason}. Reload the page; if it stays so, look at the dashboard’s log.',
+    lost: 'Not connected for {duration}, trying again. What is shown is from {time}.',
+    lostNever: 'Not connected for {duration}, trying again. {reason}',
+    gap: '{count} records were missed while away.',
+    panel: 'Alarms and devices',
+    timeline: 'Timeline',
+    enteredReplay: 'Replay of {mission} is shown. Commands are not sent.',
+    enteredLive: 'What is live is shown.',
+  },
+
+  views: { map: 'Map', missions: 'Missions', replays: 'Replays', analyses: 'Analyses', topics: 'Topics', platform: 'Platform' },
+
+  signIn: {
+    title: 'Sign in',
+    token: 'Access token',
+    hint: 'The control plane knows the tokens; whoever runs it can give you one.',
+    submit: 'Sign in',
+    wrong: 'The control plane does not know this token.',
+  },
+
+  opening: {
+    away: 'The farm cannot be shown yet: {reason}',
+    again: 'It is tried again by itself.',
+    retry: 'Try now',
+  },
+
+  format: { ago: '{duration} ago', yes: 'yes', no: 'no' },
+
+  errors: {
+    noAnswer: 'The server does not answer. Check that ./furrow dashboard runs and that this machine reaches it.',
+    status: 'The server refused it with status {status}.',
+  },
+
+  kinds: { robot: 'robot', sensor: 'sensor', camera: 'camera', other: 'device' },
+  states: { ok: 'reporting', look: 'needs a look', stale: 'silent', off: 'off' },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  map: {
+    label: 'Map of the farm. Arrow keys move it, plus and minus zoom; the table has the same in rows.',
+    controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
+    tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
+    options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
+    legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}',
+    devices: '{count} devices', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
+    cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
+    columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
+    phases: { predicted: 'predicted', provisional: 'predicted', started: 'too close', ongoing: 'too close', ended: 'over', crossed: 'crossed', confirms: 'too close' },
+    faults: { 'no-number': 'no number', 'out-of-range': 'outside the map', 'no-fix': 'no fix' },
+    moreRows: 'and {count} more; search to find them',
+    emptyTitle: 'No devices yet', emptyText: 'As soon as a device reports, it is here. Simulated ones come with',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  cards: {
+    title: 'Devices', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
+    state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
+    line: '{label}: now {now} {unit}, between {least} and {most} {unit}',
+    tooLarge: 'Too large to show', omitted: '{count} more attributes are not shown.',
+    noPicture: 'No picture stored yet', pictureOf: 'Picture of {age}', pictureAlt: 'Newest picture of {name}', pictureFailed: 'No picture: {reason}',
+    recorded: 'recorded, not sent', notAllowed: 'Commands need the role operator', confirm: 'Send “{command}” to {name}?', refused: '{command} was not sent: {reason}',
+    outcomes: { pending: '{command} sent {ago}, no answer yet', ok: '✓ {command}, {ago}', failed: '✗ {command} failed {ago}. {info}', unanswered: '{command}: no answer since {ago}' },
+    none: 'No devices yet', noneHint: 'As soon as a device reports, its card is here.',
+    noneYet: 'Nothing yet at this moment', noneYetHint: 'The replay has not reached a report, or none is in it.',
+    noMatch: 'Nothing matches', noMatchHint: 'Clear the search or the chips above to see all devices.',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  alarms: {
+    title: 'Alarms', reading: 'Alarms are being read …', open: '{count} open', none: 'No open alarms', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'These are live, not of the replay.',
+    acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
+    seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'another alarm says more',
+    announced: 'New alarm, {severity}: {text}', notify: 'Tell me when this page is in the background', notification: 'Furrow: {severity} alarm',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  topics: {
+    hint: 'Tick a topic to see its records; the map sign shows only a domain or mission on the map.',
+    sections: { results: 'Results', domains: 'Domains and missions', all: 'Everything reported', replays: 'Replays', service: 'Requests and states', other: 'Other topics' },
+    rate: '{rate}/s', noneYet: 'no records yet', noDomains: 'No domain has been made yet: the missions view makes one.',
+    showOnly: 'Show only {name} on the map', showAll: 'Show everything on the map again',
+    records: 'Records', noneChosen: 'No topic chosen', noneChosenHint: 'Several may be chosen at once; their records come here, newest first.',
+    columns: { time: 'Time', topic: 'Topic', key: 'Key', value: 'Value' },
+    pause: 'Pause', goOn: 'Go on', paused: 'paused', findKey: 'Only keys with …', count: '{count} newest', gaps: '{count} missed', waiting: 'trying to connect',
+    open: 'Record of {time}', cut: 'too large to show: {size}', deleted: 'deleted', shortened: 'shortened, {size} in all', where: 'Partition {partition}, offset {offset}, key {key}', headers: 'Headers',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  missions: {
+    tabs: { missions: 'Missions', domains: 'Domains and fields', audit: 'Who commanded what' },
+    new: 'New mission', create: 'Create', cancel: 'Cancel', name: 'Name', nameHint: '1 to 64 of A–Z a–z 0–9 _ -', domain: 'Domain', template: 'Template', chooseTemplate: 'Choose a template …',
+    noTemplateList: 'The templates cannot be listed: {reason}', ownDevices: 'No template: devices by their ids', ownHint: 'Entity ids of devices that report by themselves, one a line.', minutes: 'Length in minutes', minutesHint: 'Empty: until it is stopped', startNow: 'Start it at once',
+    none: 'No missions yet', noneHint: 'A mission says which devices work where. Create one from a template.',
+    states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
+    confirmed: '{confirmed} of {devices} devices', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices that are as wanted',
+    startedAt: 'started {time}', lasts: 'for {duration}', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay', notAllowed: 'This needs the role operator',
+    startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Its devices are switched off. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
+    devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
+    viewer: 'You can look at everything. To command takes the role of an operator', noDevicesYet: 'Its devices are being made.', planned: '{count} devices are planned; they are made when it starts.', moreDevices: 'and {count} more',
+    check: 'Check of each device', unnamed: 'Device', levels: { ok: 'in order', unknown: 'not known', warning: 'needs a look', problem: 'in the way' },
+    checkGood: 'All {count} in order', checkBad: '{bad} of {count} need a look', checkProblem: '{problems} of {count} are in the way, {bad} more need a look',
+    findings: {
+      made: '{count} made when the mission starts', neverSeen: 'never heard of: whether it is reachable is not known', seen: 'heard {ago} ago', silent: 'silent for {ago}', off: 'switched off; the mission switches it on',
+      noBattery: 'tells no battery', battery: 'battery {percent} %', batteryLow: 'battery low, {percent} %', used: 'runs in mission {mission}',
+      noPosition: 'its position is not known', noFields: 'the domain has no field', noSuchField: 'there is no field {field}', inside: 'in {field}', outside: 'outside the fields of the domain',
+    },
+    audit: 'Who commanded what', noAudit: 'Nobody has commanded anything yet.', noAuditOf: 'Nobody has commanded anything of it.', noAuditYet: 'Nothing of it is among the newest commands.', showOlder: 'Show older', readingOlder: 'Reading older ones …', noOlder: 'There are no older ones.', auditOf: { mission: 'Mission', device: 'Device', all: 'all' }, auditColumns: { time: 'When', user: 'Who', command: 'Command', about: 'About', result: 'Result' },
+    targets: { mission: 'mission', domain: 'domain', replay: 'replay', alarm: 'alarm', device: 'device', field: 'fields', marker: 'marker', other: 'other' }, refusedBecause: 'refused: {reason}',
+    domains: 'Domains', newDomain: 'New domain', noDomains: 'No domains yet', noDomainsHint: 'A domain is a farm, or a part of one; missions and fields belong to it.', domainId: 'Name in topics', domainName: 'Name for people', description: 'Description',
+    domainHas: '{missions} missions, {fields} fields', deleteDomain: 'Delete domain {domain}', deleteDomainText: 'It is refused while missions run in it.', noDomain: 'none',
+    fields: 'Fields', noFields: 'No fields yet', noFieldsHint: 'Import the borders of fields as GeoJSON; averages and presence are told for each.', fieldColumns: { field: 'Field', domain: 'Domain', kind: 'Kind', from: 'Since' },
+    field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as each feature says', close: 'Close',
+    previewFields: 'Areas in the file: {count}', previewSome: 'Areas in the file: {areas}. Other features, which will be refused: {others}', previewGeoPackage: 'A GeoPackage is read by the server.', tooLarge: 'The file has {size} MiB; at most 16 are taken.', imported: 'Imported: {imported}. Unchanged: {unchanged}', feature: 'Feature {number} {id}', noGeoJson: 'The file is no GeoJSON.', refusedFields: '{count} refused',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  replays: {
+    title: 'Replays',
+    lead: 'What missions reported, played once more: on the map, in the cards, and for analytics.',
+    running: 'Running',
+    recorded: 'Recorded missions',
+    count: '{count}',
+    none: 'No missions are stored yet',
+    noneHint: 'With MongoDB, all that a mission reports is stored from its start. Start one, and it is listed here half a minute later.',
+    noneButton: 'To the missions',
+    failed: 'The recordings cannot be listed: {reason}',
+    noMongo: 'This suite stores no missions: it was started without MongoDB (--mongo).',
+    choose: 'Choose {mission}',
+    choice: 'Mission', when: 'When', length: 'Length', devices: 'Devices', events: 'Events', density: 'Events over time',
+    now: 'being recorded',
+    chooseOne: 'Choose one mission, or several to play them on one clock.',
+    plan: 'New replay',
+    planOf: 'Replay of {missions}',
+    oneClock: 'On one clock: at one moment all show the same event time.',
+    from: 'From', to: 'To', wrongRange: 'The end must be after the beginning.',
+    speed: 'Speed', times: '{speed} ×', fastest: 'as fast as it goes',
+    analytics: 'With analytics', analyticsHint: 'Encounters, averages and presence are found anew and shown with the replay.',
+    loop: 'Over and over',
+    skip: 'Shorten stretches without events to 30 s',
+    start: 'Start replay', starting: 'Starting …',
+    notPlayed: 'Nothing plays the replay. Check that the job replay runs: ./furrow replay list shows what it says.',
+    viewer: 'Viewers can watch replays that run. To start one takes the role of an operator.',
+    noRunning: 'No replay runs',
+    noRunningHint: 'Choose a mission below and start one.',
+    watch: 'Watch', watching: 'Watched', stop: 'Stop', again: 'Play again', leave: 'Back to live',
+    copyLink: 'Copy link to this moment', copied: 'Copied. The link leads to {time}.', copyFailed: 'The browser does not let the link be copied: {link}',
+    position: '{position} of {length} at {speed} ×', positionFast: '{position} of {length}, as fast as it goes',
+    states: { starting: 'starting', waiting: 'waiting', running: 'playing', paused: 'paused', ended: 'at its end', stopped: 'stopped', failed: 'failed', over: 'over' },
+    link: 'A link to a moment of {missions}', linkHint: '{time}. That replay is over; it can be started there.', linkStart: 'Start it there',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  timeline: {
+    position: 'Play head',
+    live: 'live',
+    play: 'Play', pause: 'Pause', playHint: 'Play or pause (space)',
+    stepBack: 'Step back', stepBackHint: 'One event back (←); 10 s with shift',
+    stepForward: 'Step forward', stepForwardHint: 'One event on (→); 10 s with shift',
+    speed: 'Speed', times: '{speed} ×', fastest: 'fastest',
+    loop: 'Loop', loopHint: 'Play a part over and over ([ and ] set its ends; drag along the times)',
+    mark: 'Add a marker', markHint: 'Mark this moment with a note (m)',
+    more: 'More controls',
+    zoomIn: 'Zoom in', zoomInHint: 'Zoom in (wheel)', zoomOut: 'Zoom out', zoomOutHint: 'Zoom out (wheel)',
+    encounter: '{count} encounter', encounters: '{count} encounters', marker: '{count} marker', markers: '{count} markers',
+    lastMinutes: 'last {minutes} min',
+    valueReplay: '{time}, {done} of {all}, {state}',
+    valueLive: 'live',
+    valueMoment: '{time}, chosen to replay from',
+    states: { starting: 'starting', waiting: 'waiting', running: 'playing', paused: 'paused', ended: 'at its end', stopped: 'stopped', failed: 'failed', over: 'over' },
+    replayMission: 'Replay {mission}',
+    replayFrom: 'Replay from {time}',
+    chooseReplay: 'Replays',
+    startAgain: 'Start again',
+    starting: 'The replay starts.',
+    notPlayed: 'Nothing plays the replay. Check that the job replay runs: ./furrow replay list shows what it says.',
+    counting: 'counting events …',
+    noDensity: 'No picture of the events: {reason}',
+    tipEncounter: '{pair} · closest {distance}',
+    flag: 'Marker {note}, {time}',
+    markTitle: 'Mark this moment', markNote: 'What is to be seen here?', markSave: 'Add marker', cancel: 'Cancel',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  analyses: {
+    title: 'Analyses',
+    live: 'What analytics found live.', replay: 'What analytics found in the replay of {mission}.', noAnalytics: 'This replay was started without analytics. What was found live while it was recorded is shown.',
+    period: 'Period', hours: 'last {hours} h', quarter: 'last 15 min', mission: 'whole mission',
+    averages: 'Averages per field', encounters: 'Encounters', presence: 'Presence in fields',
+    chart: 'Chart', table: 'Table',
+    since: 'The topic holds this since {time}; what was before has been deleted.',
+    failed: 'This could not be read: {reason}', retry: 'Try again',
+    noAverages: 'No averages in this period', noAveragesHint: 'Averages are made of thermometers inside of fields, window by window.',
+    noEncounters: 'No encounters in this period', noEncountersHint: 'An encounter begins when two devices come closer than the threshold.',
+    noPresence: 'Nobody was in a field in this period', noPresenceHint: 'A stay begins when a device enters a field.',
+    window: 'Window', field: 'Field', mean: 'Average', plain: 'Plain mean', devices: 'Devices', suspects: 'Suspects', quality: 'Quality', none: 'none',
+    qualities: { robust: 'robust', unverified: 'unverified' },
+    suspectMark: 'Triangle: a device was suspect in this window', hide: 'Show or hide {field}',
+    when: 'When', pair: 'Devices', closest: 'Closest', duration: 'Duration', phase: 'Phase', sort: 'Sort by {column}',
+    phases: { started: 'goes on', ongoing: 'goes on', ended: 'ended', crossed: 'crossed' },
+    toMoment: 'To the moment', toMomentOf: 'Show the moment of {pair} at {time} on the map', startFrom: 'Starts a replay of {mission} there',
+    noRecording: 'not recorded', more: '{shown} of {count} are shown',
+    stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
+    celsius: '°C', at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
+  },
+
+  // ------------------------------------------------------------------------------------------------------------------
+
+  platform: {
+    well: 'Everything is at work', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag} records behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
+    parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
+    lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.',
+    letters: 'Dead letters', noLetters: 'None in {count} topics', lettersHint: 'Their headers say what was wrong and where. Once that is repaired, bring them back:', lettersCommand: 'Commands that bring dead letters back', notKnown: 'Not known while it does not answer.',
+    hops: 'How long a report takes', hop: 'Hop', samples: '{count} reports of the last minute', hopsWait: 'A few reports are waited for …',
+    hopNames: { device: 'Device to Kafka', source: 'Kafka to domain', page: 'Domain to this page', all: 'Together' },
+    hopsHint: 'By the times in the records’ headers: when the device measured, when the NGSI source took it, when ingest had routed it, and when it was here. The bright part is half of all reports, the faint ones are 95 and 99 of 100. Clocks that differ show as delay.',
+  },
+};
+
+/**
+ * @param {string} key `section.name`
+ * @param {Object<string, *>=} values put in the place of `{name}`
+ */
+export function t(key, values = {}) {
+  const text = key.split('.').reduce((section, name) => section?.[name], texts);
+  if (typeof text !== 'string') {
+    console.error(`no text ${key}`);
+    return key;
+  }
+  return text.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
+}

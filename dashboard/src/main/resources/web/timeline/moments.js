@@ -1,0 +1,107 @@
+/** Encounters and markers of missions: where something happened. */
+import { api } from '../core/api.js';
+import { shortId } from '../core/format.js';
+
+/** Encounters of a pair that begin within so many ms are one that was found twice. */
+const SAME = 2_000;
+
+/**
+ * @typedef {Object} Encounter
+ * @property {string} id @property {string} a @property {string} b ids of the devices @property {string} phase
+ * @property {number} start @property {number} end epoch ms; the end of one that is not over is what is known of it
+ * @property {number} closest meters @property {string[]} missions @property {number} epoch of a replay @property {[number, number]|null} at
+ */
+
+/**
+ * An encounter as its newest record tells it; predictions are none.
+ *
+ * @param {import('../core/stream.js').TopicRecord} record of `data.collision`, or of what was found in a replay
+ * @returns {Encounter|null}
+ */
+export function readEncounter(record) {
+  const of = (name) => record.value?.[name]?.value;
+  const phase = of('phase');
+  if (record.value?.type !== 'Analytics:Collision' || !['started', 'ongoing', 'ended', 'crossed'].includes(phase)) {
+    return null;
+  }
+  const ahead = Number(record.headers?.['replay-offset'] ?? 0);
+  const [a, b] = [String(of('Device1_ID')), String(of('Device2_ID'))];
+  const end = Number(of('time') ?? record.time) - ahead;
+  const [lon, lat] = [of('Device1_longitude'), of('Device1_latitude')];
+  return {
+    id: String(of('encounter') ?? `${a}-${b}-${record.time}`), a, b, phase, pair: `${shortId(a)} – ${shortId(b)}`,
+    start: Math.min(end, Number(of('startTime') ?? end) - ahead), end,
+    closest: Number(of('minDistance') ?? of('dcpa') ?? of('distance')),
+    missions: [of('Device1_Mission'), of('Device2_Mission')].filter((each) => typeof each === 'string'),
+    epoch: Number(record.headers?.['replay-epoch'] ?? 0),
+    at: typeof lon === 'number' && typeof lat === 'number' ? [lon, lat] : null,
+  };
+}
+
+/**
+ * What a topic holds of a stretch of time.
+ *
+ * @param {{from: number, to: number=, newest: string=, limit: number=}} range epoch ms; `newest` names an attribute of whose values only the newest record comes
+ * @returns {Promise<{records: import('../core/stream.js').TopicRecord[], since: number}>} `since`: from when on it is whole
+ */
+export async function history(topic, range, options) {
+  const known = Object.entries(range).filter(([, value]) => value !== undefined);
+  return api.get(`/api/history/${encodeURIComponent(topic)}?${new URLSearchParams(known)}`, options);
+}
+
+/** As {@link history}, of a topic that comes with its first record. */
+export async function historyIfAny(topic, range, options) {
+  try {
+    return await history(topic, range, options);
+  } catch (error) {
+    if (error.status === 404) {
+      return { records: [], since: range.from };
+    }
+    throw error;
+  }
+}
+
+/** Those of one list, and of the other what the first does not have. */
+export function union(encounters, others) {
+  return [...encounters, ...others.filter((other) =>
+    !encounters.some((each) => each.a === other.a && each.b === other.b && Math.abs(each.start - other.start) <= SAME))]
+    .sort((one, other) => one.start - other.start);
+}
+
+/** Encounters that were found live while a mission was recorded, as far as the topic holds them. */
+export async function encountersOf(missions, from, to) {
+  const { records, since } = await historyIfAny('data.collision', { from: Math.floor(from), to: Math.ceil(to) + 1, newest: 'encounter' });
+  const encounters = records.map(readEncounter).filter((each) => each && each.missions.some((mission) => missions.includes(mission)));
+  return { encounters: union([], encounters), since };
+}
+
+/** All encounters that were found live since a time. */
+export async function encountersSince(from) {
+  const { records } = await historyIfAny('data.collision', { from: Math.floor(from), newest: 'encounter' });
+  return union([], records.map(readEncounter).filter(Boolean));
+}
+
+/** Encounters that were found in a replay, of all its epochs. @param {string} topic of the replay */
+export async function encountersIn(topic) {
+  const { records } = await historyIfAny(`${topic}.collision`, { from: 0, newest: 'encounter' });
+  return records.map(readEncounter).filter(Boolean).sort((one, other) => other.epoch - one.epoch).reduce((all, each) => union(all, [each]), []);
+}
+
+/** @returns {Promise<{id: string, mission: string, time: number, note: string, author: string}[]>} by time; none where no MongoDB keeps them */
+export async function markersOf(missions) {
+  const lists = await Promise.all(missions.map((mission) => api.get(`/api/missions/${encodeURIComponent(mission)}/markers`).catch((error) => {
+    if (error.status === 501 || error.status === 404) {
+      return [];
+    }
+    throw error;
+  })));
+  return lists.flat().sort((one, other) => one.time - other.time);
+}
+
+export function addMarker(mission, time, note) {
+  return api.post(`/api/missions/${encodeURIComponent(mission)}/markers`, { time: Math.round(time), note });
+}
+
+export function removeMarker(marker) {
+  return api.del(`/api/missions/${encodeURIComponent(marker.mission)}/markers/${encodeURIComponent(marker.id)}`);
+}

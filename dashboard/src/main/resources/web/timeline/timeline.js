@@ -1,0 +1,314 @@
+/** The timeline below the map: what came in lately, or where a replay is and how it is steered. */
+import { replace } from '../core/dom.js';
+import { onRoute } from '../core/router.js';
+import { store } from '../core/store.js';
+import { Seeking } from './control.js';
+import { Density } from './density.js';
+import { draw, palette, sharp } from './draw.js';
+import { keyOf } from './keys.js';
+import { LIVE_LENGTH, LiveDensity } from './live.js';
+import { openMarker } from './marker-dialog.js';
+import { encountersIn, encountersOf, encountersSince, markersOf, union } from './moments.js';
+import { Parts } from './parts.js';
+import { Pointer } from './pointer.js';
+import { Scale } from './scale.js';
+import { Showing } from './showing.js';
+import { Steering } from './steering.js';
+
+const BAR = 6;
+const JUMP = 10_000;
+const SECOND = 1_000;
+/** Encounters and markers are looked for again after so many ms. */
+const MOMENTS_EVERY = 15_000;
+/** A jump that was asked for is shown at once, until the replay says so itself. */
+const SETTLES_WITHIN = 3_000;
+/** Where the replay is after a jump may differ by so many ms. */
+const NEAR = 1_500;
+/** Encounters of a pair that begin within so many ms are one. */
+const SAME = 2_000;
+
+class Timeline extends Parts(Showing(Steering(HTMLElement))) {
+  connectedCallback() {
+    this.scale = new Scale();
+    this.live = new LiveDensity(() => this.redraw());
+    this.density = new Density(() => this.redraw());
+    this.encounters = [];
+    this.markers = [];
+    this.jumped = null;
+    this.moment = null;
+    this.seeking = new Seeking((error) => { this.jumped = null; this.say(error.message); });
+    this.build();
+    this.pointer = new Pointer(this.track, this);
+    this.observer = new ResizeObserver(() => this.resized());
+    this.observer.observe(this.track);
+    this.onKey = (event) => this.key(event);
+    this.onScheme = () => { this.colors = null; this.redraw(); };
+    document.addEventListener('keydown', this.onKey);
+    window.addEventListener('schemechange', this.onScheme);
+    this.offs = [
+      store.on('mode', () => this.modeChanged()),
+      store.on('clock', () => this.tick()),
+      store.on('encounters', () => this.takeEncounters()),
+      store.on('recordings', () => this.showActions()),
+      store.on('scope', () => this.showActions()),
+      store.on('me', () => this.showActions()),
+      store.on('cursor', () => this.showCursor()),
+      store.on('connection', () => this.showState()),
+      onRoute(() => this.takeLink()),
+    ];
+    this.timer = setInterval(() => document.hidden || this.move(), this.stepTime());
+    this.lastMoments = 0;
+    this.modeChanged();
+    this.takeLink();
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    clearTimeout(this.linking);
+    clearInterval(this.timer);
+    clearTimeout(this.noteTimer);
+    this.density.clear();
+    this.observer.disconnect();
+    document.removeEventListener('keydown', this.onKey);
+    window.removeEventListener('schemechange', this.onScheme);
+  }
+
+  /** The play head glides, or steps where motion is not wanted. */
+  stepTime() {
+    return matchMedia('(prefers-reduced-motion: reduce)').matches ? SECOND : 100;
+  }
+
+  modeChanged() {
+    const replaying = store.isReplay;
+    const key = replaying ? `${store.mode.replay} ${store.mode.missions}` : 'live';
+    this.classList.toggle('replay', replaying);
+    if (key !== this.shown) {
+      this.shown = key;
+      this.jumped = null;
+      this.moment = null;
+      this.encounters = [];
+      this.markers = [];
+      this.lastMoments = 0;
+      this.density.clear();
+      this.live.seen = null;
+      this.tip.hidden = true;
+      this.scale = Object.assign(new Scale(), { width: this.scale.width });
+      replace(this.flags);
+    }
+    this.showActions();
+    this.tick();
+  }
+
+  get extent() {
+    if (!store.isReplay) {
+      const now = Date.now();
+      return [now - LIVE_LENGTH, now];
+    }
+    const { position, missions, replay } = store.mode;
+    // what was asked for; the mission itself may go on
+    const asked = store.replays.get(replay);
+    const [from, to] = [asked?.from ?? store.mode.from, asked?.to ?? store.mode.to];
+    const known = (missions ?? []).map((each) => store.recordings.get(each)).filter(Boolean);
+    const first = from ?? Math.min(...known.map((each) => each.first));
+    const last = Math.max(to ?? 0, ...known.filter(() => to === undefined).map((each) => each.last));
+    this.known = Number.isFinite(first) && last > first;
+    return this.known ? [first, last] : [position ?? 0, (position ?? 0) + SECOND];
+  }
+
+  extend() {
+    this.scale.setExtent(...this.extent);
+  }
+
+  /** What is shown, epoch ms. */
+  get position() {
+    if (this.pointer?.scrubbing !== null && this.pointer?.scrubbing !== undefined) {
+      return this.pointer.scrubbing;
+    }
+    const { jumped } = this;
+    if (jumped) {
+      const { speed, position } = store.mode;
+      const near = Math.abs(position - jumped.to) <= NEAR + NEAR * (typeof speed === 'number' ? speed : 1);
+      if (this.seeking.busy || (Date.now() - jumped.at < SETTLES_WITHIN && !near)) {
+        return jumped.to;
+      }
+      this.jumped = null;
+    }
+    return store.now();
+  }
+
+  // --- drawing -----------------------------------------------------------------------------------------------------
+
+  resized() {
+    this.scale.width = Math.max(1, this.track.clientWidth);
+    this.height = this.track.clientHeight;
+    this.redraw();
+  }
+
+  /** Each second, and with each status of a replay. */
+  tick() {
+    this.extend();
+    if (Date.now() - this.lastMoments > (store.isReplay ? MOMENTS_EVERY : LIVE_LENGTH)) {
+      this.findMoments();
+    }
+    store.isReplay || this.live.tick();
+    this.showState();
+    this.redraw();
+  }
+
+  redraw() {
+    if (!this.drawing) {
+      this.drawing = requestAnimationFrame(() => {
+        this.drawing = null;
+        this.isConnected && this.height && this.draw();
+      });
+    }
+  }
+
+  draw() {
+    const { scale, height } = this;
+    this.colors ??= palette(this);
+    const replaying = store.isReplay;
+    if (replaying && this.known && store.mode.missions?.length) {
+      this.density.want(store.mode.missions, scale.from, scale.to, Math.max(20, Math.floor(scale.width / BAR)));
+    }
+    this.canvas.style.width = `${scale.width}px`;
+    this.canvas.style.height = `${height}px`;
+    draw(sharp(this.canvas, scale.width, height), {
+      scale, height, colors: this.colors, encounters: this.encounters, density: replaying ? this.density : this.live,
+      position: this.position, range: this.range, kind: store.mode.kind,
+    });
+    this.showEdges();
+    this.showFlags();
+    this.showCover();
+    this.showCursor();
+    this.move();
+  }
+
+  /** The play head alone; the rest only where a bucket was passed. */
+  move() {
+    const at = store.isReplay ? this.position : this.moment ?? Date.now();
+    if (!store.isReplay && this.moment === null) {
+      this.extend();
+    }
+    const x = this.scale.x(at);
+    this.head.hidden = x < -1 || x > this.scale.width + 1;
+    this.head.style.transform = `translateX(${Math.min(this.scale.width - 1, Math.max(0, x))}px)`;
+    const bucket = Math.floor(x / BAR);
+    if (bucket !== this.bucket) {
+      this.bucket = bucket;
+      this.redraw();
+    }
+    this.showTime();
+  }
+
+  // --- what happened -----------------------------------------------------------------------------------------------
+
+  async findMoments() {
+    const shown = this.shown;
+    if (this.finding === shown || (store.isReplay && !this.known)) {
+      return;
+    }
+    this.finding = shown;
+    this.lastMoments = Date.now();
+    try {
+      const { topic, missions } = store.mode;
+      const [from, to] = this.extent;
+      const [live, replayed, markers] = store.isReplay
+        ? await Promise.all([encountersOf(missions, from, to).catch(() => ({ encounters: [] })), encountersIn(topic).catch(() => []), markersOf(missions).catch(() => [])])
+        : [{ encounters: await encountersSince(from).catch(() => null) }, [], []];
+      if (shown === this.shown && this.isConnected) {
+        if (live.encounters === null) {
+          this.lastMoments += MOMENTS_EVERY - LIVE_LENGTH; // not read; asked again soon
+          return;
+        }
+        this.encounters = union(live.encounters, replayed);
+        this.markers = markers;
+        this.flagKey = null;
+        this.takeEncounters(); // those that came while the history was read
+        this.showState();
+      }
+    } finally {
+      this.finding = null;
+    }
+  }
+
+  /** Those that come meanwhile. */
+  takeEncounters() {
+    let changed = false;
+    for (const each of store.encounters.values()) {
+      if (!['started', 'ongoing', 'ended', 'crossed'].includes(each.phase)) {
+        continue;
+      }
+      const known = this.encounters.find((one) => one.a === each.a && one.b === each.b && Math.abs(one.start - each.start) <= SAME);
+      if (known) {
+        known.end = Math.max(known.end, each.time);
+        known.closest = Math.min(known.closest, each.minDistance);
+      } else {
+        const name = (id) => store.entities.get(id)?.name ?? id;
+        this.encounters.push({ ...each, pair: `${name(each.a)} – ${name(each.b)}`, end: each.time, closest: each.minDistance, missions: [], epoch: 0 });
+        changed = true;
+      }
+    }
+    if (!store.isReplay) {
+      this.encounters = this.encounters.filter((each) => each.end > Date.now() - LIVE_LENGTH);
+    }
+    changed && this.showState();
+    this.redraw();
+  }
+
+  openMarker() {
+    if (store.isReplay && store.may('operate')) {
+      openMarker(store.mode.mission, this.position, {
+        added: () => this.findMoments(), closed: () => this.track.focus({ preventScroll: true }),
+      });
+    }
+  }
+
+  // --- pointer and keys --------------------------------------------------------------------------------------------
+
+  zoom(factor, x = this.scale.x(this.position)) {
+    const at = x >= 0 && x <= this.scale.width ? x : this.scale.width / 2;
+    this.scale.zoom(factor, at);
+    this.redraw();
+  }
+
+  pan(pixels) {
+    this.scale.pan((pixels / this.scale.width) * this.scale.length);
+    this.redraw();
+  }
+
+  /** A click or drag in what is live chooses the moment from which a mission would be played. */
+  choose(time) {
+    this.moment = time === null || time > Date.now() - SECOND ? null : time;
+    this.showActions();
+    this.move();
+  }
+
+  key(event) {
+    const act = keyOf(event, this);
+    if (!act) {
+      return;
+    }
+    if (act === 'leave') {
+      this.choose(null);
+      return;
+    }
+    if (!store.isReplay) {
+      const moves = { back: -SECOND, forward: SECOND, jumpBack: -JUMP, jumpForward: JUMP };
+      if (moves[act] && document.activeElement === this.track) {
+        event.preventDefault();
+        this.choose(Math.max(this.extent[0], (this.moment ?? Date.now()) + moves[act]));
+      }
+      return;
+    }
+    event.preventDefault();
+    const acts = {
+      toggle: () => this.toggle(), back: () => this.step(-1), forward: () => this.step(1), jumpBack: () => this.seek(this.position - JUMP), jumpForward: () => this.seek(this.position + JUMP),
+      loopFrom: () => this.setEdge('from'), loopTo: () => this.setEdge('to'), start: () => this.seek(this.extent[0]), end: () => this.seek(this.extent[1] - 1),
+      mark: () => this.openMarker(), zoomIn: () => this.zoom(0.5), zoomOut: () => this.zoom(2),
+    };
+    acts[act]?.();
+  }
+}
+
+customElements.define('furrow-timeline', Timeline);

@@ -1,0 +1,248 @@
+/** What analytics found: averages of fields, encounters, presence. In a replay what was found in it. */
+import { h, replace, setText } from '../core/dom.js';
+import { clock, dateTime, duration, temperature } from '../core/format.js';
+import { icon } from '../core/icons.js';
+import { navigate } from '../core/router.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { startReplay, steer } from '../timeline/control.js';
+import { AveragesChart } from './analyses/chart.js';
+import { Findings } from './analyses/data.js';
+import { EncounterTable } from './analyses/encounters.js';
+import { PresenceBars } from './analyses/presence.js';
+
+const MINUTE = 60_000;
+const PERIODS = [15 * MINUTE, 60 * MINUTE, 6 * 60 * MINUTE, 24 * 60 * MINUTE];
+const TICK = 5_000;
+/** How long before an encounter its replay begins, ms. */
+const BEFORE = 5_000;
+const MOST_ROWS = 500;
+
+class Analyses extends HTMLElement {
+  connectedCallback() {
+    this.period = PERIODS[1];
+    this.tables = new Set();
+    this.chart = new AveragesChart();
+    this.encounters = new EncounterTable((each) => this.lead(each));
+    this.presence = new PresenceBars((stay) => this.lead({ start: stay.from + BEFORE, missions: [stay.mission].filter(Boolean), a: stay.device }));
+    this.build();
+    this.offs = [
+      store.on('mode', () => this.modeChanged()), store.on('fields', () => this.soon()), store.on('recordings', () => this.soon()), store.on('me', () => this.soon()),
+    ];
+    this.timer = setInterval(() => document.hidden || this.show(), TICK);
+    this.load();
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    clearInterval(this.timer);
+    cancelAnimationFrame(this.frame);
+    this.findings?.close();
+    this.chart.close();
+    this.presence.close();
+  }
+
+  build() {
+    this.lead1 = h('p.muted');
+    this.periods = h('div.segments', { role: 'group', 'aria-label': t('analyses.period') }, PERIODS.map((period) => h('button.button.small', {
+      type: 'button', data: { period }, on: { click: () => this.choose(period) },
+    }, period < 60 * MINUTE ? t('analyses.quarter') : t('analyses.hours', { hours: period / 60 / MINUTE }))));
+    this.note = h('p.small', { role: 'status' });
+    this.failed = h('div', { hidden: true });
+    this.parts = Object.fromEntries(['averages', 'encounters', 'presence'].map((name) => [name, this.part(name)]));
+    replace(this, h('div.view', null,
+      h('header', null, h('div', null, h('h1', null, t('analyses.title')), this.lead1), h('span.spacer'), this.periods),
+      this.failed, this.note, Object.values(this.parts).map((each) => each.element)));
+  }
+
+  part(name) {
+    const count = h('span.numbers');
+    const content = h('div');
+    const since = h('p.small.muted', { hidden: true });
+    const asTable = name === 'encounters' ? null : h('button.button.small.quiet', { type: 'button', 'aria-pressed': 'false', on: { click: () => this.toggleTable(name) } }, icon('table', 16), t('analyses.table'));
+    const element = h(`section.panel.stack.analysis.${name}`, { 'aria-label': t(`analyses.${name}`) }, h('div.row', null, h('h2', null, t(`analyses.${name}`)), count, h('span.spacer'), asTable), content, since);
+    return { name, element, count, content, since, asTable, shown: null };
+  }
+
+  toggleTable(name) {
+    this.tables.has(name) ? this.tables.delete(name) : this.tables.add(name);
+    this.parts[name].asTable.setAttribute('aria-pressed', String(this.tables.has(name)));
+    this.show();
+  }
+
+  choose(period) {
+    this.period = period;
+    this.load();
+  }
+
+  modeChanged() {
+    if (this.modeKey !== this.keyOfMode()) {
+      this.load();
+    }
+  }
+
+  keyOfMode() {
+    return store.isReplay ? `${store.mode.replay}` : 'live';
+  }
+
+  /** Of a replay with analytics what was found in it; else what was found live. */
+  load() {
+    this.modeKey = this.keyOfMode();
+    this.findings?.close();
+    const { mode } = store;
+    const replayed = store.isReplay && (store.replays.get(mode.replay)?.analytics?.length ?? 0) > 0;
+    const topics = replayed
+      ? { averages: mode.results.temperature, encounters: mode.results.collision, stays: mode.results.presence }
+      : { averages: 'data.temperature', encounters: 'data.collision', stays: 'data.presence' };
+    this.replayed = replayed;
+    this.findings = new Findings(topics, this.range, { replay: replayed, changed: () => this.soon() });
+    this.periods.hidden = store.isReplay;
+    for (const button of this.periods.children) {
+      button.setAttribute('aria-pressed', String(Number(button.dataset.period) === this.period));
+    }
+    setText(this.lead1, !replayed ? t('analyses.live') : t('analyses.replay', { mission: mode.missions.join(' + ') }));
+    setText(this.note, store.isReplay && !replayed ? t('analyses.noAnalytics') : '');
+    this.note.hidden = this.note.textContent === '';
+    this.show();
+  }
+
+  get range() {
+    if (store.isReplay) {
+      const { from, to, mission } = store.mode;
+      const known = store.recordings.get(mission);
+      const first = from ?? known?.first ?? Date.now() - this.period;
+      return [first, Math.max(first + MINUTE, to ?? known?.last ?? Date.now())];
+    }
+    const now = Date.now();
+    return [now - this.period, now];
+  }
+
+  /** Begins with what there is, so that a young suite is not shown as an empty hour. */
+  fitted([from, to]) {
+    const first = this.findings.first;
+    return store.isReplay || first === null ? [from, to] : [Math.max(from, Math.min(first, to - MINUTE)), to];
+  }
+
+  soon() {
+    cancelAnimationFrame(this.frame);
+    this.frame = requestAnimationFrame(() => this.show());
+  }
+
+  show() {
+    const { findings } = this;
+    const range = this.fitted(this.range);
+    const [from, to] = range;
+    this.failed.hidden = !findings.error;
+    if (findings.error) {
+      replace(this.failed, h('p.error-note', { role: 'alert' }, icon('warning', 18), h('span', null, t('analyses.failed', { reason: findings.error.message })), h('span.spacer'),
+        h('button.button.small', { type: 'button', on: { click: () => this.load() } }, t('analyses.retry'))));
+    }
+    const averages = findings.averages(from, to);
+    const encounters = findings.encountersIn(from, to);
+    const stays = findings.stays(from, to);
+    this.fill(this.parts.averages, averages, findings.since.averages, () => this.showAverages(averages, range));
+    this.fill(this.parts.encounters, encounters, findings.since.encounters, () => { this.put(this.parts.encounters, 'list', this.encounters.element); this.encounters.show(encounters); });
+    this.fill(this.parts.presence, stays, findings.since.stays, () => this.showPresence(stays, range));
+  }
+
+  /** Loading, empty, or what there is. */
+  fill(part, found, since, draw) {
+    const { loading, error } = this.findings;
+    setText(part.count, found.length ? String(found.length) : '');
+    part.asTable && (part.asTable.hidden = !found.length);
+    if (!found.length) {
+      const state = loading ? 'loading' : error ? 'error' : 'empty';
+      const words = part.name.charAt(0).toUpperCase() + part.name.slice(1);
+      this.put(part, state, state === 'loading' ? h('div.skeleton.analysis-skeleton', { 'aria-busy': 'true' })
+        : state === 'error' ? h('p.muted', null, '–') : h('div.empty', null, h('h3', null, t(`analyses.no${words}`)), h('p', null, t(`analyses.no${words}Hint`))));
+    } else {
+      draw();
+    }
+    const cut = !this.replayed && since > this.range[0] + MINUTE && found.length > 0;
+    part.since.hidden = !cut;
+    cut && setText(part.since, t('analyses.since', { time: dateTime(since) }));
+  }
+
+  put(part, kind, element) {
+    if (part.shown !== kind) {
+      part.shown = kind;
+      replace(part.content, element);
+    }
+  }
+
+  showAverages(averages, range) {
+    const part = this.parts.averages;
+    if (!this.tables.has('averages')) {
+      this.put(part, 'chart', this.chart.element);
+      this.chart.show(averages, range);
+      return;
+    }
+    const name = (field) => store.fields.get(field)?.name ?? field;
+    const suspect = (id) => store.entities.get(id)?.name ?? id.replace(/^urn:ngsi-ld:/, '');
+    this.putTable(part, averages, ['window', 'field', 'mean', 'plain', 'devices', 'suspects', 'quality'], (each) => [
+      `${clock(each.start)} – ${clock(each.end)}`, name(each.field), temperature(each.value), temperature(each.plain), each.devices ?? '–', each.suspects.map(suspect).join(', ') || t('analyses.none'), each.quality,
+    ]);
+  }
+
+  showPresence(stays, range) {
+    const part = this.parts.presence;
+    if (!this.tables.has('presence')) {
+      this.put(part, 'bars', this.presence.element);
+      this.presence.show(stays, range);
+      return;
+    }
+    this.putTable(part, stays, ['field', 'device', 'entered', 'left', 'stayed'], (each) => [
+      each.fieldName, each.name, dateTime(each.from), each.to === null ? t('analyses.stillIn') : dateTime(each.to), duration((each.to ?? store.now()) - each.from),
+    ]);
+  }
+
+  /** The newest first. */
+  putTable(part, found, columns, cells) {
+    const key = `table ${found.length} ${JSON.stringify(found.at(-1))}`;
+    this.put(part, key, h('div.table-frame.analysis-table', { tabindex: '0', role: 'region', 'aria-label': t(`analyses.${part.name}`) }, h('table.table', null,
+      h('thead', null, h('tr', null, columns.map((each) => h('th', { scope: 'col' }, t(`analyses.${each}`))))),
+      h('tbody', null, found.slice(-MOST_ROWS).reverse().map((each) => h('tr', null, cells(each).map((words) => h('td.numbers-left', null, words))))))));
+  }
+
+  /** To a moment on the map: in a replay by a jump, else by a replay of what was recorded. */
+  async lead({ start, missions, a }) {
+    const to = Math.round(start - BEFORE);
+    if (!store.may('operate')) {
+      return;
+    }
+    try {
+      if (store.isReplay) {
+        await steer(store.mode, 'seek', { to: Math.max(to, this.range[0]) });
+      } else {
+        await this.play(missions.filter((each) => store.recordings.has(each)), to);
+      }
+      store.select(a, { reveal: true });
+      navigate('map');
+    } catch (error) {
+      this.say(error.message === 'not-played' ? t('replays.notPlayed') : error.message);
+    }
+  }
+
+  async play(missions, to) {
+    const all = [...new Set(missions)];
+    if (!all.length) {
+      throw new Error(t('analyses.noRecording'));
+    }
+    const firsts = all.map((each) => store.recordings.get(each).first);
+    const running = [...store.replays.values()].find((each) => !each.gone && !each.group && all.length === 1 && each.mission === all[0] && each.status && !['stopped', 'failed'].includes(each.status.state));
+    if (running) {
+      store.enterReplay(running);
+    } else {
+      this.say(t('timeline.starting'));
+      await startReplay({ ...(all.length > 1 ? { missions: all } : { mission: all[0] }), analytics: ['collision', 'presence', 'temperature'] });
+    }
+    await steer(store.mode, 'seek', { to: Math.max(to, Math.min(...firsts)) });
+  }
+
+  say(words) {
+    this.note.hidden = false;
+    setText(this.note, words);
+  }
+}
+
+customElements.define('furrow-analyses', Analyses);

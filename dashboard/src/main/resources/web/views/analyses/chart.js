@@ -1,0 +1,235 @@
+/** Averages of fields over time as lines, with what was suspect marked. */
+import uPlot from '/lib/uplot/uPlot.esm.js';
+import { h, replace, setText } from '../../core/dom.js';
+import { clock, temperature } from '../../core/format.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+
+const HEIGHT = 260;
+/** Colours of the scheme, each with a dash of its own, since colour alone says nothing. */
+const LINES = [['--accent', []], ['--information', [8, 4]], ['--warning', [2, 4]], ['--kind-other', [10, 4, 2, 4]], ['--live', [5, 3]], ['--text', [1, 3]]];
+/** So many windows without an average are a gap. */
+const GAP = 3;
+
+export class AveragesChart {
+  constructor() {
+    this.legend = h('div.chart-legend', { role: 'group' });
+    this.place = h('div.chart-place', { role: 'img', 'aria-label': t('analyses.chartLabel') });
+    this.head = h('div.chart-head', { hidden: true, 'aria-hidden': 'true' });
+    this.time = h('div.chart-time.numbers', { hidden: true, 'aria-hidden': 'true' });
+    this.element = h('div.chart', null, this.legend, this.place);
+    this.hidden = new Set();
+    this.fields = [];
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(this.place);
+    this.onScheme = () => this.rebuild();
+    window.addEventListener('schemechange', this.onScheme);
+    this.offs = [store.on('cursor', () => this.follow()), store.on('clock', () => this.showHead())];
+  }
+
+  close() {
+    this.observer.disconnect();
+    window.removeEventListener('schemechange', this.onScheme);
+    this.offs.forEach((off) => off());
+    this.plot?.destroy();
+  }
+
+  /** @param {import('./data.js').Average[]} averages by time @param {[number, number]} range epoch ms */
+  show(averages, range) {
+    const byField = new Map();
+    averages.forEach((each) => (byField.get(each.field) ?? byField.set(each.field, []).get(each.field)).push(each));
+    const fields = [...byField.keys()].sort();
+    this.range = range;
+    this.byField = byField;
+    this.suspects = fields.map((field) => new Set(byField.get(field).filter((each) => each.suspects.length).map((each) => each.end / 1000)));
+    this.data = aligned(fields.map((field) => byField.get(field)));
+    if (fields.join() !== this.fields.join() || !this.plot) {
+      this.fields = fields;
+      this.rebuild();
+    } else {
+      this.plot.setData(this.data, false);
+      this.plot.setScale('x', { min: range[0] / 1000, max: range[1] / 1000 });
+    }
+    this.showLegend();
+    this.showHead();
+  }
+
+  nameOf(field) {
+    return store.fields.get(field)?.name ?? field;
+  }
+
+  rebuild() {
+    this.plot?.destroy();
+    this.plot = null;
+    if (!this.data || !this.place.isConnected || this.place.clientWidth === 0) {
+      return;
+    }
+    const style = getComputedStyle(this.element);
+    const color = (name) => style.getPropertyValue(name).trim();
+    const font = `12px ${color('--family')}`;
+    this.colors = this.fields.map((field, index) => color(LINES[index % LINES.length][0]));
+    const axis = { stroke: color('--muted'), font, grid: { stroke: color('--line'), width: 1 }, ticks: { stroke: color('--line'), width: 1, size: 4 } };
+    this.plot = new uPlot({
+      width: this.place.clientWidth, height: HEIGHT, legend: { show: false }, padding: [12, 28, 0, 0],
+      cursor: { y: false, points: { size: 7 }, drag: { x: false, y: false } },
+      scales: { x: { time: true }, y: { range: (plot, low, high) => roomy(low, high) } },
+      axes: [
+        { ...axis, space: 72, size: 26, values: (plot, times) => times.map((time) => clock(time * 1000).slice(0, times.length > 1 && times[1] - times[0] < 60 ? 8 : 5)) },
+        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} °C`) },
+      ],
+      series: [{}, ...this.fields.map((field, index) => ({
+        label: this.nameOf(field), stroke: this.colors[index], width: 2, dash: LINES[index % LINES.length][1], show: !this.hidden.has(field), points: { show: false },
+      }))],
+      hooks: { draw: [(plot) => this.drawSuspects(plot, color('--warning'), color('--panel'))], setCursor: [(plot) => this.cursorMoved(plot)] },
+    }, this.data, this.place);
+    this.plot.setScale('x', { min: this.range[0] / 1000, max: this.range[1] / 1000 });
+    this.plot.over.append(this.head, this.time);
+    this.plot.over.addEventListener('mouseleave', () => store.setCursor(null));
+    this.showHead();
+  }
+
+  resize() {
+    if (!this.plot) {
+      this.data && this.rebuild();
+    } else if (this.place.clientWidth > 0 && this.place.clientWidth !== this.plot.width) {
+      this.plot.setSize({ width: this.place.clientWidth, height: HEIGHT });
+    }
+  }
+
+  /** Triangles at windows in which a device was suspect. */
+  drawSuspects(plot, color, border) {
+    const g = plot.ctx;
+    const ratio = window.devicePixelRatio || 1;
+    g.save();
+    g.fillStyle = color;
+    g.strokeStyle = border;
+    g.lineWidth = ratio;
+    this.fields.forEach((field, index) => {
+      if (this.hidden.has(field)) {
+        return;
+      }
+      let last = -Infinity;
+      for (const time of this.suspects[index]) {
+        const at = this.data[0].indexOf(time);
+        const x = plot.valToPos(time, 'x', true);
+        const y = plot.valToPos(this.data[index + 1][at], 'y', true);
+        if (x - last < 12 * ratio || x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width) {
+          continue; // of many in a row some are drawn, so that the line is seen
+        }
+        last = x;
+        const size = 4.5 * ratio;
+        g.beginPath();
+        g.moveTo(x, y - size);
+        g.lineTo(x + size, y + size * 0.8);
+        g.lineTo(x - size, y + size * 0.8);
+        g.closePath();
+        g.fill();
+        g.stroke();
+      }
+    });
+    g.restore();
+  }
+
+  showLegend() {
+    const key = this.fields.map((field) => `${field} ${this.nameOf(field)} ${this.hidden.has(field)} ${this.suspects.some((each) => each.size)}`).join('|');
+    if (key === this.legendKey) {
+      this.say(this.said);
+      return;
+    }
+    this.legendKey = key;
+    const focused = this.legend.contains(document.activeElement) ? [...this.legend.children].indexOf(document.activeElement) : -1;
+    this.values = this.fields.map(() => h('span.numbers.muted'));
+    replace(this.legend, this.fields.map((field, index) => {
+      const shown = !this.hidden.has(field);
+      const [name, dash] = LINES[index % LINES.length];
+      const line = h('svg:line', { x1: 0, y1: 6, x2: 26, y2: 6, 'stroke-width': 2.5, 'stroke-dasharray': dash.join(' ') });
+      line.style.stroke = `var(${name})`;
+      return h('button.button.small.quiet.legend-entry', {
+        type: 'button', 'aria-pressed': String(shown), 'aria-label': t('analyses.hide', { field: this.nameOf(field) }), on: { click: () => this.toggle(field) },
+      }, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, line), this.nameOf(field), this.values[index]);
+    }), this.suspects.some((each) => each.size) && h('span.small.muted.suspect-key', null, h('span', { 'aria-hidden': 'true' }), t('analyses.suspectMark')));
+    focused >= 0 && this.legend.children[focused]?.focus();
+    this.say(this.said);
+  }
+
+  toggle(field) {
+    this.hidden.has(field) ? this.hidden.delete(field) : this.hidden.add(field);
+    this.plot?.setSeries(this.fields.indexOf(field) + 1, { show: !this.hidden.has(field) });
+    this.showLegend();
+  }
+
+  // --- the moment that is looked at ----------------------------------------------------------------------------------
+
+  cursorMoved(plot) {
+    const { left, idx } = plot.cursor;
+    if (this.following) {
+      return;
+    }
+    if (left >= 0) {
+      store.setCursor(plot.posToVal(left, 'x') * 1000);
+    }
+    this.say(left >= 0 ? idx : null);
+  }
+
+  follow() {
+    const { plot } = this;
+    if (!plot || plot.over.matches(':hover')) {
+      return;
+    }
+    this.following = true;
+    plot.setCursor(store.cursor === null ? { left: -10, top: -10 } : { left: plot.valToPos(store.cursor / 1000, 'x'), top: 10 });
+    this.say(store.cursor === null ? null : plot.cursor.idx);
+    this.following = false;
+  }
+
+  /** The averages of a moment are told beside the names of their lines; of none the newest. @param {number|null|undefined} index of its time */
+  say(index) {
+    const time = this.data[0][index];
+    this.said = time === undefined ? null : index;
+    this.values.forEach((value, at) => setText(value, temperature(this.said === null ? this.byField.get(this.fields[at]).at(-1).value : this.data[at + 1][index])));
+    this.time.hidden = this.said === null || !this.plot;
+    if (!this.time.hidden) {
+      setText(this.time, clock(time * 1000));
+      const x = this.plot.valToPos(time, 'x');
+      this.time.style.transform = `translateX(${Math.max(0, Math.min(this.plot.over.clientWidth - this.time.offsetWidth, x - this.time.offsetWidth / 2))}px)`;
+    }
+  }
+
+  /** Where the replay is. */
+  showHead() {
+    const { plot } = this;
+    const shown = plot && store.isReplay;
+    this.head.hidden = !shown;
+    if (shown) {
+      const x = plot.valToPos(store.now() / 1000, 'x');
+      this.head.hidden = x < 0 || x > plot.over.clientWidth;
+      this.head.style.transform = `translateX(${x}px)`;
+    }
+  }
+}
+
+/** At least one degree, and air above and below. */
+function roomy(low, high) {
+  if (!Number.isFinite(low) || !Number.isFinite(high)) {
+    return [0, 1];
+  }
+  const air = Math.max(0.5, (high - low) * 0.15);
+  return [low - air, high + air];
+}
+
+/** Columns as uPlot wants them: a null is a gap, undefined is only another field's window. */
+function aligned(lists) {
+  const points = lists.map((list) => {
+    const values = new Map();
+    list.forEach(({ start, end, value }, index) => {
+      const before = list[index - 1];
+      if (before && end - before.end > GAP * (end - start)) {
+        values.set((before.end + (end - start)) / 1000, null);
+      }
+      values.set(end / 1000, value);
+    });
+    return values;
+  });
+  const times = [...new Set(points.flatMap((each) => [...each.keys()]))].sort((one, other) => one - other);
+  return [times, ...points.map((values) => times.map((time) => values.get(time)))];
+}

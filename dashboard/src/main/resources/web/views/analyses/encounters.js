@@ -1,0 +1,92 @@
+/** Encounters as a table that can be sorted; each leads to its moment. */
+import { h, replace, setText } from '../../core/dom.js';
+import { dateTime, distance, duration } from '../../core/format.js';
+import { icon } from '../../core/icons.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+
+const MOST_ROWS = 200;
+const COLUMNS = {
+  when: (each) => each.start, pair: (each) => each.pair, closest: (each) => each.closest, duration: (each) => each.end - each.start, phase: (each) => each.phase,
+};
+const CLASSES = { when: 'numbers-left when', pair: 'pair', closest: 'numbers', duration: 'numbers', phase: 'phase' };
+
+export class EncounterTable {
+  /** @param {function(Object)} lead to the moment of an encounter */
+  constructor(lead) {
+    this.lead = lead;
+    this.column = 'when';
+    this.down = true;
+    this.rows = new Map();
+    // the roles are said, as on a narrow screen rows are laid out otherwise than as rows of a table
+    this.body = h('tbody', { role: 'rowgroup' });
+    this.heads = Object.keys(COLUMNS).map((name) => h('th', { class: name === 'closest' || name === 'duration' ? 'numbers' : '', role: 'columnheader', scope: 'col' },
+      h('button.sort-by', { type: 'button', title: t('analyses.sort', { column: t(`analyses.${name}`) }), on: { click: () => this.sort(name) } }, t(`analyses.${name}`), icon('chevron-down', 14))));
+    this.more = h('p.small.muted');
+    this.element = h('div.stack', null, h('div.table-frame.encounter-frame', { tabindex: '0', role: 'region', 'aria-label': t('analyses.encounters') },
+      h('table.table', { role: 'table' }, h('thead', { role: 'rowgroup' }, h('tr', { role: 'row' }, this.heads, h('th', { role: 'columnheader', scope: 'col' }, h('span.visually-hidden', null, t('analyses.toMoment'))))), this.body)), this.more);
+  }
+
+  sort(column) {
+    this.down = this.column === column ? !this.down : column === 'when' || column === 'duration';
+    this.column = column;
+    this.show(this.encounters);
+  }
+
+  show(encounters) {
+    this.encounters = encounters;
+    const of = COLUMNS[this.column];
+    const sorted = [...encounters].sort((one, other) => {
+      const [a, b] = [of(one), of(other)];
+      const order = typeof a === 'string' ? a.localeCompare(b) : a - b;
+      return (this.down ? -order : order) || other.start - one.start;
+    });
+    this.heads.forEach((head, index) => {
+      const name = Object.keys(COLUMNS)[index];
+      name === this.column ? head.setAttribute('aria-sort', this.down ? 'descending' : 'ascending') : head.removeAttribute('aria-sort');
+    });
+    const shown = sorted.slice(0, MOST_ROWS);
+    this.more.hidden = sorted.length <= MOST_ROWS;
+    setText(this.more, sorted.length > MOST_ROWS ? t('analyses.more', { shown: MOST_ROWS, count: sorted.length }) : '');
+    const ids = new Set(shown.map((each) => each.id));
+    for (const [id, row] of this.rows) {
+      if (!ids.has(id)) {
+        row.element.remove();
+        this.rows.delete(id);
+      }
+    }
+    shown.forEach((encounter, index) => {
+      const row = this.rows.get(encounter.id) ?? this.row(encounter.id);
+      fill(row, encounter);
+      if (this.body.children[index] !== row.element) {
+        this.body.insertBefore(row.element, this.body.children[index] ?? null);
+      }
+    });
+  }
+
+  row(id) {
+    const cells = Object.fromEntries(Object.keys(COLUMNS).map((name) => [name, h('td', { role: 'cell', class: CLASSES[name] ?? '', data: { name: t(`analyses.${name}`) } })]));
+    const act = h('button.button.small', { type: 'button', on: { click: () => this.lead(row.encounter) } }, icon('map', 16), h('span.words', null, t('analyses.toMoment')));
+    const row = { cells, act, element: h('tr', { role: 'row' }, Object.values(cells), h('td.right', { role: 'cell' }, act)) };
+    this.rows.set(id, row);
+    return row;
+  }
+}
+
+function fill(row, encounter) {
+  const { cells, act } = row;
+  row.encounter = encounter;
+  const going = encounter.phase === 'started' || encounter.phase === 'ongoing';
+  setText(cells.when, dateTime(encounter.start));
+  setText(cells.pair, encounter.pair);
+  setText(cells.closest, distance(encounter.closest));
+  setText(cells.duration, duration(encounter.end - encounter.start));
+  const words = t(`analyses.phases.${encounter.phase}`);
+  if (cells.phase.textContent !== words) {
+    replace(cells.phase, h(`span.pill${going ? '.bad' : ''}`, null, words));
+  }
+  const recorded = store.isReplay || encounter.missions.some((mission) => store.recordings.has(mission));
+  act.disabled = !recorded || !store.may('operate');
+  act.title = !recorded ? t('analyses.noRecording') : '';
+  act.setAttribute('aria-label', t('analyses.toMomentOf', { pair: encounter.pair, time: dateTime(encounter.start) }));
+}

@@ -1,0 +1,132 @@
+/** Missions: what runs, what is missing and why, and who commanded it. */
+import { h, replace } from '../core/dom.js';
+import { icon } from '../core/icons.js';
+import { navigate, onRoute, route } from '../core/router.js';
+import { resource } from '../core/resource.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { auditView } from './missions/audit.js';
+import { createMission } from './missions/create.js';
+import { MissionDetail } from './missions/detail.js';
+import { Domains } from './missions/domains.js';
+import { drawList } from './missions/list.js';
+import { redraw } from './missions/redraw.js';
+
+/** Where the mission is shown below the list, not beside it. */
+const NARROW = matchMedia('(max-width: 900px)');
+const TABS = ['missions', 'domains', 'audit'];
+
+class FurrowMissions extends HTMLElement {
+  connectedCallback() {
+    this.tabs = h('div.tabs', { role: 'tablist', 'aria-label': t('views.missions') }, TABS.map((name) => h('button.tab', {
+      type: 'button', role: 'tab', id: `tab-${name}`, 'aria-controls': 'missions-panel', on: { click: () => navigate('missions', { tab: name === 'missions' ? null : name }), keydown: (event) => this.tabKey(event) },
+    }, t(`missions.tabs.${name}`))));
+    this.create = h('button.button.primary', { type: 'button', on: { click: () => this.newMission() } }, icon('plus', 16), t('missions.new'));
+    this.viewer = h('p.viewer-note', { hidden: true }, icon('info', 16), t('missions.viewer'));
+    this.panel = h('div', { id: 'missions-panel', role: 'tabpanel' });
+    replace(this, h('div.view', null, h('header', null, h('h1', null, t('views.missions')), this.tabs, h('span.spacer'), this.create), this.viewer, this.panel));
+    this.offs = [onRoute(() => this.show()), store.on('missions', () => this.drawList()), store.on('me', () => this.allow())];
+    this.answer = resource('/api/missions', { interval: 10_000 });
+    this.offs.push(this.answer.on(() => this.takeAnswer()));
+    this.ticking = setInterval(() => document.hidden || this.drawList(), 5_000);
+    this.show();
+    this.allow();
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    clearInterval(this.ticking);
+    this.answer.close();
+    this.content?.close();
+  }
+
+  allow() {
+    this.create.disabled = !store.may('operate');
+    this.create.title = store.may('operate') ? '' : t('missions.notAllowed');
+    this.viewer.hidden = !store.me.role || store.may('operate');
+  }
+
+  show() {
+    const { tab = 'missions', mission, device } = route.query;
+    const wanted = `${tab} ${mission} ${device}`;
+    if (route.view !== 'missions' || wanted === this.shown) {
+      return;
+    }
+    this.shown = wanted;
+    this.content?.close();
+    this.content = null;
+    for (const button of this.tabs.children) {
+      const chosen = button.id === `tab-${tab}`;
+      button.setAttribute('aria-selected', String(chosen));
+      button.tabIndex = chosen ? 0 : -1;
+    }
+    this.panel.setAttribute('aria-labelledby', `tab-${tab}`);
+    if (tab === 'domains') {
+      this.content = new Domains();
+      replace(this.panel, this.content.element);
+    } else if (tab === 'audit') {
+      this.content = auditView({ mission, device });
+      redraw(this.panel, this.content.element);
+    } else {
+      this.showMissions(mission);
+    }
+  }
+
+  showMissions(mission) {
+    this.list = h('ul.stack.mission-list');
+    this.place = h('div');
+    this.empty = h('div.empty', { hidden: true }, h('h2', null, t('missions.none')), h('p', null, t('missions.noneHint')),
+      h('button.button.primary', { type: 'button', disabled: !store.may('operate'), on: { click: () => this.newMission() } }, t('missions.new')));
+    replace(this.panel, this.empty, h('div.mission-columns', null, this.list, this.place));
+    const chosen = mission ?? [...store.missions.values()].find((each) => each.running && each.domain !== 'canary')?.mission;
+    if (chosen) {
+      this.content = new MissionDetail(chosen, () => navigate('missions'));
+      replace(this.place, this.content.element);
+    }
+    this.chosen = chosen;
+    this.drawList();
+    if (mission && NARROW.matches) {
+      this.place.scrollIntoView({ block: 'start' });
+    }
+  }
+
+  /** Whether there is no mission, or nobody said so yet. */
+  takeAnswer() {
+    if (store.missions.size === 0 && this.answer.value?.length > 0) {
+      store.missions = new Map(this.answer.value.map((each) => [each.mission, each]));
+      store.tell('missions');
+    }
+    this.drawList();
+  }
+
+  drawList() {
+    if (this.list?.isConnected) {
+      const count = drawList(this.list, this.chosen, (name) => navigate('missions', { mission: name }));
+      const { loading, error } = this.answer;
+      this.empty.hidden = count > 0 || loading || Boolean(error);
+      if (count === 0) {
+        redraw(this.list, loading && [0, 1, 2].map(() => h('li.skeleton.mission-skeleton', null, '…')), error && h('li.error-note', null, icon('warning'), error.message));
+      }
+      if (!this.chosen && count > 0) {
+        this.shown = null;
+        this.show();
+      }
+    }
+  }
+
+  async newMission() {
+    const dialog = await createMission();
+    dialog.addEventListener('created', (event) => navigate('missions', { mission: event.detail }));
+  }
+
+  tabKey(event) {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (step) {
+      const next = this.tabs.children[(TABS.indexOf(event.target.id.slice(4)) + step + TABS.length) % TABS.length];
+      next.focus();
+      next.click();
+    }
+  }
+}
+
+customElements.define('furrow-missions', FurrowMissions);

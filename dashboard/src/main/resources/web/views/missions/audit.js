@@ -1,0 +1,144 @@
+/** Who commanded what, and when. */
+import { api } from '../../core/api.js';
+import { dateTime, plain, readable, shortId } from '../../core/format.js';
+import { h } from '../../core/dom.js';
+import { icon } from '../../core/icons.js';
+import { linkTo, navigate } from '../../core/router.js';
+import { resource } from '../../core/resource.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+import { redraw } from './redraw.js';
+
+const POLL_MILLIS = 4_000;
+const TARGETS = { 'service.missionmanager': 'mission', 'service.domainmanager': 'domain', 'service.replaymanager': 'replay', 'service.alarmmanager': 'alarm', 'service.fields': 'field', device: 'device', marker: 'marker' };
+
+/** Where nothing wanted is on a page, so many are read for one press of the button. */
+const MOST_PAGES = 5;
+
+/** A page of the audit. @returns {Promise<{entries: object[], older: string|null}>} `older` is the path of the next page, if there is one */
+async function page(path) {
+  const response = await api.fetch(path);
+  const next = /<([^>]+)>; ?rel="?next"?/.exec(response.headers.get('Link') ?? '');
+  return { entries: await response.json(), older: next?.[1] ?? null };
+}
+
+/** A table that is kept fresh, and goes back in time on request. @param {{mission: string=, device: string=, limit: number=}} about whose commands */
+export function auditTable({ mission, device, limit = 50 } = {}) {
+  const query = new URLSearchParams({ limit: String(limit), ...(mission ? { mission } : {}), ...(device ? { device } : {}) });
+  const list = resource(`/api/audit?${query}`, { interval: POLL_MILLIS, read: page });
+  const place = h('div.stack', null, [0, 1, 2].map(() => h('div.skeleton', null, '…')));
+  let entries = [];
+  let older = null;
+  let extended = false;
+  let reading = false;
+  let failure = null;
+  let closed = false;
+  let shown = null;
+  const off = list.on(() => {
+    if (!list.error) {
+      take(list.value);
+    }
+    draw();
+  });
+
+  /** The newest page, before those that were read on request; where it does not reach them any more, they are dropped. */
+  function take(newest) {
+    const known = entries[0]?.position ?? -1;
+    const reaches = newest.older === null || !newest.entries.length || newest.entries.at(-1).position <= known || known < 0;
+    if (extended && reaches) {
+      entries = [...newest.entries.filter((each) => each.position > known), ...entries];
+    } else {
+      ({ entries, older } = newest);
+      extended = false;
+    }
+  }
+
+  async function showOlder() {
+    reading = true;
+    failure = null;
+    draw();
+    try {
+      for (let pages = 0, found = 0; older && !found && pages < MOST_PAGES && !closed; pages++) {
+        const next = await page(older);
+        entries = [...entries, ...next.entries];
+        ({ older } = next);
+        extended = true;
+        found = next.entries.length;
+      }
+    } catch (error) {
+      failure = error.message;
+    }
+    reading = false;
+    closed || draw();
+  }
+
+  function draw() {
+    const drawn = JSON.stringify([list.error?.message, entries, older, extended, reading, failure]);
+    if (drawn === shown) {
+      return;
+    }
+    shown = drawn;
+    if (list.error) {
+      redraw(place, h('p.error-note', { role: 'alert' }, icon('warning'), list.error.message));
+    } else {
+      redraw(place, entries.length ? table() : h('p.muted', null, t(older ? 'missions.noAuditYet' : mission || device ? 'missions.noAuditOf' : 'missions.noAudit')), foot());
+    }
+  }
+
+  function table() {
+    return h('div.table-frame.audit-table', { tabindex: '0', role: 'group', 'aria-label': t('missions.audit') }, h('table.table', null,
+      h('thead', null, h('tr', null, ['time', 'user', 'command', 'about', 'result'].map((name) => h('th', { scope: 'col' }, t(`missions.auditColumns.${name}`))))),
+      h('tbody', null, entries.map(row))));
+  }
+
+  function foot() {
+    return [
+      failure && h('p.error-note', { role: 'alert' }, icon('warning'), failure),
+      older
+        ? h('div', null, h('button.button.quiet', { type: 'button', data: { act: 'audit-older' }, 'aria-disabled': String(reading), on: { click: () => reading || showOlder() } }, t(reading ? 'missions.readingOlder' : 'missions.showOlder')))
+        : extended && h('p.muted', null, t('missions.noOlder')),
+    ].filter(Boolean);
+  }
+
+  return { element: place, close: () => { closed = true; off(); list.close(); } };
+}
+
+/** The whole audit, or that of one mission or device. */
+export function auditView({ mission, device }) {
+  const table = auditTable({ mission, device, limit: 200 });
+  const choice = (name, values, chosen, words) => {
+    const all = chosen && !values.includes(chosen) ? [chosen, ...values] : values;
+    return h('label.audit-choice', null, t(`missions.auditOf.${name}`), h('select', {
+      data: { act: `audit-${name}` }, on: { change: ({ target }) => navigate('missions', { tab: 'audit', [name]: target.value || null }) },
+    }, h('option', { value: '' }, t('missions.auditOf.all')), all.map((each) => h('option', { value: each, selected: each === chosen }, words(each)))));
+  };
+  const element = h('div.stack', null,
+    h('div.row.wrap', null, choice('mission', [...store.missions.keys()].sort(), mission, (each) => each), choice('device', [...store.devices.keys()].sort(), device, shortId)),
+    table.element);
+  return { element, close: table.close };
+}
+
+function row(entry) {
+  const refused = entry.error !== undefined || entry.result === 'error';
+  return h('tr', null,
+    h('td.numbers.when', null, dateTime(entry.time)),
+    h('td', null, entry.user),
+    h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, entry.command ?? '–')),
+    h('td.about', null, aboutOf(entry.about)),
+    h('td', { class: refused ? 'bad' : '' }, refused ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : plain(entry.result)));
+}
+
+function aboutOf(about = {}) {
+  const { device, mission, ...rest } = about;
+  const words = Object.entries(rest).map(([name, value]) => `${name} ${said(name, value)}`).join(', ');
+  return [
+    typeof mission === 'string' && h('a', { href: linkTo('missions', { mission }) }, mission),
+    typeof device === 'string' && h('a', { href: linkTo('map', { select: device }) }, shortId(device)),
+    words && h('span.muted', null, words.length > 160 ? `${words.slice(0, 160)}…` : words),
+  ].filter(Boolean).flatMap((each, index) => (index ? [' · ', each] : [each]));
+}
+
+/** Moments of replays are times of the events. */
+function said(name, value) {
+  return ['from', 'to', 'start', 'until'].includes(name) && Number.isFinite(value) && value > 1e11 ? dateTime(value) : plain(value);
+}

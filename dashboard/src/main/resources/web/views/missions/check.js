@@ -1,0 +1,125 @@
+/** What is known of the devices of a plan before a mission starts. */
+import { store } from '../../core/store.js';
+
+const LOW_BATTERY = 20;
+const OLD_REPORT = 5 * 60_000;
+/** Devices of a group that are checked one by one. */
+const CHECKED = 200;
+const ORDER = ['ok', 'unknown', 'warning', 'problem'];
+
+/**
+ * @typedef {{level: 'ok'|'warning'|'problem'|'unknown', what: 'reach'|'battery'|'place'|'use', text: string, values: Object}} Finding text: a key of the page's texts
+ */
+
+/** What is known now: what a replay shows says nothing of it. */
+export function farmNow(mission) {
+  return { mission, now: Date.now(), devices: store.devices, missions: store.missions, fields: store.fields, entities: store.isReplay ? new Map() : store.entities };
+}
+
+/**
+ * @param {(string|Object)[]} groups of a plan or template
+ * @param {string} domain
+ * @param {{mission: string|null, now: number, devices: Map, entities: Map, missions: Map, fields: Map}} farm what is known; `now` in epoch ms
+ * @returns {{name: string, findings: Finding[], worst: string}[]} one for each device, and one for those of a group that are yet to be made
+ */
+export function checkPlan(groups, domain, farm) {
+  return groups.flatMap((group) => checkGroup(typeof group === 'string' ? { id: group, outside: true } : group, domain, farm));
+}
+
+function checkGroup(group, domain, farm) {
+  if (group.id) {
+    return [checkDevice(group.id, group, domain, farm)];
+  }
+  const count = group.count ?? 1;
+  const ids = Array.from({ length: Math.min(count, CHECKED) }, (_, index) => `urn:ngsi-ld:${group.type}:${farm.mission}-${index + 1}`);
+  const made = ids.filter((id) => farm.devices.has(id));
+  const rest = count - made.length;
+  return [
+    ...made.map((id) => checkDevice(id, group, domain, farm)),
+    ...(rest > 0 ? [judged(group.name ?? group.type, [{ level: 'ok', what: 'reach', text: 'made', values: { count: rest } }, place(group, null, domain, farm)])] : []),
+  ];
+}
+
+function checkDevice(id, group, domain, farm) {
+  const known = farm.devices.get(id);
+  const entity = farm.entities.get(id);
+  if (!known && !entity && !group.outside) {
+    return judged(id, [{ level: 'ok', what: 'reach', text: 'made', values: { count: 1 } }, place(group, null, domain, farm)]);
+  }
+  return judged(id, [use(known, farm), reach(known, entity, group, farm), battery(known, entity), place(group, entity, domain, farm)].filter(Boolean));
+}
+
+function judged(name, findings) {
+  const worst = findings.reduce((worse, each) => (ORDER.indexOf(each.level) > ORDER.indexOf(worse) ? each.level : worse), 'ok');
+  return { name, findings, worst };
+}
+
+/** A device that its host has switched off is silent rightly, until the mission starts. */
+function reach(known, entity, { outside }, { now }) {
+  if (!outside && known?.wanted === 'stopped') {
+    return { level: 'ok', what: 'reach', text: 'off', values: {} };
+  }
+  const seen = Math.max(known?.health?.lastSeen ?? 0, entity?.time ?? 0);
+  if (seen === 0) {
+    return { level: outside ? 'warning' : 'unknown', what: 'reach', text: 'neverSeen', values: {} };
+  }
+  const silent = known?.health?.silent || now - seen > OLD_REPORT;
+  return { level: silent ? 'warning' : 'ok', what: 'reach', text: silent ? 'silent' : 'seen', values: { ago: now - seen } };
+}
+
+function battery(known, entity) {
+  let share = known?.health?.battery;
+  const reported = entity?.attributes.battery?.value;
+  if (share === undefined && typeof reported === 'number') {
+    share = reported > 1 ? reported / 100 : reported;
+  }
+  if (typeof share !== 'number') {
+    return { level: 'unknown', what: 'battery', text: 'noBattery', values: {} };
+  }
+  const percent = Math.round(share * 100);
+  return { level: percent < LOW_BATTERY ? 'warning' : 'ok', what: 'battery', text: percent < LOW_BATTERY ? 'batteryLow' : 'battery', values: { percent } };
+}
+
+function use(known, { missions, mission }) {
+  const other = known?.mission && known.mission !== mission ? missions.get(known.mission) : null;
+  return other?.running && known.wanted !== 'stopped' ? { level: 'problem', what: 'use', text: 'used', values: { mission: known.mission } } : null;
+}
+
+/** Where it is, or begins; a device that is to roam a field is in it. */
+function place(group, entity, domain, { fields }) {
+  const roamed = typeof group.area === 'string' ? group.area : null;
+  if (!entity?.position && roamed) {
+    return fields.has(roamed)
+      ? { level: 'ok', what: 'place', text: 'inside', values: { field: fields.get(roamed).name } }
+      : { level: 'warning', what: 'place', text: 'noSuchField', values: { field: roamed } };
+  }
+  const point = entity?.position ?? group.path?.[0] ?? null;
+  const own = [...fields.values()].filter((field) => !field.exclusion && (field.properties.Domain ?? domain) === domain);
+  if (!point) {
+    return { level: 'unknown', what: 'place', text: 'noPosition', values: {} };
+  }
+  if (own.length === 0) {
+    return { level: 'unknown', what: 'place', text: 'noFields', values: {} };
+  }
+  const field = own.find((each) => isInside(each.geometry, point));
+  return field
+    ? { level: 'ok', what: 'place', text: 'inside', values: { field: field.name } }
+    : { level: 'warning', what: 'place', text: 'outside', values: {} };
+}
+
+/** Even-odd rule over all rings, degrees taken as a plane: exact enough for fields of a farm. */
+export function isInside(geometry, [x, y]) {
+  const polygons = geometry?.type === 'Polygon' ? [geometry.coordinates] : geometry?.type === 'MultiPolygon' ? geometry.coordinates : [];
+  return polygons.some((rings) => {
+    let inside = false;
+    for (const ring of rings) {
+      for (let i = 0, j = ring.length - 1; i < ring.length; j = i++) {
+        const [[ax, ay], [bx, by]] = [ring[i], ring[j]];
+        if ((ay > y) !== (by > y) && x < (bx - ax) * (y - ay) / (by - ay) + ax) {
+          inside = !inside;
+        }
+      }
+    }
+    return inside;
+  });
+}

@@ -1,0 +1,141 @@
+/** One mission: how far it is, each of its devices, and who commanded what. */
+import { api } from '../../core/api.js';
+import { age, dateTime, duration, shortId } from '../../core/format.js';
+import { h, replace } from '../../core/dom.js';
+import { icon } from '../../core/icons.js';
+import { linkTo, navigate } from '../../core/router.js';
+import { resource } from '../../core/resource.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+import { auditTable } from './audit.js';
+import { checkPlan, farmNow } from './check.js';
+import { openDialog } from './dialog.js';
+import { findingsList, summaryOf } from './findings.js';
+import { statePill } from './list.js';
+import { redraw } from './redraw.js';
+
+const SHOWN = 200;
+
+export class MissionDetail {
+  /** @param {string} name of the mission */
+  constructor(name, onDeleted) {
+    this.name = name;
+    this.onDeleted = onDeleted;
+    this.head = h('div.stack');
+    this.failure = h('div', { role: 'alert' });
+    this.devices = h('div.stack');
+    this.audit = auditTable({ mission: name, limit: 20 });
+    this.element = h('section.panel.mission-detail', { 'aria-label': name, tabindex: '-1' }, this.head, this.failure, this.devices,
+      h('h3.section-title', null, t('missions.audit')), this.audit.element);
+    const path = encodeURIComponent(name);
+    this.mission = resource(`/api/missions/${path}`, { topics: ['service.missions', 'service.missions.status'], interval: 10_000 });
+    this.list = resource(`/api/devices?mission=${path}`, { topics: ['service.devices', 'service.devices.status'], interval: 5_000 });
+    this.offs = [this.mission.on(() => this.draw()), this.list.on(() => this.draw()), store.on('me', () => this.draw())];
+    replace(this.head, h('h2', null, name), h('div.skeleton', null, '…'));
+  }
+
+  draw() {
+    const mission = this.mission.value;
+    if (this.mission.error) {
+      replace(this.head, h('h2', null, this.name), h('p.error-note', { role: 'alert' }, icon('warning'), this.mission.error.message));
+      return;
+    }
+    if (!mission) {
+      return;
+    }
+    const status = mission.status;
+    redraw(this.head,
+      h('div.row.wrap', null, h('h2', null, this.name), statePill(status?.state), h('span.spacer'), h('div.row', null, this.buttons(mission))),
+      h('p.small.muted', null, [mission.domain, mission.template, mission.start && t('missions.startedAt', { time: dateTime(mission.start) }), mission.duration && t('missions.lasts', { duration: duration(mission.duration) })].filter(Boolean).join(' · ')),
+      status?.reason && h('p.error-note', null, icon('warning'), status.reason),
+      status && h('div.stack', null,
+        h('div.row', null, h('span.numbers', null, t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices })), h('span.spacer'), status.missing.length > 0 && h('span.warn', null, t('missions.missing', { count: status.devices - status.confirmed }))),
+        h('div.bar', { role: 'progressbar', 'aria-valuemin': 0, 'aria-valuemax': status.devices, 'aria-valuenow': status.confirmed, 'aria-label': t('missions.progress') }, bar(status))),
+      this.missing(status));
+    this.drawDevices(mission);
+  }
+
+  missing(status) {
+    return status?.missing.length > 0 && h('ul.findings', null, status.missing.map((each) => h('li.finding.is-warning', null, icon('warning', 18),
+      h('div', null, h('strong', null, shortId(each.id)), h('p.small', null, each.reason ?? t('missions.notYet'))))));
+  }
+
+  buttons(mission) {
+    const allowed = store.may('operate');
+    const running = mission.running;
+    const button = (act, symbol, words, work, kind = '') => h('button.button', { type: 'button', class: kind, disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act }, on: { click: work } }, icon(symbol, 16), words);
+    const recorded = store.recordings.has(this.name);
+    return [
+      running ? button('stop', 'stop', t('missions.stop'), () => this.confirmStop()) : button('start', 'play', t('missions.start'), () => this.confirmStart(mission), 'primary'),
+      recorded && h('a.button', { href: linkTo('replays', { mission: this.name }), data: { act: 'replay' } }, icon('history', 16), t('missions.replay')),
+      !running && button('delete', 'trash', t('missions.delete'), () => this.confirmDelete(), 'danger'),
+    ];
+  }
+
+  confirmStart(mission) {
+    const checked = checkPlan(mission.devices ?? [], mission.domain, farmNow(this.name));
+    openDialog({
+      title: t('missions.startTitle', { mission: this.name }), body: [h('h3', null, summaryOf(checked)), findingsList(checked)], submit: t('missions.start'),
+      work: () => api.post(`/api/missions/${encodeURIComponent(this.name)}/start`),
+    });
+  }
+
+  confirmStop() {
+    openDialog({
+      title: t('missions.stopTitle', { mission: this.name }), body: [h('p', null, t('missions.stopText'))], submit: t('missions.stop'), danger: true,
+      work: () => api.post(`/api/missions/${encodeURIComponent(this.name)}/stop`),
+    });
+  }
+
+  confirmDelete() {
+    openDialog({
+      title: t('missions.deleteTitle', { mission: this.name }), body: [h('p', null, t('missions.deleteText'))], submit: t('missions.delete'), danger: true,
+      work: async () => { await api.del(`/api/missions/${encodeURIComponent(this.name)}`); this.onDeleted(); },
+    });
+  }
+
+  drawDevices(mission) {
+    const devices = this.list.value;
+    if (this.list.error || !devices) {
+      redraw(this.devices, this.list.error ? h('p.error-note', null, icon('warning'), this.list.error.message) : h('div.skeleton', null, '…'));
+      return;
+    }
+    if (devices.length === 0) {
+      redraw(this.devices, h('p.muted', null, mission.running ? t('missions.noDevicesYet') : t('missions.planned', { count: mission.deviceCount ?? 0 })));
+      return;
+    }
+    const now = Date.now();
+    redraw(this.devices, h('h3.section-title', null, h('span', null, t('missions.devices')), h('span.numbers', null, devices.length)),
+      h('div.table-frame.device-table', { tabindex: '0', role: 'group', 'aria-label': t('missions.devices') }, h('table.table', null,
+        h('thead', null, h('tr', null, ['device', 'state', 'health', 'battery', 'seen', 'audit'].map((name) => h('th', { scope: 'col', class: name === 'battery' || name === 'seen' ? 'numbers' : '' }, t(`missions.deviceColumns.${name}`))))),
+        h('tbody', null, devices.slice(0, SHOWN).map((each) => this.row(each, now))))),
+      devices.length > SHOWN && h('p.small.muted', null, t('missions.moreDevices', { count: devices.length - SHOWN })));
+  }
+
+  row(device, now) {
+    const health = device.health ?? {};
+    const state = device.status?.state ?? t('missions.notYet');
+    const seen = Math.max(health.lastSeen ?? 0, (!store.isReplay && store.entities.get(device.id)?.time) || 0);
+    const sound = health.off ? ['muted', t('states.off')] : health.silent ? ['warn', t('states.stale')] : seen ? ['good', t('states.ok')] : ['muted', '–'];
+    return h('tr', null,
+      h('th', { scope: 'row' }, h('button.sort', { type: 'button', data: { act: device.id }, title: t('missions.onMap', { device: shortId(device.id) }), on: { click: () => { store.select(device.id, { reveal: true }); navigate('map', { select: device.id }); } } }, shortId(device.id))),
+      h('td', { class: device.status?.state === 'failed' ? 'bad' : '' }, state, device.status?.reason && h('p.small.muted', null, device.status.reason)),
+      h('td', { class: sound[0] }, sound[1]),
+      h('td.numbers', null, typeof health.battery === 'number' ? `${Math.round(health.battery * 100)} %` : '–'),
+      h('td.numbers', null, seen ? age(now - seen) : '–'),
+      h('td.right', null, h('a.button.quiet.square.small', { href: linkTo('missions', { tab: 'audit', device: device.id }), data: { act: `audit ${device.id}` }, 'aria-label': t('missions.auditOfDevice', { device: shortId(device.id) }), title: t('missions.auditOfDevice', { device: shortId(device.id) }) }, icon('list', 16))));
+  }
+
+  close() {
+    this.offs.forEach((off) => off());
+    this.mission.close();
+    this.list.close();
+    this.audit.close();
+  }
+}
+
+function bar(status) {
+  const span = h('span');
+  span.style.width = `${status.devices ? 100 * status.confirmed / status.devices : 0}%`;
+  return span;
+}

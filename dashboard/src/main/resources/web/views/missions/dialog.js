@@ -1,0 +1,46 @@
+/** Dialogs: a form, its failure, and its buttons. */
+import { h, replace } from '../../core/dom.js';
+import { icon } from '../../core/icons.js';
+import { t } from '../../texts.js';
+import { focusAct } from './redraw.js';
+
+/**
+ * @param {{title: string, body: Node[], submit: string, danger: boolean=, work: function(): Promise<boolean|void>}} options
+ *   work throws what is said to the user, and answers true where the dialog stays open
+ */
+export function openDialog({ title, body, submit, danger = false, work }) {
+  const failure = h('div', { role: 'alert' });
+  const action = h('button.button', { type: 'submit', class: danger ? 'danger' : 'primary' }, submit);
+  const dialog = h('dialog.sheet', { 'aria-label': title });
+  const opener = document.activeElement;
+  const send = async (event) => {
+    event.preventDefault();
+    action.disabled = true;
+    replace(failure);
+    try {
+      if (await work() !== true) {
+        dialog.close();
+      }
+    } catch (error) {
+      replace(failure, h('p.error-note', null, icon('warning'), error.message));
+    } finally {
+      action.disabled = false;
+    }
+  };
+  replace(dialog, h('form', { on: { submit: send } },
+    h('header', null, h('h2', null, title), h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.cancel'), on: { click: () => dialog.close() } }, icon('close'))),
+    body, failure,
+    h('footer', null, h('button.button', { type: 'button', on: { click: () => dialog.close() } }, t('missions.cancel')), action)));
+  dialog.addEventListener('close', () => {
+    dialog.remove();
+    opener?.isConnected ? opener.focus() : focusAct(document, opener?.dataset?.act);
+  });
+  document.body.append(dialog);
+  dialog.showModal();
+  return { dialog, action };
+}
+
+export function formRow(words, input, hint) {
+  input.id ||= `field-${Math.random().toString(36).slice(2)}`;
+  return h('div.field-row', null, h('label', { for: input.id }, words), input, hint && h('p.small.muted', null, hint));
+}

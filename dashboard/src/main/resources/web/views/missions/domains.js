@@ -1,0 +1,75 @@
+/** Domains, and the fields that were imported. */
+import { api } from '../../core/api.js';
+import { dateTime } from '../../core/format.js';
+import { h } from '../../core/dom.js';
+import { icon } from '../../core/icons.js';
+import { navigate } from '../../core/router.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+import { formRow, openDialog } from './dialog.js';
+import { importFields } from './import.js';
+import { redraw } from './redraw.js';
+
+export class Domains {
+  constructor() {
+    this.domains = h('div.stack');
+    this.fields = h('div.stack');
+    this.element = h('div.domain-columns', null,
+      h('section.panel.stack', { 'aria-label': t('missions.domains') }, this.domains), h('section.panel.stack', { 'aria-label': t('missions.fields') }, this.fields));
+    this.offs = ['domains', 'missions', 'fields', 'me'].map((name) => store.on(name, () => this.draw()));
+    this.draw();
+  }
+
+  draw() {
+    const allowed = store.may('operate');
+    const domains = [...store.domains.values()];
+    redraw(this.domains,
+      h('div.row', null, h('h2', null, t('missions.domains')), h('span.spacer'), h('button.button.small', { type: 'button', disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act: 'new-domain' }, on: { click: newDomain } }, icon('plus', 16), t('missions.newDomain'))),
+      domains.length === 0 && h('div.empty', null, h('h3', null, t('missions.noDomains')), h('p', null, t('missions.noDomainsHint'))),
+      h('ul.stack', null, domains.map((each) => this.domain(each, allowed))));
+    const fields = [...store.fields.values()].sort((a, b) => (a.name < b.name ? -1 : 1));
+    redraw(this.fields,
+      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), h('button.button.small', { type: 'button', disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act: 'import' }, on: { click: importFields } }, icon('upload', 16), t('missions.importFields'))),
+      fields.length === 0
+        ? h('div.empty', null, h('h3', null, t('missions.noFields')), h('p', null, t('missions.noFieldsHint')))
+        : h('div.table-frame', { tabindex: '0', role: 'group', 'aria-label': t('missions.fields') }, h('table.table', null,
+          h('thead', null, h('tr', null, ['field', 'domain', 'kind', 'from'].map((name) => h('th', { scope: 'col' }, t(`missions.fieldColumns.${name}`))))),
+          h('tbody', null, fields.map((each) => h('tr', null,
+            h('th', { scope: 'row' }, each.name, each.name !== each.id && h('span.small.muted', null, ` ${each.id}`)),
+            h('td', null, each.properties.Domain ?? '–'),
+            h('td', null, t(each.exclusion ? 'missions.zone' : 'missions.field')),
+            h('td.numbers', null, each.validFrom > 0 ? dateTime(each.validFrom) : t('missions.always'))))))));
+  }
+
+  domain(domain, allowed) {
+    const missions = [...store.missions.values()].filter((each) => each.domain === domain.domain);
+    return h('li.card.row', null,
+      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, t('missions.domainHas', { missions: missions.length, fields: domain.fields?.length ?? 0 }))),
+      h('span.spacer'),
+      h('button.button.quiet.square', { type: 'button', 'aria-label': t('topics.showOnly', { name: domain.domain }), title: t('topics.showOnly', { name: domain.domain }), data: { act: `map ${domain.domain}` }, on: { click: () => { store.setScope({ domain: domain.domain }); navigate('map'); } } }, icon('map', 18)),
+      h('button.button.quiet.square', { type: 'button', disabled: !store.may('administer'), 'aria-label': t('missions.deleteDomain', { domain: domain.domain }), title: t('missions.deleteDomain', { domain: domain.domain }), data: { act: `delete ${domain.domain}` }, on: { click: () => deleteDomain(domain.domain) } }, icon('trash', 18)));
+  }
+
+  close() {
+    this.offs.forEach((off) => off());
+  }
+}
+
+function newDomain() {
+  const id = h('input', { required: true, pattern: '[A-Za-z0-9_\\-]{1,64}', title: t('missions.nameHint'), autocomplete: 'off' });
+  const name = h('input', { maxlength: 200, autocomplete: 'off' });
+  const description = h('textarea', { maxlength: 1000 });
+  openDialog({
+    title: t('missions.newDomain'), submit: t('missions.create'),
+    body: [formRow(t('missions.domainId'), id, t('missions.nameHint')), formRow(t('missions.domainName'), name), formRow(t('missions.description'), description)],
+    work: () => api.post('/api/domains', { domain: id.value, ...(name.value ? { name: name.value } : {}), ...(description.value ? { description: description.value } : {}) }),
+  });
+  id.focus();
+}
+
+function deleteDomain(domain) {
+  openDialog({
+    title: t('missions.deleteDomain', { domain }), body: [h('p', null, t('missions.deleteDomainText'))], submit: t('missions.delete'), danger: true,
+    work: () => api.del(`/api/domains/${encodeURIComponent(domain)}`),
+  });
+}

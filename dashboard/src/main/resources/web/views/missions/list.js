@@ -1,0 +1,30 @@
+/** The missions there are, those at work first. */
+import { duration } from '../../core/format.js';
+import { h } from '../../core/dom.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+import { redraw } from './redraw.js';
+
+const ORDER = { failed: 0, starting: 1, running: 1, stopping: 1, created: 2, stopped: 3 };
+const KINDS = { running: 'good', starting: 'info', stopping: 'info', failed: 'bad' };
+
+export function statePill(state) {
+  return h('span.pill', { class: KINDS[state] ?? '' }, t(`missions.states.${state ?? 'created'}`));
+}
+
+export function drawList(place, chosen, choose) {
+  const missions = [...store.missions.values()].sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (ORDER[a.status?.state] ?? 2) - (ORDER[b.status?.state] ?? 2) || (a.mission < b.mission ? -1 : 1));
+  redraw(place, missions.map((mission) => {
+    const status = mission.status;
+    const share = status?.devices ? status.confirmed / status.devices : 0;
+    const filled = h('span');
+    filled.style.width = `${100 * share}%`;
+    return h('li', null, h('button.mission-row', { type: 'button', data: { act: `mission ${mission.mission}` }, 'aria-pressed': String(mission.mission === chosen), on: { click: () => choose(mission.mission) } },
+      h('span.row', null, h('strong.cut', null, mission.mission), h('span.spacer'), statePill(status?.state)),
+      h('span.row.small.muted', null, h('span.cut', null, mission.domain), h('span.spacer'), h('span.numbers', null, status ? t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices }) : '')),
+      status?.devices > 0 && h('span.bar', null, filled),
+      status?.missing?.length > 0 && h('span.small.warn', null, t('missions.missing', { count: status.devices - status.confirmed })),
+      status?.since && h('span.small.muted.numbers', null, t('missions.since', { age: duration(Date.now() - status.since) }))));
+  }));
+  return missions.length;
+}

@@ -1,0 +1,180 @@
+/** Recorded missions to be played back, and the replays that run. */
+import { h, replace, setText } from '../core/dom.js';
+import { dateTime, duration, number } from '../core/format.js';
+import { linkTo, onRoute, route } from '../core/router.js';
+import { icon } from '../core/icons.js';
+import { store } from '../core/store.js';
+import { streams } from '../core/stream.js';
+import { t } from '../texts.js';
+import { Plan } from './replays/plan.js';
+import { Preview } from './replays/preview.js';
+import { drawRunning, grouped } from './replays/running.js';
+
+/** A mission whose newest event is no older is still being recorded, ms. */
+const RECORDED_LATELY = 90_000;
+const SAID = 6_000;
+
+class Replays extends HTMLElement {
+  connectedCallback() {
+    this.chosen = new Set();
+    this.rows = new Map();
+    this.runningDrawn = new Map();
+    this.entities = new Map();
+    this.plan = new Plan();
+    this.runningList = h('ul.running-list');
+    this.runningTitle = h('h2.section-title', null, t('replays.running'), h('span.numbers'));
+    this.noRunning = h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p', null, t('replays.noRunningHint')));
+    this.recordedTitle = h('h2.section-title', null, t('replays.recorded'), h('span.numbers'));
+    this.body = h('tbody');
+    this.table = h('div.table-frame', null, h('table.table.recordings', { 'aria-label': t('replays.recorded') },
+      h('thead', null, h('tr', null, h('th', null, h('span.visually-hidden', null, t('replays.choice'))), h('th', null, t('replays.choice')), h('th', null, t('replays.when')),
+        h('th.numbers', null, t('replays.length')), h('th.numbers', null, t('replays.devices')), h('th.numbers', null, t('replays.events')), h('th.preview-cell', null, t('replays.density')))),
+      this.body));
+    this.state = h('div');
+    this.said = h('p.replay-said.small', { role: 'status' });
+    replace(this, h('div.view', null,
+      h('header', null, h('div', null, h('h1', null, t('replays.title')), h('p.muted', null, t('replays.lead'))), h('span.spacer'), this.said),
+      h('section.stack', null, this.runningTitle, this.runningList, this.noRunning),
+      h('div.replay-columns', null, h('section.stack', null, this.recordedTitle, this.state, this.table), this.plan.element)));
+    this.catalog = streams.subscribe('data.catalog', { mode: 'latest', prime: true }, { records: (records) => this.takeCatalog(records) });
+    this.onScheme = () => this.rows.forEach((row) => row.preview.draw());
+    window.addEventListener('schemechange', this.onScheme);
+    this.offs = [
+      store.on('replays', () => this.showRunning()), store.on('mode', () => this.showRunning()), store.on('recordings', () => this.showRecordings()),
+      store.on('missions', () => this.showRecordings()), store.on('me', () => this.choose()), onRoute(() => this.takeLink()),
+    ];
+    this.showRunning();
+    this.showRecordings();
+    this.takeLink();
+    this.timer = setTimeout(() => { this.late = true; this.showRecordings(); }, 3_000);
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    this.catalog.close();
+    clearTimeout(this.timer);
+    clearTimeout(this.saying);
+    window.removeEventListener('schemechange', this.onScheme);
+    this.rows.forEach((row) => row.preview.close());
+  }
+
+  /** `#/replays?mission=a,b&at=ISO` */
+  takeLink() {
+    const { mission, at } = route.query;
+    if (route.view === 'replays' && mission) {
+      this.linked = { missions: mission.split(','), at: at ? Date.parse(at) : undefined };
+      this.showRecordings();
+    }
+  }
+
+  takeCatalog(records) {
+    for (const { key, value } of records) {
+      const mission = value?.mission ?? String(key).split('|')[2];
+      const types = this.entities.get(mission) ?? new Map();
+      value ? types.set(key, value.entities ?? 0) : types.delete(key);
+      this.entities.set(mission, types);
+    }
+    this.rows.forEach((row) => this.fill(row));
+  }
+
+  showRunning() {
+    const entries = grouped(store.replays.values());
+    drawRunning(this.runningList, this.runningDrawn, entries, (words) => this.say(words));
+    setText(this.runningTitle.lastChild, entries.length || '');
+    this.noRunning.hidden = entries.length > 0;
+  }
+
+  showRecordings() {
+    const recordings = [...store.recordings.values()].sort((one, other) => other.last - one.last || one.mission.localeCompare(other.mission));
+    for (const [mission, row] of this.rows) {
+      if (!store.recordings.has(mission)) {
+        row.preview.close();
+        row.element.remove();
+        this.rows.delete(mission);
+        this.chosen.delete(mission);
+      }
+    }
+    for (const recording of recordings) {
+      const row = this.rows.get(recording.mission) ?? this.row(recording.mission);
+      this.fill(row);
+      row.preview.update(recording.last);
+    }
+    setText(this.recordedTitle.lastChild, recordings.length || '');
+    this.table.hidden = recordings.length === 0;
+    this.plan.element.hidden = recordings.length === 0;
+    replace(this.state, recordings.length ? null : this.late ? this.emptyState() : skeleton());
+    if (this.linked && this.linked.missions.every((each) => store.recordings.has(each))) {
+      this.chosen = new Set(this.linked.missions);
+      this.at = this.linked.at;
+      this.linked = null;
+    }
+    this.choose();
+  }
+
+  emptyState() {
+    return h('div.empty', null, h('h3', null, t('replays.none')), h('p', null, t('replays.noneHint')),
+      h('a.button', { href: linkTo('missions') }, icon('flag', 18), t('replays.noneButton')));
+  }
+
+  row(mission) {
+    const preview = new Preview(mission, () => this.rows.has(mission) && this.fill(this.rows.get(mission)));
+    const check = h('input', { type: 'checkbox', 'aria-label': t('replays.choose', { mission }), on: { change: () => this.toggle(mission) } });
+    const cells = { name: h('strong'), domain: h('span.small.muted'), when: h('td.numbers-left'), length: h('td.numbers'), devices: h('td.numbers'), events: h('td.numbers') };
+    const element = h('tr', { on: { click: (event) => event.target.closest('input') || this.toggle(mission, true) } },
+      h('td', null, check), h('td', null, h('div', null, cells.name), cells.domain), cells.when, cells.length, cells.devices, cells.events, h('td.preview-cell', null, preview.element));
+    const row = { mission, element, check, cells, preview };
+    this.rows.set(mission, row);
+    this.body.append(element);
+    preview.draw();
+    return row;
+  }
+
+  fill({ mission, cells, preview, check, element }) {
+    const { first, last } = store.recordings.get(mission);
+    const entities = [...(this.entities.get(mission)?.values() ?? [])].reduce((sum, each) => sum + each, 0);
+    setText(cells.name, mission);
+    setText(cells.domain, store.missions.get(mission)?.domain ?? '');
+    const goesOn = Date.now() - last < RECORDED_LATELY;
+    const words = dateTime(first);
+    if (cells.when.dataset.words !== words + goesOn) {
+      cells.when.dataset.words = words + goesOn;
+      replace(cells.when, words, goesOn && h('div.small.live-word', null, t('replays.now')));
+    }
+    setText(cells.length, duration(last - first));
+    setText(cells.devices, entities ? number(entities) : '–');
+    setText(cells.events, preview.events === null ? '…' : number(preview.events));
+    check.checked = this.chosen.has(mission);
+    element.classList.toggle('selected', check.checked);
+  }
+
+  /** @param {boolean} alone a click on a row chooses it alone; a checkbox adds */
+  toggle(mission, alone = false) {
+    if (alone) {
+      this.chosen = new Set(this.chosen.size === 1 && this.chosen.has(mission) ? [] : [mission]);
+    } else {
+      this.chosen.has(mission) ? this.chosen.delete(mission) : this.chosen.add(mission);
+    }
+    this.at = undefined;
+    this.choose();
+  }
+
+  choose() {
+    this.rows.forEach((row) => {
+      row.check.checked = this.chosen.has(row.mission);
+      row.element.classList.toggle('selected', row.check.checked);
+    });
+    this.plan.show([...this.chosen], this.at);
+  }
+
+  say(words) {
+    clearTimeout(this.saying);
+    setText(this.said, words);
+    this.saying = setTimeout(() => setText(this.said, ''), SAID);
+  }
+}
+
+function skeleton() {
+  return h('div.stack', { 'aria-busy': 'true' }, [1, 2, 3].map(() => h('div.skeleton.recording-skeleton')));
+}
+
+customElements.define('furrow-replays', Replays);

@@ -1,0 +1,138 @@
+/** The form of a new replay: of which missions, from when to when, how fast. */
+import { h, replace, setText } from '../../core/dom.js';
+import { dateTime, duration } from '../../core/format.js';
+import { icon } from '../../core/icons.js';
+import { navigate } from '../../core/router.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+import { SPEEDS, startReplay } from '../../timeline/control.js';
+
+const SHORTENED = 'PT30S';
+const ANALYTICS = ['collision', 'presence', 'temperature'];
+
+export class Plan {
+  constructor() {
+    this.missions = [];
+    this.touched = false;
+    this.heading = h('h2');
+    this.hint = h('p.muted.small');
+    this.from = h('input', { type: 'datetime-local', step: '1', id: 'plan-from', on: { input: () => this.rangeChanged() } });
+    this.to = h('input', { type: 'datetime-local', step: '1', id: 'plan-to', on: { input: () => this.rangeChanged() } });
+    this.length = h('span.small.muted.numbers');
+    this.speed = h('select', { id: 'plan-speed' }, SPEEDS.map((speed) =>
+      h('option', { value: speed, selected: speed === 4 }, speed === 'max' ? t('replays.fastest') : t('replays.times', { speed }))));
+    this.analytics = h('input', { type: 'checkbox', checked: true, id: 'plan-analytics', 'aria-describedby': 'plan-analytics-hint' });
+    this.loop = h('input', { type: 'checkbox', id: 'plan-loop' });
+    this.skip = h('input', { type: 'checkbox', id: 'plan-skip' });
+    this.skipRow = h('label.check', { for: 'plan-skip' }, this.skip, t('replays.skip'));
+    this.start = h('button.button.primary', { type: 'submit' });
+    this.failed = h('p.error-note', { role: 'alert', hidden: true });
+    this.form = h('form.stack', { on: { submit: (event) => this.submit(event) } },
+      h('div.plan-range', null,
+        h('div.field-row', null, h('label', { for: 'plan-from' }, t('replays.from')), this.from),
+        h('div.field-row', null, h('label', { for: 'plan-to' }, t('replays.to')), this.to)),
+      this.length,
+      h('div.field-row', null, h('label', { for: 'plan-speed' }, t('replays.speed')), this.speed),
+      h('div.stack.plan-checks', null,
+        h('label.check', { for: 'plan-analytics' }, this.analytics, t('replays.analytics')),
+        h('p.small.muted', { id: 'plan-analytics-hint' }, t('replays.analyticsHint')),
+        h('label.check', { for: 'plan-loop' }, this.loop, t('replays.loop')), this.skipRow),
+      this.failed, this.start);
+    this.element = h('section.panel.plan', { 'aria-label': t('replays.plan') }, this.heading, this.hint, this.form);
+    this.show([]);
+  }
+
+  /** @param {string[]} missions @param {number=} at where to begin, epoch ms */
+  show(missions, at) {
+    const changed = missions.join() !== this.missions.join();
+    this.missions = missions;
+    const known = missions.map((each) => store.recordings.get(each)).filter(Boolean);
+    const may = store.may('operate');
+    setText(this.heading, missions.length ? t('replays.planOf', { missions: missions.join(' + ') }) : t('replays.plan'));
+    setText(this.hint, !may ? t('replays.viewer') : missions.length === 0 ? t('replays.chooseOne') : missions.length > 1 ? t('replays.oneClock') : '');
+    this.hint.hidden = this.hint.textContent === '';
+    this.form.hidden = !may || missions.length === 0;
+    this.skipRow.hidden = missions.length > 1;
+    const fastest = this.speed.querySelector('option[value="max"]');
+    fastest.disabled = missions.length > 1;
+    if (fastest.disabled && this.speed.value === 'max') {
+      this.speed.value = '60';
+    }
+    if (known.length && (changed || !this.touched)) {
+      this.span = [Math.min(...known.map((each) => each.first)), Math.max(...known.map((each) => each.last))];
+      const first = at !== undefined && at > this.span[0] && at < this.span[1] ? at : this.span[0];
+      this.touched = this.touched && !changed;
+      this.from.value = local(first);
+      this.to.value = local(this.span[1] + 999);
+      this.from.min = this.to.min = local(this.span[0]);
+      this.from.max = this.to.max = local(this.span[1] + 999);
+      this.begun = first;
+      this.rangeShown();
+    }
+    this.ready();
+  }
+
+  ready() {
+    this.start.disabled = this.busy || !this.rangeIsRight();
+    replace(this.start, icon('play', 18), t(this.busy ? 'replays.starting' : 'replays.start'));
+  }
+
+  rangeChanged() {
+    this.touched = true;
+    this.begun = null;
+    this.rangeShown();
+    this.ready();
+  }
+
+  rangeIsRight() {
+    return this.range()[1] > this.range()[0];
+  }
+
+  range() {
+    return [this.begun ?? Date.parse(this.from.value), Date.parse(this.to.value)];
+  }
+
+  rangeShown() {
+    const [from, to] = this.range();
+    setText(this.length, to > from ? `${t('replays.length')}: ${duration(to - from)}` : t('replays.wrongRange'));
+  }
+
+  async submit(event) {
+    event.preventDefault();
+    this.busy = true;
+    this.failed.hidden = true;
+    this.ready();
+    const [from, to] = this.range();
+    const many = this.missions.length > 1;
+    const [first, last] = this.span;
+    try {
+      await startReplay({
+        ...(many ? { missions: this.missions } : { mission: this.missions[0] }),
+        speed: this.speed.value === 'max' ? 'max' : Number(this.speed.value),
+        ...(from > first ? { from: Math.round(from) } : {}),
+        ...(to <= last ? { to: Math.round(to) } : {}),
+        ...(this.loop.checked ? { loop: true } : {}),
+        ...(this.analytics.checked ? { analytics: ANALYTICS } : {}),
+        ...(this.skip.checked && !many ? { maxGap: SHORTENED } : {}),
+      });
+      navigate('map');
+    } catch (error) {
+      replace(this.failed, icon('warning', 18), error.message === 'not-played' ? t('replays.notPlayed') : error.message);
+      this.failed.hidden = false;
+    } finally {
+      this.busy = false;
+      this.ready();
+    }
+  }
+}
+
+/** As `datetime-local` has it. */
+function local(ms) {
+  const date = new Date(ms - new Date(ms).getTimezoneOffset() * 60_000);
+  return date.toISOString().slice(0, 19);
+}
+
+/** For people: when a mission was recorded. */
+export function recordedWhen({ first }) {
+  return dateTime(first);
+}

@@ -1,0 +1,125 @@
+/** Topics: what flows, and how much of it. */
+import { resource } from '../core/resource.js';
+import { number } from '../core/format.js';
+import { h, replace, setText } from '../core/dom.js';
+import { icon } from '../core/icons.js';
+import { navigate } from '../core/router.js';
+import { store } from '../core/store.js';
+import { t } from '../texts.js';
+import { Records } from './topics/records.js';
+import { arrange } from './topics/tree.js';
+
+const POLL_MILLIS = 2_000;
+const FOLDED = new Set(['replays', 'service', 'other']);
+/** Topics whose records are shown; they stay while one looks elsewhere. */
+const chosen = new Set();
+
+class FurrowTopics extends HTMLElement {
+  connectedCallback() {
+    this.figures = new Map();
+    this.rows = new Map();
+    this.tree = h('div.topic-tree');
+    this.records = new Records();
+    this.records.choose(chosen);
+    replace(this, h('div.view', null,
+      h('header', null, h('h1', null, t('views.topics')), h('span.spacer'), h('p.small.muted', null, t('topics.hint'))),
+      h('div.topic-columns', null, this.tree, this.records.element)));
+    this.list = resource('/api/topics', { interval: POLL_MILLIS });
+    this.offs = [this.list.on(() => this.take()), ...['domains', 'missions', 'scope'].map((name) => store.on(name, () => this.draw()))];
+    replace(this.tree, [0, 1, 2, 3, 4].map(() => h('div.skeleton.topic-skeleton', null, '…')));
+  }
+
+  disconnectedCallback() {
+    this.offs.forEach((off) => off());
+    this.list.close();
+    this.records.close();
+  }
+
+  /** Rates come from two looks at how long topics are. */
+  take() {
+    if (this.list.error) {
+      replace(this.tree, h('p.error-note', { role: 'alert' }, icon('warning'), this.list.error.message));
+      this.key = null;
+      return;
+    }
+    const now = performance.now();
+    for (const { name, written } of this.list.value) {
+      const before = this.figures.get(name);
+      if (before && now - before.at < POLL_MILLIS / 4) {
+        continue;
+      }
+      const rate = before ? Math.max(0, written - before.written) / ((now - before.at) / 1000) : 0;
+      this.figures.set(name, { written, at: now, rate: before ? 0.5 * rate + 0.5 * before.rate : rate });
+    }
+    this.draw();
+  }
+
+  draw() {
+    if (!this.list.value || this.list.error) {
+      return;
+    }
+    const tree = arrange(this.list.value, store.domains.keys(), store.missions.values());
+    const key = JSON.stringify([tree, store.scope]);
+    if (key !== this.key) {
+      this.key = key;
+      this.drawTree(tree);
+    }
+    for (const [name, row] of this.rows) {
+      const figures = this.figures.get(name);
+      setText(row.count, figures ? number(figures.written) : '–');
+      setText(row.rate, figures ? t('topics.rate', { rate: figures.rate < 10 ? figures.rate.toFixed(1) : Math.round(figures.rate) }) : '');
+      row.element.classList.toggle('flowing', figures?.rate > 0.05);
+    }
+  }
+
+  drawTree(tree) {
+    const open = new Set([...this.tree.querySelectorAll('details[open]')].map((each) => each.dataset.name));
+    const focused = this.tree.contains(document.activeElement) ? document.activeElement.id : null;
+    this.rows.clear();
+    const section = (name, topics) => topics.length > 0 && (FOLDED.has(name)
+      ? h('details', { data: { name }, open: open.has(name) }, h('summary.section-title', null, h('span', null, t(`topics.sections.${name}`)), h('span.numbers', null, topics.length)), h('ul', null, topics.map((each) => h('li', null, this.row(each, each)))))
+      : h('section', null, h('h2.section-title', null, t(`topics.sections.${name}`)), h('ul', null, topics.map((each) => h('li', null, this.row(each, each))))));
+    replace(this.tree,
+      section('results', tree.results),
+      h('section', null, h('h2.section-title', null, t('topics.sections.domains')),
+        tree.domains.length ? h('ul', null, tree.domains.map((each) => this.domain(each))) : h('p.small.muted', null, t('topics.noDomains'))),
+      section('all', tree.all), section('replays', tree.replays), section('service', tree.service), section('other', tree.other));
+    focused && this.tree.querySelector(`#${CSS.escape(focused)}`)?.focus();
+  }
+
+  domain({ domain, topic, missions }) {
+    return h('li.topic-domain', null,
+      this.row(topic, domain, { domain }),
+      missions.length > 0 && h('ul', null, missions.map((each) => h('li', null, this.row(each.topic, each.mission, { domain, mission: each.mission })))));
+  }
+
+  /** @param {string|null} topic null where nothing was reported yet */
+  row(topic, words, scope) {
+    const id = `topic-${topic ?? words}`;
+    const check = h('input', { type: 'checkbox', id, disabled: topic === null, checked: chosen.has(topic), on: { change: () => this.choose(topic, check.checked) } });
+    const count = h('span.numbers.muted.small');
+    const rate = h('span.numbers.small.topic-rate');
+    const shown = scope && store.scope.domain === scope.domain && store.scope.mission === (scope.mission ?? null);
+    const element = h('div.topic-row', null, check, h('label.cut', { for: id, title: topic ?? '' }, words),
+      topic === null && h('span.small.muted', null, t('topics.noneYet')), rate, count,
+      scope && h('button.button.quiet.square.small', {
+        type: 'button', 'aria-pressed': String(shown), 'aria-label': t(shown ? 'topics.showAll' : 'topics.showOnly', { name: words }), title: t(shown ? 'topics.showAll' : 'topics.showOnly', { name: words }),
+        on: { click: () => this.scope(shown ? {} : scope) },
+      }, icon('map', 16)));
+    topic && this.rows.set(topic, { element, count, rate });
+    return element;
+  }
+
+  choose(topic, on) {
+    on ? chosen.add(topic) : chosen.delete(topic);
+    this.records.choose(chosen);
+  }
+
+  /** The map and the cards show only what belongs to it. */
+  scope(scope) {
+    store.setScope(scope);
+    scope.domain && navigate('map');
+  }
+}
+
+customElements.define('furrow-topics', FurrowTopics);

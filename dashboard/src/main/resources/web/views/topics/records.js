@@ -1,0 +1,142 @@
+/** The newest records of the topics that are chosen, as they come. */
+import { bytes, clock, plain, shortId } from '../../core/format.js';
+import { h, replace, setText } from '../../core/dom.js';
+import { icon } from '../../core/icons.js';
+import { streams } from '../../core/stream.js';
+import { t } from '../../texts.js';
+
+const KEPT = 200;
+const SHOWN = 100;
+const REDRAW_MILLIS = 300;
+const LONGEST_TEXT = 20_000;
+
+export class Records {
+  constructor() {
+    this.streams = new Map();
+    this.records = [];
+    this.open = new Set();
+    this.key = '';
+    this.paused = false;
+    this.body = h('tbody');
+    this.note = h('p.small.muted', { role: 'status' });
+    this.pause = h('button.button.small', { type: 'button', 'aria-pressed': 'false', on: { click: () => this.togglePause() } }, icon('pause', 16), t('topics.pause'));
+    this.find = h('input', { type: 'search', placeholder: t('topics.findKey'), 'aria-label': t('topics.findKey'), on: { input: () => { this.key = this.find.value.trim().toLowerCase(); this.draw(); } } });
+    this.hint = h('div.empty', null, h('h3', null, t('topics.noneChosen')), h('p', null, t('topics.noneChosenHint')));
+    this.frame = h('div.table-frame', { tabindex: '0', role: 'group', 'aria-label': t('topics.records') }, h('table.table.records', null,
+      h('thead', null, h('tr', null, ['time', 'topic', 'key', 'value'].map((name) => h('th', { scope: 'col' }, t(`topics.columns.${name}`))))), this.body));
+    this.bar = h('div.row.wrap', null, this.pause, h('div.find-key', null, this.find), h('span.spacer'), this.note);
+    this.element = h('section.stack.topic-records', { 'aria-label': t('topics.records') }, this.bar, this.hint, this.frame);
+    this.draw();
+  }
+
+  /** @param {Set<string>} topics */
+  choose(topics) {
+    for (const [topic, stream] of this.streams) {
+      if (!topics.has(topic)) {
+        stream.close();
+        this.streams.delete(topic);
+        this.records = this.records.filter((each) => each.topic !== topic);
+      }
+    }
+    for (const topic of topics) {
+      this.streams.has(topic) || this.streams.set(topic, this.follow(topic));
+    }
+    this.draw();
+  }
+
+  follow(topic) {
+    const followed = { gap: 0, state: 'connecting', close: () => stream.close() };
+    const stream = streams.subscribe(topic, { mode: 'all', prime: false }, {
+      records: (records) => this.take(records),
+      gap: (missed) => { followed.gap += missed; this.soon(); },
+      state: (state, reason) => { Object.assign(followed, { state, reason }); this.soon(); },
+    });
+    return followed;
+  }
+
+  take(records) {
+    if (!this.paused) {
+      this.records.push(...records);
+      this.records.splice(0, this.records.length - KEPT);
+      this.soon();
+    }
+  }
+
+  soon() {
+    this.timer ??= setTimeout(() => { this.timer = null; this.draw(); }, REDRAW_MILLIS);
+  }
+
+  togglePause() {
+    this.paused = !this.paused;
+    this.pause.setAttribute('aria-pressed', String(this.paused));
+    replace(this.pause, icon(this.paused ? 'play' : 'pause', 16), t(this.paused ? 'topics.goOn' : 'topics.pause'));
+    this.draw();
+  }
+
+  draw() {
+    const chosen = this.streams.size > 0;
+    this.hint.hidden = chosen;
+    this.frame.hidden = this.bar.hidden = !chosen;
+    const shown = this.records.filter((each) => this.key === '' || String(each.key ?? '').toLowerCase().includes(this.key)).slice(-SHOWN).reverse();
+    setText(this.note, this.stateOf(shown));
+    const rows = [...this.body.children];
+    const known = new Map(rows.map((each) => [each.dataset.at, each]));
+    const wanted = shown.flatMap((record) => this.rowsOf(record, known));
+    wanted.forEach((row, index) => this.body.children[index] !== row && this.body.insertBefore(row, this.body.children[index] ?? null));
+    while (this.body.children.length > wanted.length) {
+      this.body.lastChild.remove();
+    }
+  }
+
+  stateOf(shown) {
+    const followed = [...this.streams.values()];
+    const refused = followed.find((each) => each.state === 'refused' || each.state === 'waiting');
+    const gaps = followed.reduce((sum, each) => sum + each.gap, 0);
+    const parts = [this.paused ? t('topics.paused') : t('topics.count', { count: shown.length })];
+    gaps && parts.push(t('topics.gaps', { count: gaps }));
+    refused && parts.push(refused.reason ?? t('topics.waiting'));
+    return parts.join(' · ');
+  }
+
+  rowsOf(record, known) {
+    const at = `${record.topic} ${record.partition} ${record.offset}`;
+    const open = this.open.has(at);
+    const row = known.get(at) ?? this.makeRow(record, at);
+    row.querySelector('button').setAttribute('aria-expanded', String(open));
+    return open ? [row, known.get(`${at} open`) ?? openedRow(record, at)] : [row];
+  }
+
+  makeRow(record, at) {
+    const button = h('button.sort.numbers', { type: 'button', 'aria-label': t('topics.open', { time: clock(record.time) }), on: { click: () => {
+      this.open.has(at) ? this.open.delete(at) : this.open.add(at);
+      this.draw();
+    } } }, clock(record.time));
+    return h('tr', { data: { at } }, h('td', null, button), h('td.cut.tail', { title: record.topic }, h('bdi', null, record.topic)), h('td.cut', { title: plain(record.key, 200) }, shortId(plain(record.key, 80))), h('td.cut.value', null, lineOf(record)));
+  }
+
+  close() {
+    clearTimeout(this.timer);
+    this.streams.forEach((each) => each.close());
+    this.streams.clear();
+  }
+}
+
+function lineOf(record) {
+  if (record.cut) {
+    return t('topics.cut', { size: bytes(record.cut) });
+  }
+  if (record.value === null) {
+    return t('topics.deleted');
+  }
+  const text = typeof record.value === 'string' ? record.value : JSON.stringify(record.value);
+  return text.slice(0, 300);
+}
+
+function openedRow(record, at) {
+  const value = record.cut ? t('topics.cut', { size: bytes(record.cut) }) : JSON.stringify(record.value, null, 2);
+  const text = value.length > LONGEST_TEXT ? `${value.slice(0, LONGEST_TEXT)}\n… ${t('topics.shortened', { size: bytes(value.length) })}` : value;
+  return h('tr.opened', { data: { at: `${at} open` } }, h('td', { colspan: 4 },
+    h('p.small.muted.numbers', null, t('topics.where', { partition: record.partition, offset: record.offset, key: plain(record.key, 200) })),
+    h('pre', null, text),
+    Object.keys(record.headers ?? {}).length > 0 && h('details', null, h('summary.small', null, t('topics.headers')), h('pre', null, JSON.stringify(record.headers, null, 2)))));
+}

@@ -1,0 +1,51 @@
+/** Topics in the order in which people look for them: of all, of each domain and its missions, of replays, of requests and states. */
+
+const RESULTS = ['data.collision', 'data.temperature', 'data.presence', 'data.clocks', 'data.images', 'data.context', 'data.catalog'];
+const EVERYTHING = ['data.raw', 'data.latest', 'ngsi.notifications'];
+
+/**
+ * @param {{name: string}[]} topics
+ * @param {Iterable<string>} domains those that the managers know, with or without a topic
+ * @param {Iterable<{mission: string, domain: string}>} missions
+ * @returns {{all: string[], results: string[], domains: {domain: string, topic: string|null, missions: {mission: string, topic: string|null}[]}[],
+ *     replays: string[], service: string[], other: string[]}}
+ */
+export function arrange(topics, domains, missions) {
+  const names = new Set(topics.map((each) => each.name));
+  const taken = new Set();
+  const take = (list) => list.filter((name) => names.has(name) && taken.add(name));
+  const tree = { all: take(EVERYTHING), results: take(RESULTS), domains: domainsOf(names, domains, missions, taken), replays: [], service: [], other: [] };
+  for (const name of names) {
+    if (taken.has(name)) {
+      continue;
+    }
+    const place = /^data\..+\.replay\.[0-9a-f]{8}/.test(name) ? tree.replays : name.startsWith('service.') ? tree.service : tree.other;
+    place.push(name);
+  }
+  return tree;
+}
+
+function domainsOf(names, domains, missions, taken) {
+  const known = new Map();
+  const of = (domain) => {
+    if (!known.has(domain)) {
+      known.set(domain, { domain, topic: null, missions: [] });
+    }
+    return known.get(domain);
+  };
+  [...domains].forEach(of);
+  const wanted = new Map([...missions].map((each) => [`data.${each.domain}.realtime.${each.mission}`, each]));
+  for (const name of names) {
+    const [, domain, mission] = /^data\.([^.]+)\.realtime(?:\.([^.]+))?$/.exec(name) ?? [];
+    if (domain) {
+      taken.add(name);
+      mission ? of(domain).missions.push({ mission, topic: name }) : (of(domain).topic = name);
+      wanted.delete(name);
+    }
+  }
+  // a mission that nothing was reported of yet has no topic
+  wanted.forEach((each) => of(each.domain).missions.push({ mission: each.mission, topic: null }));
+  const ordered = [...known.values()].sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (a.domain < b.domain ? -1 : 1));
+  ordered.forEach((each) => each.missions.sort((a, b) => (a.mission < b.mission ? -1 : 1)));
+  return ordered;
+}

@@ -1,0 +1,29 @@
+package io.furrow.dashboard;
+
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.io.InputStreamReader;
+import java.net.Socket;
+import java.net.URI;
+
+import static java.nio.charset.StandardCharsets.US_ASCII;
+
+/** The first request of a socket, with headers that clients do not let anybody set. */
+final class Handshake {
+    private Handshake() {}
+
+    /** @return the status that it is answered with */
+    static int status(URI socket, String host, String... headers) throws IOException {
+        StringBuilder request = new StringBuilder("GET %s HTTP/1.1\r\nHost: %s\r\n".formatted(socket.getPath(), host))
+                .append("Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n")
+                .append("Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n");
+        for (int i = 0; i < headers.length; i += 2) {
+            request.append(headers[i]).append(": ").append(headers[i + 1]).append("\r\n");
+        }
+        try (Socket connection = new Socket(socket.getHost(), socket.getPort())) {
+            connection.getOutputStream().write(request.append("\r\n").toString().getBytes(US_ASCII));
+            String line = new BufferedReader(new InputStreamReader(connection.getInputStream(), US_ASCII)).readLine();
+            return Integer.parseInt(line.split(" ")[1]);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+package io.furrow.dashboard.feed;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.admin.RecordsToDelete;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
+class TopicHistoryIT {
+    private static final long TIME = 1_777_600_000_000L;
+    private static final int ALL = 5_000;
+
+    @TempDir
+    static Path directory;
+
+    private static EmbeddedKafka kafka;
+    private static KafkaProducer<String, byte[]> producer;
+    private static Admin admin;
+
+    @BeforeAll
+    static void start() {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        producer = new KafkaProducer<>(kafka.producerSettings(), new StringSerializer(), new ByteArraySerializer());
+        admin = Admin.create(client());
+    }
+
+    @AfterAll
+    static void stop() {
+        admin.close();
+        producer.close();
+        kafka.close();
+    }
+
+    private static Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+
+    private static void topic(String name, int partitions) throws Exception {
+        kafka.createTopics(List.of(
+                new NewTopic(name, Optional.of(partitions), Optional.empty()).configs(Map.of("retention.ms", "-1"))));
+    }
+
+    private static void send(String topic, int partition, long after, String value) throws Exception {
+        byte[] bytes = value == null ? null : value.getBytes(UTF_8);
+        producer.send(new ProducerRecord<>(topic, partition, TIME + after, "k", bytes))
+                .get();
+    }
+
+    private static String encounter(String id, int n) {
+        return "{\"encounter\":{\"type\":\"Text\",\"value\":\"%s\"},\"n\":%d}".formatted(id, n);
+    }
+
+    private static TopicHistory.Answer read(TopicHistory.Range range, TopicHistory.Limits limits) {
+        return new TopicHistory(client(), limits, 1024 * 1024).read(range);
+    }
+
+    private static List<Integer> numbers(TopicHistory.Answer answer) throws Exception {
+        List<Integer> numbers = new ArrayList<>();
+        for (FeedRecord record : answer.records()) {
+            JsonNode envelope = NgsiJson.read(record.envelope().getBytes(UTF_8));
+            numbers.add(envelope.at("/value/n").asInt());
+        }
+        return numbers;
+    }
+
+    @Test
+    void answersWithWhatIsOfAStretchOfTime() throws Exception {
+        topic("data.stretch", 2);
+        for (int n = 0; n < 10; n++) {
+            send("data.stretch", n % 2, n * 1_000L, "{\"n\":%d}".formatted(n));
+        }
+        send("data.stretch", 0, 3_500, "{\"n\":35}"); // late
+        send("data.stretch", 0, 3_600, null);
+
+        TopicHistory.Answer part = read(
+                new TopicHistory.Range("data.stretch", TIME + 3_000, TIME + 6_000, null, ALL),
+                TopicHistory.Limits.DEFAULT);
+        assertThat(numbers(part)).containsExactlyInAnyOrder(3, 4, 5, 35);
+        assertThat(part.since()).isEqualTo(TIME + 3_000);
+
+        TopicHistory.Answer nothing = read(
+                new TopicHistory.Range("data.stretch", TIME + 60_000, TIME + 70_000, null, ALL),
+                TopicHistory.Limits.DEFAULT);
+        assertThat(nothing.records()).isEmpty();
+        assertThat(nothing.since()).isEqualTo(TIME + 60_000);
+    }
+
+    @Test
+    void answersWithTheNewestRecordOfEachValueOfAnAttribute() throws Exception {
+        topic("data.newest", 1);
+        send("data.newest", 0, 0, encounter("a", 1));
+        send("data.newest", 0, 1, encounter("b", 2));
+        send("data.newest", 0, 2, encounter("a", 3));
+        send("data.newest", 0, 3, "{\"n\":4}");
+        send("data.newest", 0, 4, "{\"n\":5}");
+        send("data.newest", 0, 5, "no JSON");
+        send("data.newest", 0, 6, "{\"n\":6,\"encounter\":\"plain\"}");
+        send("data.newest", 0, 7, "{\"n\":7,\"encounter\":\"plain\"}");
+
+        TopicHistory.Answer answer = read(
+                new TopicHistory.Range("data.newest", TIME, TIME + 10, "encounter", ALL), TopicHistory.Limits.DEFAULT);
+        assertThat(numbers(answer)).containsExactly(2, 3, 4, 5, 0, 7);
+    }
+
+    @Test
+    void leavesOutTheOldestOfTooManyAndSaysSinceWhenAllIsThere() throws Exception {
+        topic("data.many", 1);
+        for (int n = 0; n < 100; n++) {
+            send("data.many", 0, n, "{\"n\":%d,\"filler\":\"%s\"}".formatted(n, "x".repeat(1_000)));
+        }
+        TopicHistory.Range all = new TopicHistory.Range("data.many", TIME, TIME + 1_000, null, ALL);
+
+        TopicHistory.Answer limited =
+                read(new TopicHistory.Range("data.many", TIME, TIME + 1_000, null, 10), TopicHistory.Limits.DEFAULT);
+        assertThat(numbers(limited)).hasSize(10).startsWith(90).endsWith(99);
+        assertThat(limited.since()).isEqualTo(TIME + 90);
+
+        TopicHistory.Answer scanned = read(all, new TopicHistory.Limits(20, 1_000_000, Duration.ofSeconds(10)));
+        assertThat(numbers(scanned)).hasSize(20).startsWith(80);
+        assertThat(scanned.since()).isEqualTo(TIME + 80);
+
+        TopicHistory.Answer weighed = read(all, new TopicHistory.Limits(1_000, 10_000, Duration.ofSeconds(10)));
+        assertThat(numbers(weighed)).hasSize(9).startsWith(91);
+        assertThat(weighed.since()).isEqualTo(TIME + 91);
+    }
+
+    @Test
+    void saysSinceWhenTheTopicHoldsSomething() throws Exception {
+        topic("data.short", 1);
+        for (int n = 0; n < 10; n++) {
+            send("data.short", 0, n * 1_000L, "{\"n\":%d}".formatted(n));
+        }
+        admin.deleteRecords(Map.of(new TopicPartition("data.short", 0), RecordsToDelete.beforeOffset(4)))
+                .all()
+                .get();
+
+        TopicHistory.Answer answer =
+                read(new TopicHistory.Range("data.short", TIME, TIME + 60_000, null, ALL), TopicHistory.Limits.DEFAULT);
+        assertThat(numbers(answer)).containsExactly(4, 5, 6, 7, 8, 9);
+        assertThat(answer.since()).isEqualTo(TIME + 4_000);
+    }
+}

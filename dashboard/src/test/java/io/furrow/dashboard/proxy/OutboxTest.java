@@ -1,0 +1,97 @@
+package io.furrow.dashboard.proxy;
+
+import java.time.Duration;
+import java.util.List;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.dashboard.feed.FeedRecord;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+
+class OutboxTest {
+    private static final ProxyLimits FEW =
+            new ProxyLimits(1, 1, 1, Duration.ofSeconds(1), 3, 10_000, 1_000, 1_000, 1, 1_000);
+
+    private static FeedRecord record(String key, String value, long sequence) {
+        return new FeedRecord(
+                new ConsumerRecord<>(
+                        "data.raw", 0, sequence, key == null ? null : key.getBytes(UTF_8), value.getBytes(UTF_8)),
+                sequence,
+                1_000);
+    }
+
+    private static Outbox outbox(StreamRequest.Mode mode, boolean prime, StreamRequest.Format format) {
+        return new Outbox(new StreamRequest("data.raw", mode, prime, format), FEW, new StreamCounters());
+    }
+
+    @Test
+    void keepsEveryRecordInItsOrder() {
+        Outbox outbox = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        outbox.offer(record("a", "1", 0));
+        outbox.offer(record("a", "2", 1));
+
+        assertThat(outbox.take()).isEqualTo("1");
+        assertThat(outbox.take()).isEqualTo("2");
+        assertThat(outbox.take()).isNull();
+    }
+
+    @Test
+    void isOverWhereMoreWaitThanMay() {
+        Outbox outbox = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        for (int i = 0; i < 3; i++) {
+            assertThat(outbox.offer(record("a", "1", i))).isTrue();
+        }
+        assertThat(outbox.offer(record("a", "1", 3))).isFalse();
+
+        Outbox heavy = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        assertThat(heavy.offer(record("a", "x".repeat(20_000), 0))).isFalse();
+    }
+
+    @Test
+    void countsWhatIsTakenAsWaitingNoMore() {
+        Outbox outbox = outbox(StreamRequest.Mode.ALL, false, StreamRequest.Format.VALUE);
+        for (int i = 0; i < 100; i++) {
+            assertThat(outbox.offer(record("a", "x".repeat(5_000), i))).isTrue();
+            outbox.take();
+        }
+    }
+
+    @Test
+    void letsTheNewestOfAKeyTakeThePlaceOfOlderOnes() {
+        Outbox outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
+        for (int i = 0; i < 50; i++) {
+            assertThat(outbox.offer(record("k" + i % 2, Integer.toString(i), i)))
+                    .isTrue();
+        }
+
+        assertThat(outbox.take())
+                .contains("\"value\":48", "\"value\":49", "\"merged\":48")
+                .doesNotContain("\"value\":47");
+        assertThat(outbox.take()).isNull();
+    }
+
+    @Test
+    void takesRecordsWithoutAKeyForDifferentOnes() {
+        Outbox outbox = outbox(StreamRequest.Mode.LATEST, false, StreamRequest.Format.RECORD);
+        outbox.offer(record(null, "1", 0));
+        outbox.offer(record(null, "2", 1));
+
+        assertThat(outbox.take()).contains("\"value\":1", "\"value\":2").doesNotContain("merged");
+    }
+
+    @Test
+    void holdsRecordsBackUntilWhatWasKnownIsSent() {
+        Outbox outbox = outbox(StreamRequest.Mode.ALL, true, StreamRequest.Format.RECORD);
+        outbox.offer(record("a", "2", 7));
+        assertThat(outbox.take()).isNull();
+
+        outbox.prime(List.of(record("a", "1", FeedRecord.NO_SEQUENCE)));
+
+        assertThat(outbox.take()).contains("\"kind\":\"prime\"", "\"value\":1").doesNotContain("sequence");
+        assertThat(outbox.take()).isEqualTo("{\"primed\":true}");
+        assertThat(outbox.take()).contains("\"kind\":\"event\"", "\"sequence\":7", "\"value\":2");
+    }
+}

@@ -1,0 +1,169 @@
+package io.furrow.fields;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import org.locationtech.jts.geom.Coordinate;
+import org.locationtech.jts.geom.Geometry;
+import org.locationtech.jts.geom.GeometryFactory;
+import org.locationtech.jts.geom.LinearRing;
+import org.locationtech.jts.geom.Polygon;
+import org.locationtech.jts.geom.util.GeometryFixer;
+import org.locationtech.jts.operation.valid.IsValidOp;
+import org.locationtech.jts.operation.valid.TopologyValidationError;
+
+import io.furrow.fields.file.Georeference;
+
+/**
+ * Converts the outline of a feature to a valid area in WGS 84, or rejects it with a reason. Every repair is noted:
+ * corners that are not numbers, repeated corners, open rings, heights, rings without area, rings that cross themselves
+ * or each other (repaired by JTS' {@code GeometryFixer}), the antimeridian. Edges are not densified.
+ */
+public final class AreaRepair {
+    private static final GeometryFactory SHAPES = new GeometryFactory();
+    private static final double METERS_PER_DEGREE = 6_371_000 * Math.PI / 180;
+
+    private final Georeference georeference;
+    private final List<String> notes = new ArrayList<>();
+    private int open;
+    private int repeated;
+    private int unreadable;
+    private int withoutArea;
+    private boolean heights;
+    private double edgeError;
+
+    private AreaRepair(Georeference georeference) {
+        this.georeference = georeference;
+    }
+
+    public static MendedArea repair(Outline outline, Georeference georeference) throws RefusedFeatureException {
+        return new AreaRepair(georeference).mended(outline);
+    }
+
+    public static String closed(int rings) {
+        return "closed " + Words.count(rings, "ring");
+    }
+
+    private MendedArea mended(Outline outline) throws RefusedFeatureException {
+        List<Polygon> polygons = new ArrayList<>();
+        for (List<List<Coordinate>> polygon : outline.polygons()) {
+            Polygon mended = polygon(polygon);
+            if (mended != null) {
+                polygons.add(mended);
+            }
+        }
+        if (polygons.isEmpty()) {
+            throw new RefusedFeatureException(
+                    outline.polygons().isEmpty() ? "has no geometry" : "has no ring that encloses an area");
+        }
+        Geometry area =
+                polygons.size() == 1 ? polygons.get(0) : SHAPES.createMultiPolygon(polygons.toArray(Polygon[]::new));
+        noteCounts();
+        Geometry valid = cut(fixed(area));
+        List<String> all = new ArrayList<>(outline.notes());
+        all.addAll(notes);
+        return new MendedArea(valid, all, edgeError);
+    }
+
+    private void noteCounts() {
+        note(heights, Outline.HEIGHTS_LEFT_OUT);
+        note(unreadable > 0, "left out " + Words.count(unreadable, "corner") + " without a number");
+        note(repeated > 0, "left out " + Words.count(repeated, "repeated corner"));
+        note(open > 0, closed(open));
+        note(withoutArea > 0, "left out " + Words.count(withoutArea, "ring") + " without area");
+    }
+
+    private void note(boolean happened, String what) {
+        if (happened) {
+            notes.add(what);
+        }
+    }
+
+    /** Returns null if the shell encloses no area. */
+    private Polygon polygon(List<List<Coordinate>> rings) throws RefusedFeatureException {
+        LinearRing shell = null;
+        List<LinearRing> holes = new ArrayList<>();
+        for (int index = 0; index < rings.size(); index++) {
+            List<Coordinate> corners = cleaned(rings.get(index));
+            if (corners.size() < 3) {
+                withoutArea++;
+                if (index == 0) {
+                    return null;
+                }
+                continue;
+            }
+            Coordinate[] ring = Rings.closed(Antimeridian.unrolled(reprojected(corners), shell));
+            if (index == 0) {
+                shell = SHAPES.createLinearRing(ring);
+            } else {
+                holes.add(SHAPES.createLinearRing(ring));
+            }
+        }
+        return shell == null ? null : SHAPES.createPolygon(shell, holes.toArray(LinearRing[]::new));
+    }
+
+    /** Returns the open ring without corners that are not numbers or repeat the previous one. */
+    private List<Coordinate> cleaned(List<Coordinate> ring) {
+        List<Coordinate> clean = new ArrayList<>();
+        for (Coordinate corner : ring) {
+            heights |= !Double.isNaN(corner.getZ());
+            if (!Double.isFinite(corner.x) || !Double.isFinite(corner.y)) {
+                unreadable++;
+            } else if (!clean.isEmpty() && clean.get(clean.size() - 1).equals2D(corner)) {
+                repeated++;
+            } else {
+                clean.add(corner);
+            }
+        }
+        if (clean.size() > 1 && Rings.isClosed(clean)) {
+            clean.remove(clean.size() - 1);
+        } else if (clean.size() > 2) {
+            open++;
+        }
+        return clean;
+    }
+
+    private List<Coordinate> reprojected(List<Coordinate> ring) throws RefusedFeatureException {
+        List<Coordinate> positions = new ArrayList<>(ring.size());
+        for (Coordinate corner : ring) {
+            positions.add(georeference.toWgs84(corner));
+        }
+        for (int index = 0; index < ring.size(); index++) {
+            int next = (index + 1) % ring.size();
+            Coordinate middle = georeference.toWgs84(new Coordinate(
+                    (ring.get(index).x + ring.get(next).x) / 2, (ring.get(index).y + ring.get(next).y) / 2));
+            edgeError = Math.max(edgeError, distance(middle, positions.get(index), positions.get(next)));
+        }
+        return positions;
+    }
+
+    /** Distance in meters from a position to the middle of an edge in longitude and latitude. */
+    private static double distance(Coordinate middle, Coordinate from, Coordinate to) {
+        double longitude = (Math.IEEEremainder(from.x - middle.x, 360) + Math.IEEEremainder(to.x - middle.x, 360)) / 2;
+        double latitude = (from.y + to.y) / 2 - middle.y;
+        return METERS_PER_DEGREE * Math.hypot(longitude * Math.cos(Math.toRadians(middle.y)), latitude);
+    }
+
+    private Geometry fixed(Geometry area) throws RefusedFeatureException {
+        TopologyValidationError error = new IsValidOp(area).getValidationError();
+        if (error == null) {
+            return area;
+        }
+        Geometry fixed = GeometryFixer.fix(area);
+        if (fixed.isEmpty()) {
+            throw new RefusedFeatureException("encloses no area (" + what(error) + ")");
+        }
+        notes.add("repaired: " + what(error));
+        return fixed;
+    }
+
+    private static String what(TopologyValidationError error) {
+        return error.getMessage() + " at " + Words.place(error.getCoordinate().x, error.getCoordinate().y);
+    }
+
+    private Geometry cut(Geometry area) {
+        Geometry cut = Antimeridian.cut(area);
+        note(cut != area, "cut at the antimeridian");
+        return cut;
+    }
+}

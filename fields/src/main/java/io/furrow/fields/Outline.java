@@ -1,0 +1,17 @@
+package io.furrow.fields;
+
+import java.util.List;
+
+import org.locationtech.jts.geom.Coordinate;
+
+/**
+ * The boundary of a field as read from its file, valid or not: polygons of rings, where the first ring is the shell.
+ * Rings need not be closed.
+ *
+ * @param polygons coordinates in the file's coordinate system, x = easting or longitude
+ * @param notes repairs made while reading it, as text
+ */
+public record Outline(List<List<List<Coordinate>>> polygons, List<String> notes) {
+    public static final String HEIGHTS_LEFT_OUT = "left out heights";
+    public static final String MEASURES_LEFT_OUT = "left out measures";
+}

@@ -1,0 +1,104 @@
+package io.furrow.fields.file;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import io.furrow.fields.AreaRepair;
+import io.furrow.fields.EllipsoidArea;
+import io.furrow.fields.FeatureNaming;
+import io.furrow.fields.ImportOptions;
+import io.furrow.fields.ImportedField;
+import io.furrow.fields.MendedArea;
+import io.furrow.fields.RefusedFeature;
+import io.furrow.fields.RefusedFeatureException;
+
+/**
+ * The content of a field file: each feature is either imported as a field or rejected with a reason.
+ *
+ * @param crs name of the coordinate system that the file is in
+ * @param accuracyMeters of the transformation to WGS 84, as specified by EPSG; NaN if unspecified
+ * @param notes remarks on the file as a whole
+ */
+public record FieldFile(
+        String crs,
+        double accuracyMeters,
+        List<ImportedField> fields,
+        List<RefusedFeature> refused,
+        List<String> notes) {
+    private static final int FIRST_BYTES = 16;
+
+    /** Reads GeoJSON, a Shapefile or a GeoPackage, detected by the first bytes. */
+    public static FieldFile read(Path file, ImportOptions options) throws UnusableFileException {
+        FieldLayer layer = layer(file, options);
+        String crs = options.crs() == null ? layer.crs() : options.crs();
+        if (crs == null) {
+            throw new UnusableFileException(file
+                    + " does not name its coordinate system; specify it with --crs, for instance --crs"
+                    + " EPSG:25830");
+        }
+        Georeference georeference = Georeference.of(crs);
+        FeatureNaming naming = FeatureNaming.of(file, layer.features(), options);
+        Map<String, Integer> taken = new HashMap<>();
+        List<ImportedField> fields = new ArrayList<>();
+        List<RefusedFeature> refused = new ArrayList<>();
+        for (SourceFeature feature : layer.features()) {
+            try {
+                String id = naming.id(feature);
+                Integer earlier = taken.putIfAbsent(id, feature.number());
+                if (earlier != null) {
+                    throw new RefusedFeatureException(
+                            "has the id of feature " + earlier + "; give each field a unique id");
+                }
+                fields.add(field(feature, georeference, naming));
+            } catch (RefusedFeatureException e) {
+                refused.add(new RefusedFeature(feature.number(), naming.called(feature), e.getMessage()));
+            }
+        }
+        return new FieldFile(georeference.name(), georeference.accuracyMeters(), fields, refused, layer.notes());
+    }
+
+    private static ImportedField field(SourceFeature feature, Georeference georeference, FeatureNaming naming)
+            throws RefusedFeatureException {
+        if (feature.fault() != null) {
+            throw new RefusedFeatureException(feature.fault());
+        }
+        MendedArea mended = AreaRepair.repair(feature.outline(), georeference);
+        return new ImportedField(
+                feature.number(),
+                naming.version(feature, GeoJsonArea.of(mended.area())),
+                EllipsoidArea.hectares(mended.area()),
+                mended.notes(),
+                mended.edgeErrorMeters());
+    }
+
+    private static FieldLayer layer(Path file, ImportOptions options) throws UnusableFileException {
+        byte[] first;
+        try (InputStream in = Files.newInputStream(file)) {
+            first = in.readNBytes(FIRST_BYTES);
+        } catch (IOException e) {
+            throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
+        }
+        String text = new String(first, StandardCharsets.ISO_8859_1);
+        if (text.startsWith("SQLite format 3")) {
+            return GeoPackageFields.read(file, options.layer());
+        }
+        if (options.layer() != null) {
+            throw new UnusableFileException("--layer applies to GeoPackages only; " + file + " has no layers");
+        }
+        if (text.startsWith("\0\0'\n")) {
+            return ShapefileFields.read(file);
+        }
+        if (text.strip().startsWith("{")) {
+            return GeoJsonFields.read(file);
+        }
+        throw new UnusableFileException(file
+                + " is neither GeoJSON nor a Shapefile (.shp) nor a GeoPackage; unpack it first if it is an archive");
+    }
+}

@@ -1,0 +1,2 @@
+/** Reads GeoJSON, GeoPackage and shapefiles. */
+package io.furrow.fields.file;

@@ -1,0 +1,120 @@
+package io.furrow.fiware.agent;
+
+import java.util.LinkedHashMap;
+import java.util.LinkedHashSet;
+import java.util.Map;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.api.EntityReader;
+import io.furrow.fiware.api.SyntaxRules;
+
+/**
+ * Maps measures of a device to attributes.
+ *
+ * @param active by {@code object_id}, or by name without one
+ * @param fixed static attributes, added to every update
+ * @param commands names
+ * @param timestamped whether {@code TimeInstant} is added as attribute and as metadata of all others
+ * @param explicit whether measures without a provisioned attribute are omitted
+ */
+record DeviceMapping(
+        Map<String, Target> active,
+        Map<String, AttributeInput> fixed,
+        Set<String> commands,
+        boolean timestamped,
+        boolean explicit) {
+    private static final String TIME_INSTANT = "TimeInstant";
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+
+    /** The attribute of a measure. */
+    record Target(String name, String type) {}
+
+    static DeviceMapping read(JsonNode json) throws NgsiError {
+        Map<String, Target> active = new LinkedHashMap<>();
+        for (JsonNode attribute : json.path("attributes")) {
+            String name = text(attribute, "name");
+            active.put(
+                    attribute.path("object_id").asText(name),
+                    new Target(name, attribute.path("type").asText("Text")));
+        }
+        Map<String, AttributeInput> fixed = new LinkedHashMap<>();
+        for (JsonNode attribute : json.path("static_attributes")) {
+            JsonNode value = attribute.has("value")
+                    ? EntityReader.canonical(attribute.get("value").deepCopy())
+                    : NODES.nullNode();
+            String type = attribute.path("type").asText(AttributeInput.defaultType(value));
+            fixed.put(text(attribute, "name"), AttributeInput.of(type, value));
+        }
+        Set<String> commands = new LinkedHashSet<>();
+        for (JsonNode command : json.path("commands")) {
+            commands.add(text(command, "name"));
+        }
+        boolean timestamped = json.path("timestamp").asBoolean(true);
+        return new DeviceMapping(
+                active, fixed, commands, timestamped, json.path("explicitAttrs").asBoolean(false));
+    }
+
+    /** Merges with the mapping of the group: the device's entries come first, its settings win. */
+    DeviceMapping over(DeviceMapping group) {
+        Map<String, Target> allActive = new LinkedHashMap<>(group.active);
+        allActive.putAll(active);
+        Map<String, AttributeInput> allFixed = new LinkedHashMap<>(group.fixed);
+        allFixed.putAll(fixed);
+        Set<String> allCommands = new LinkedHashSet<>(group.commands);
+        allCommands.addAll(commands);
+        return new DeviceMapping(
+                allActive, allFixed, allCommands, timestamped && group.timestamped, explicit || group.explicit);
+    }
+
+    static Map<String, AttributeInput> commandState(String command, String status, JsonNode info) {
+        Map<String, AttributeInput> state = new LinkedHashMap<>();
+        state.put(command + "_status", AttributeInput.of("commandStatus", NODES.textNode(status)));
+        state.put(command + "_info", AttributeInput.of("commandResult", info));
+        return state;
+    }
+
+    /** The update of one measure: measures, static attributes, {@code TimeInstant}, in this order. */
+    Map<String, AttributeInput> attributes(ObjectNode measure, String receivedAt) throws NgsiError {
+        Map<String, AttributeInput> attributes = new LinkedHashMap<>();
+        for (Map.Entry<String, JsonNode> member : measure.properties()) {
+            Target target = active.get(member.getKey());
+            JsonNode value = EntityReader.canonical(member.getValue());
+            if (target != null) {
+                attributes.put(target.name(), AttributeInput.of(target.type(), value));
+            } else if (member.getKey().equals(TIME_INSTANT)) {
+                attributes.put(TIME_INSTANT, AttributeInput.of("DateTime", value));
+            } else if (!explicit) {
+                SyntaxRules.checkAttributeName(member.getKey());
+                attributes.put(member.getKey(), AttributeInput.of(AttributeInput.defaultType(value), value));
+            }
+        }
+        fixed.forEach(attributes::putIfAbsent);
+        return timestamped ? stamped(attributes, receivedAt) : attributes;
+    }
+
+    private static Map<String, AttributeInput> stamped(Map<String, AttributeInput> attributes, String receivedAt) {
+        AttributeInput own = attributes.get(TIME_INSTANT);
+        JsonNode time = own == null ? NODES.textNode(receivedAt) : own.value();
+        ObjectNode metadata = NODES.objectNode().put("type", "DateTime");
+        metadata.set("value", time);
+        Map<String, AttributeInput> stamped = new LinkedHashMap<>();
+        for (Map.Entry<String, AttributeInput> entry : attributes.entrySet()) {
+            stamped.put(entry.getKey(), entry.getValue().withMetadata(TIME_INSTANT, metadata));
+        }
+        stamped.put(TIME_INSTANT, AttributeInput.of("DateTime", time));
+        return stamped;
+    }
+
+    private static String text(JsonNode json, String field) throws NgsiError {
+        if (!json.path(field).isTextual()) {
+            throw AgentErrors.wrongSyntax();
+        }
+        return json.get(field).textValue();
+    }
+}

@@ -1,0 +1,109 @@
+package io.furrow.fiware.agent;
+
+import java.util.List;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.fiware.Call;
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.Reply;
+import io.furrow.fiware.api.EntityQuery;
+import io.furrow.model.event.FiwareScope;
+
+/** {@code /iot/devices} and {@code /iot/devices/<id>}. */
+final class DeviceResource {
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+
+    private final DeviceRegistry registry;
+    private final IotAgent agent;
+
+    DeviceResource(DeviceRegistry registry, IotAgent agent) {
+        this.registry = registry;
+        this.agent = agent;
+    }
+
+    Reply answer(Call call) throws NgsiError {
+        return switch (call.method()) {
+            case "POST" -> create(call);
+            case "GET" -> list(call);
+            default -> IotAgentApi.notFound(call);
+        };
+    }
+
+    Reply answer(Call call, String id) throws NgsiError {
+        FiwareScope scope = call.scope();
+        return switch (call.method()) {
+            case "GET" -> Reply.ok(DeviceJson.listed(find(scope, id)));
+            case "PUT" -> change(call, find(scope, id));
+            case "DELETE" -> {
+                registry.remove(scope, id);
+                yield Reply.noContent();
+            }
+            default -> IotAgentApi.notFound(call);
+        };
+    }
+
+    private Device find(FiwareScope scope, String id) throws NgsiError {
+        return registry.device(scope, id).orElseThrow(() -> AgentErrors.noDevice(id));
+    }
+
+    /** Creates each device separately; answers the first error. */
+    private Reply create(Call call) throws NgsiError {
+        JsonNode devices = IotAgentApi.json(call).path("devices");
+        if (!devices.isArray()) {
+            throw AgentErrors.wrongSyntax();
+        }
+        FiwareScope scope = call.scope();
+        NgsiError first = null;
+        for (JsonNode json : devices) {
+            try {
+                registry.add(read(scope, json));
+            } catch (NgsiError e) {
+                first = first == null ? e : first;
+            }
+        }
+        if (first != null) {
+            throw first;
+        }
+        return Reply.json(201, NODES.objectNode());
+    }
+
+    private Device read(FiwareScope scope, JsonNode json) throws NgsiError {
+        Optional<ServiceGroup> group = registry.groupFor(
+                scope, json.path("apikey").asText(""), json.path("entity_type").asText(""));
+        return Device.read(scope, json, group);
+    }
+
+    private Reply list(Call call) throws NgsiError {
+        List<Device> all = registry.devices(call.scope());
+        ArrayNode page = NODES.arrayNode();
+        all.stream()
+                .skip(EntityQuery.number(call, "offset", 0))
+                .limit(EntityQuery.limit(call))
+                .forEach(device -> page.add(DeviceJson.listed(device)));
+        ObjectNode list = NODES.objectNode().put("count", all.size());
+        list.set("devices", page);
+        return Reply.ok(list);
+    }
+
+    private Reply change(Call call, Device device) throws NgsiError {
+        JsonNode change = IotAgentApi.json(call);
+        if (!change.isObject()) {
+            throw AgentErrors.wrongSyntax();
+        }
+        if (change.has("device_id")) {
+            throw new NgsiError(400, "BAD_REQUEST", "Request error: Can't change the ID of a preprovisioned device");
+        }
+        if (!agent.hasEntity(device)) {
+            throw AgentErrors.noEntity(device, change);
+        }
+        ObjectNode merged = device.json().deepCopy();
+        merged.setAll((ObjectNode) change);
+        registry.replace(device, Device.read(device.scope(), merged, device.group()));
+        return Reply.noContent();
+    }
+}

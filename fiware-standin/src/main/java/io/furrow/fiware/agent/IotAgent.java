@@ -1,0 +1,187 @@
+package io.furrow.fiware.agent;
+
+import java.net.URI;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.atomic.LongAdder;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.fiware.Correlator;
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.api.AttributeInput;
+import io.furrow.fiware.api.SyntaxRules;
+import io.furrow.fiware.broker.ContextBroker;
+import io.furrow.fiware.broker.EntityUpdate.Options;
+import io.furrow.fiware.broker.NgsiTime;
+import io.furrow.fiware.broker.PathFilter;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * Connects devices with the context broker. Measures become updates of entities, the first one creates the entity;
+ * updates of command attributes become messages to devices, with {@code <command>_status} {@code PENDING} until the
+ * device answers, then {@code OK}.
+ */
+public final class IotAgent implements ContextBroker.Commands {
+    /** Sends commands to devices. */
+    interface Downlink {
+        /** @return false if the message cannot be sent */
+        boolean send(String apikey, String deviceId, byte[] command);
+    }
+
+    private static final Logger LOG = LoggerFactory.getLogger(IotAgent.class);
+
+    private final DeviceRegistry registry;
+    private final LongAdder measures = new LongAdder();
+    private final LongAdder refused = new LongAdder();
+    private final Set<String> warned = ConcurrentHashMap.newKeySet();
+    private volatile ContextBroker broker;
+    private volatile URI provider = URI.create("http://127.0.0.1");
+    private volatile Downlink downlink = (apikey, deviceId, command) -> false;
+
+    public IotAgent(DeviceRegistry registry) {
+        this.registry = registry;
+    }
+
+    /** Set after construction, because each needs the other. */
+    public void connect(ContextBroker contextBroker) {
+        broker = contextBroker;
+    }
+
+    /** @param base of the agent, its address for the context broker */
+    public void connect(URI base) {
+        provider = base;
+    }
+
+    public void connect(Downlink toDevices) {
+        downlink = toDevices;
+    }
+
+    public long measures() {
+        return measures.sum();
+    }
+
+    public long refused() {
+        return refused.sum();
+    }
+
+    /** Whether the device has an entity, which its first measure creates. */
+    boolean hasEntity(Device device) {
+        FiwareScope scope = device.scope();
+        return !broker.tenant(scope.service())
+                .find(scope.servicePath(), device.entityId(), Optional.of(device.entityType()))
+                .isEmpty();
+    }
+
+    /** Processes a message of a device: one measure, or an array of them. */
+    void measured(String apikey, String deviceId, byte[] payload) {
+        received("measure", apikey, deviceId, payload, (device, json) -> {
+            for (JsonNode measure :
+                    json.isArray() ? json : JsonNodeFactory.instance.arrayNode().add(json)) {
+                if (!(measure instanceof ObjectNode object)) {
+                    throw NgsiError.badRequest("a measure is a JSON object or an array of them");
+                }
+                String now = NgsiTime.format(broker.now());
+                update(device, device.mapping().attributes(object, now));
+            }
+            measures.increment();
+        });
+    }
+
+    /** Processes the answer of a device to a command: {@code {"<command>": result}}. */
+    void executed(String apikey, String deviceId, byte[] payload) {
+        received("command result", apikey, deviceId, payload, (device, json) -> {
+            for (Map.Entry<String, JsonNode> result : json.properties()) {
+                if (device.mapping().commands().contains(result.getKey())) {
+                    update(device, DeviceMapping.commandState(result.getKey(), "OK", result.getValue()));
+                }
+            }
+        });
+    }
+
+    @Override
+    public Optional<Registration> registration(FiwareScope scope, String entityId, Optional<String> type) {
+        return registry.ofEntity(scope, entityId)
+                .flatMap(this::registration)
+                .filter(registration -> registration.covers(entityId, type));
+    }
+
+    @Override
+    public List<Registration> registrations(String service, PathFilter paths) {
+        return registry.devices(service, paths).stream()
+                .flatMap(device -> registration(device).stream())
+                .toList();
+    }
+
+    private Optional<Registration> registration(Device device) {
+        Set<String> names = device.mapping().commands();
+        return names.isEmpty()
+                ? Optional.empty()
+                : Optional.of(
+                        new Registration(device.scope(), device.entityId(), device.entityType(), names, provider));
+    }
+
+    @Override
+    public void issue(FiwareScope scope, String entityId, Map<String, JsonNode> commands) throws NgsiError {
+        Device device = registry.ofEntity(scope, entityId).orElseThrow(NgsiError::noEntity);
+        for (Map.Entry<String, JsonNode> command : commands.entrySet()) {
+            // Before the message goes out: the device may answer faster than this thread continues.
+            Map<String, AttributeInput> pending = new LinkedHashMap<>(
+                    DeviceMapping.commandState(command.getKey(), "PENDING", JsonNodeFactory.instance.nullNode()));
+            pending.remove(command.getKey() + "_info");
+            update(device, pending);
+            ObjectNode message = JsonNodeFactory.instance.objectNode();
+            message.set(command.getKey(), command.getValue());
+            if (!downlink.send(device.apikey(), device.id(), NgsiJson.write(message))) {
+                JsonNode reason = JsonNodeFactory.instance.textNode("the device cannot be reached: no MQTT connection");
+                update(device, DeviceMapping.commandState(command.getKey(), "ERROR", reason));
+            }
+        }
+    }
+
+    /** Refuses the whole update if the context broker would refuse an attribute. */
+    private void update(Device device, Map<String, AttributeInput> attributes) throws NgsiError {
+        for (AttributeInput attribute : attributes.values()) {
+            SyntaxRules.check(attribute);
+        }
+        broker.upsert(device.scope(), device.update(attributes), Options.NONE, Correlator.fresh());
+    }
+
+    private interface Reaction {
+        void to(Device device, JsonNode json) throws NgsiError;
+    }
+
+    private void received(String what, String apikey, String deviceId, byte[] payload, Reaction reaction) {
+        try {
+            Optional<Device> device = registry.behind(apikey, deviceId);
+            if (device.isEmpty()) {
+                refuse(
+                        "unknown API key " + apikey,
+                        "%s of device %s: there is no device with this id and API key %s, or no service group with this key and resource %s"
+                                .formatted(what, deviceId, apikey, DeviceRegistry.RESOURCE));
+                return;
+            }
+            reaction.to(device.get(), NgsiJson.read(payload));
+        } catch (UnreadableException | NgsiError e) {
+            refuse(apikey + "/" + deviceId, what + " of device " + deviceId + ": " + e.getMessage());
+        }
+    }
+
+    /** Counts each, logs the first of each cause only. */
+    private void refuse(String cause, String message) {
+        refused.increment();
+        if (warned.size() < 1000 && warned.add(cause)) {
+            LOG.warn("Ignored a {}. Further ones are only counted.", message);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+package io.furrow.fiware.agent;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.fiware.Call;
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.Reply;
+import io.furrow.model.event.FiwareScope;
+
+/**
+ * {@code /iot/services}, also {@code /iot/groups}. Lists ignore {@code limit} and {@code offset}, as the agent does.
+ */
+final class ServiceGroupResource {
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+
+    private final DeviceRegistry registry;
+
+    ServiceGroupResource(DeviceRegistry registry) {
+        this.registry = registry;
+    }
+
+    Reply answer(Call call) throws NgsiError {
+        return switch (call.method()) {
+            case "POST" -> create(call);
+            case "GET" -> list(call);
+            case "PUT" -> {
+                registry.change(key(call), call.scope(), ServiceGroup.members(IotAgentApi.json(call)));
+                yield Reply.noContent();
+            }
+            case "DELETE" -> {
+                registry.removeGroup(key(call), call.scope());
+                yield Reply.noContent();
+            }
+            default -> IotAgentApi.notFound(call);
+        };
+    }
+
+    private Reply create(Call call) throws NgsiError {
+        JsonNode json = IotAgentApi.json(call);
+        JsonNode list = json.has("groups") ? json.get("groups") : json.path("services");
+        if (!list.isArray()) {
+            throw AgentErrors.wrongSyntax();
+        }
+        List<ServiceGroup> groups = new ArrayList<>();
+        for (JsonNode group : list) {
+            groups.add(ServiceGroup.read(call.scope(), group));
+        }
+        for (ServiceGroup group : groups) {
+            registry.add(group);
+        }
+        return Reply.json(201, NODES.objectNode());
+    }
+
+    private Reply list(Call call) throws NgsiError {
+        FiwareScope scope = call.scope();
+        ArrayNode services = NODES.arrayNode();
+        registry.groups(scope).forEach(group -> services.add(group.listed()));
+        if (services.isEmpty()) {
+            throw AgentErrors.noGroup(scope.service(), scope.servicePath());
+        }
+        ObjectNode list = NODES.objectNode().put("count", services.size());
+        list.set("services", services);
+        return Reply.ok(list);
+    }
+
+    /** Both parameters are required, but may be empty. */
+    private static ServiceGroup.Key key(Call call) throws NgsiError {
+        List<String> missing = Stream.of("resource", "apikey")
+                .filter(name -> call.query().get(name) == null)
+                .toList();
+        if (!missing.isEmpty()) {
+            throw AgentErrors.missingHeaders(missing);
+        }
+        return new ServiceGroup.Key(
+                call.query().getValue("resource"), call.query().getValue("apikey"));
+    }
+}

@@ -1,0 +1,2 @@
+/** IoT Agent JSON: service groups, devices, measures and commands over MQTT. */
+package io.furrow.fiware.agent;

@@ -1,0 +1,97 @@
+package io.furrow.fiware.api;
+
+import java.time.Instant;
+import java.util.Map;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.broker.Attribute;
+import io.furrow.fiware.broker.NgsiTime;
+
+/**
+ * An attribute of a request.
+ *
+ * @param type empty for that of the stored attribute, or a default by the value of a new one
+ * @param metadata empty for that of the stored attribute
+ */
+public record AttributeInput(Optional<String> type, JsonNode value, Optional<ObjectNode> metadata) {
+    public static AttributeInput of(String type, JsonNode value) {
+        return new AttributeInput(Optional.of(type), value, Optional.empty());
+    }
+
+    static AttributeInput valueOnly(JsonNode value) {
+        return new AttributeInput(Optional.empty(), value, Optional.empty());
+    }
+
+    public AttributeInput withMetadata(String name, ObjectNode entry) {
+        ObjectNode all = metadata.map(ObjectNode::deepCopy).orElseGet(JsonNodeFactory.instance::objectNode);
+        all.set(name, entry);
+        return new AttributeInput(type, value, Optional.of(all));
+    }
+
+    public Attribute created(Instant now) throws NgsiError {
+        return attribute(
+                type.orElseGet(() -> defaultType(value)),
+                metadata.orElseGet(JsonNodeFactory.instance::objectNode),
+                now,
+                now);
+    }
+
+    /** Merges with the stored attribute; metadata not in the request stay unless all are overridden. */
+    public Attribute merged(Attribute before, boolean overrideMetadata, Instant now) throws NgsiError {
+        ObjectNode merged = before.metadata();
+        if (overrideMetadata) {
+            merged = metadata.orElseGet(JsonNodeFactory.instance::objectNode);
+        } else if (metadata.isPresent()) {
+            merged = before.metadata().deepCopy();
+            merged.setAll(metadata.get());
+        }
+        return attribute(type.orElse(before.type()), merged, before.created(), now);
+    }
+
+    private Attribute attribute(String resolvedType, ObjectNode resolvedMetadata, Instant created, Instant modified)
+            throws NgsiError {
+        return new Attribute(
+                resolvedType,
+                dated(resolvedType, value, "attribute value"),
+                datedAll(resolvedMetadata),
+                created,
+                modified);
+    }
+
+    private static ObjectNode datedAll(ObjectNode metadata) throws NgsiError {
+        ObjectNode all = JsonNodeFactory.instance.objectNode();
+        for (Map.Entry<String, JsonNode> entry : metadata.properties()) {
+            String type = entry.getValue().path("type").asText();
+            ObjectNode dated = JsonNodeFactory.instance.objectNode().put("type", type);
+            dated.set("value", dated(type, entry.getValue().get("value"), "metadata value"));
+            all.set(entry.getKey(), dated);
+        }
+        return all;
+    }
+
+    /** The context broker stores a date as a number and returns it in its own format. */
+    static JsonNode dated(String type, JsonNode value, String what) throws NgsiError {
+        if (value.isNull() || !type.equals("DateTime") && !type.equals("ISO8601")) {
+            return value;
+        }
+        Instant time = (value.isTextual() ? NgsiTime.parse(value.textValue()) : Optional.<Instant>empty())
+                .orElseThrow(() -> NgsiError.badRequest("date has invalid format in " + what));
+        return JsonNodeFactory.instance.textNode(NgsiTime.format(time));
+    }
+
+    /** NGSI-v2, "Partial Representations". */
+    public static String defaultType(JsonNode value) {
+        return switch (value.getNodeType()) {
+            case STRING -> "Text";
+            case NUMBER -> "Number";
+            case BOOLEAN -> "Boolean";
+            case OBJECT, ARRAY -> "StructuredValue";
+            default -> "None";
+        };
+    }
+}

@@ -1,0 +1,69 @@
+package io.furrow.fiware.api;
+
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.fiware.Call;
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.Reply;
+import io.furrow.fiware.broker.ContextBroker;
+import io.furrow.fiware.broker.EntityUpdate;
+import io.furrow.fiware.broker.EntityUpdate.Options;
+import io.furrow.fiware.broker.StoredEntity;
+
+/** {@code /v2/entities} and {@code /v2/entities/<id>}. */
+final class EntityResource {
+    private final ContextBroker broker;
+
+    EntityResource(ContextBroker broker) {
+        this.broker = broker;
+    }
+
+    Reply answer(Call call) throws NgsiError {
+        if (call.path().size() == 2) {
+            return switch (call.method()) {
+                case "GET" -> EntityQuery.of(call).reply(call, broker.tenant(call.service()));
+                case "POST" -> create(call);
+                default -> throw NgsiError.badMethod();
+            };
+        }
+        return switch (call.method()) {
+            case "GET" -> Reply.ok(EntityQuery.rendering(call).of(find(broker, call)));
+            case "DELETE" -> delete(call);
+            default -> throw NgsiError.badMethod();
+        };
+    }
+
+    private Reply create(Call call) throws NgsiError {
+        JsonNode json = call.json();
+        EntityUpdate entity = new EntityReader(call.option("keyValues")).entity(json);
+        String location =
+                "/v2/entities/" + entity.id() + "?type=" + entity.type().orElse(EntityUpdate.DEFAULT_TYPE);
+        if (call.option("upsert")) {
+            boolean known = !broker.tenant(call.service())
+                    .find(call.scope().servicePath(), entity.id(), entity.type())
+                    .isEmpty();
+            broker.upsert(call.scope(), entity, options(call), call.correlator());
+            return known ? Reply.noContent().with("Location", location) : Reply.created(location);
+        }
+        broker.create(call.scope(), entity, call.correlator());
+        return Reply.created(location);
+    }
+
+    private Reply delete(Call call) throws NgsiError {
+        broker.delete(call.scope(), call.path().get(2), call.parameter("type"), call.correlator());
+        return Reply.noContent();
+    }
+
+    static StoredEntity find(ContextBroker broker, Call call) throws NgsiError {
+        String id = call.path().get(2);
+        Optional<String> type = call.parameter("type");
+        SyntaxRules.checkEntity(id, type);
+        return broker.get(call.service(), call.paths(), id, type);
+    }
+
+    static Options options(Call call) {
+        return new Options(call.option("forcedUpdate"), call.option("overrideMetadata"));
+    }
+}

@@ -1,0 +1,55 @@
+package io.furrow.fiware.broker;
+
+import java.util.Map;
+import java.util.Optional;
+
+import io.furrow.fiware.NgsiError;
+import io.furrow.fiware.api.AttributeInput;
+
+/**
+ * A requested update of an entity.
+ *
+ * @param type empty if not requested
+ * @param attributes in the order of the request
+ */
+public record EntityUpdate(String id, Optional<String> type, Map<String, AttributeInput> attributes) {
+    /** The type of a new entity without a requested one. */
+    public static final String DEFAULT_TYPE = "Thing";
+
+    /** Name in Orion's errors: with the type if requested. */
+    public String label() {
+        return type.map(given -> id + "/" + given).orElse(id);
+    }
+
+    /** The action of an update on its attributes. */
+    public enum Action {
+        APPEND,
+        APPEND_STRICT,
+        UPDATE,
+        REPLACE,
+        DELETE;
+
+        public static Action of(String text) throws NgsiError {
+            return switch (text) {
+                case "append", "APPEND" -> APPEND;
+                case "appendStrict", "APPEND_STRICT" -> APPEND_STRICT;
+                case "update", "UPDATE" -> UPDATE;
+                case "replace", "REPLACE" -> REPLACE;
+                case "delete", "DELETE" -> DELETE;
+                default ->
+                    throw NgsiError.badRequest("invalid update action type: right ones are: append, appendStric,"
+                            + " delete, replace, update"); // spelled as Orion does
+            };
+        }
+    }
+
+    /**
+     * Options of an update.
+     *
+     * @param forced notify also without changes ({@code options=forcedUpdate})
+     * @param overrideMetadata remove metadata that the request does not name ({@code options=overrideMetadata})
+     */
+    public record Options(boolean forced, boolean overrideMetadata) {
+        public static final Options NONE = new Options(false, false);
+    }
+}

@@ -1,0 +1,71 @@
+package io.furrow.fiware.broker;
+
+import java.net.URI;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.function.Predicate;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * The definition of a subscription.
+ *
+ * @param json as {@code GET} shows it, without id, status and counters
+ */
+public record SubscriptionDefinition(
+        Subject subject, Target target, Rendering rendering, boolean onlyChanged, Limits limits, ObjectNode json) {
+    /** The definition as a request, with its status. */
+    public ObjectNode requested() {
+        return json.deepCopy().put("status", limits.active() ? "active" : "inactive");
+    }
+
+    /** Selects entities by id and type. */
+    public record Selector(Predicate<String> id, Predicate<String> type) {
+        boolean matches(StoredEntity entity) {
+            return type.test(entity.type()) && id.test(entity.id());
+        }
+    }
+
+    /**
+     * Selects changes.
+     *
+     * @param attributes one of these must have changed; empty for any
+     * @param filter matched against the entity after the change
+     */
+    public record Subject(
+            List<Selector> entities, Set<String> attributes, Optional<QueryFilter> filter, Set<Change.Kind> kinds) {
+        boolean covers(Change change) {
+            StoredEntity entity = change.after();
+            return kinds.contains(change.kind())
+                    && entities.stream().anyMatch(selector -> selector.matches(entity))
+                    && (attributes.isEmpty() || touches(change))
+                    && filter.map(passes -> passes.test(entity)).orElse(true);
+        }
+
+        private boolean touches(Change change) {
+            Set<String> named =
+                    change.kind() == Change.Kind.UPDATE ? change.actions().keySet() : change.changed();
+            return named.stream().anyMatch(attributes::contains);
+        }
+    }
+
+    /**
+     * The receiver of notifications.
+     *
+     * @param headers additional or replaced headers; an empty value removes one
+     * @param timeout after which a missing answer is a failure
+     */
+    public record Target(URI url, Map<String, String> headers, Duration timeout) {}
+
+    /**
+     * Limits of notification.
+     *
+     * @param throttling minimum time between two notifications; those in between are not sent
+     * @param maxFails consecutive failures after which the subscription is deactivated
+     */
+    public record Limits(boolean active, Optional<Instant> expires, Duration throttling, Optional<Integer> maxFails) {}
+}

@@ -1,0 +1,110 @@
+package io.furrow.flink.job;
+
+import java.time.Duration;
+import java.util.Locale;
+
+import picocli.CommandLine;
+import picocli.CommandLine.ExecutionException;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.TypeConversionException;
+
+/** The command line of a job jar: a root command with one subcommand per job. */
+public final class JobCommandLine {
+    private JobCommandLine() {}
+
+    /** Starts the job of the options that were given. */
+    @FunctionalInterface
+    public interface JobStarter {
+        void start(JobOptions options) throws Exception;
+    }
+
+    /** What {@code main} of a job jar does. */
+    public static void run(Object root, JobStarter starter, String... args) {
+        int exitCode = starting(root, starter).execute(args);
+        if (exitCode != 0) {
+            // No System.exit: main also runs inside a job manager that serves others.
+            throw new JobNotStarted();
+        }
+    }
+
+    /** A command line whose subcommands are options of jobs. */
+    static CommandLine starting(Object root, JobStarter starter) {
+        CommandLine line = of(root);
+        return line.setExecutionStrategy(parsed -> {
+            Integer help = CommandLine.executeHelpRequest(parsed);
+            if (help != null) {
+                return help;
+            }
+            CommandLine last =
+                    parsed.asCommandLineList().get(parsed.asCommandLineList().size() - 1);
+            if (!(last.getCommand() instanceof JobOptions options)) {
+                throw new ParameterException(last, "Missing required subcommand");
+            }
+            try {
+                starter.start(options);
+                return 0;
+            } catch (ParameterException e) {
+                throw e;
+            } catch (Exception e) { // whatever Flink throws while it submits the job
+                throw new ExecutionException(last, "the job could not be started", e);
+            }
+        });
+    }
+
+    /** A parser with the value types that job options have. */
+    public static CommandLine of(Object command) {
+        CommandLine line = new CommandLine(command);
+        // Set on the root, inherited by every subcommand.
+        return line.setCaseInsensitiveEnumValuesAllowed(true)
+                .setUsageHelpWidth(100)
+                .setUsageHelpLongOptionsMaxWidth(36)
+                .registerConverter(Duration.class, new DurationConverter())
+                .registerConverter(Delivery.class, JobCommandLine::delivery)
+                .registerConverter(StartPosition.class, StartPosition::of)
+                .registerConverter(FaultOptions.Restart.class, JobCommandLine::restart)
+                .setParameterExceptionHandler(JobCommandLine::explain)
+                .setExecutionExceptionHandler((failure, refusing, parsed) -> {
+                    if (failure instanceof ParameterException refused) {
+                        return explain(refused, new String[0]);
+                    }
+                    throw failure;
+                });
+    }
+
+    private static Delivery delivery(String text) {
+        return switch (text.toLowerCase(Locale.ROOT)) {
+            case "at-least-once" -> Delivery.AT_LEAST_ONCE;
+            case "exactly-once" -> Delivery.EXACTLY_ONCE;
+            default ->
+                throw new TypeConversionException("'" + text + "' is no delivery; write at-least-once or exactly-once");
+        };
+    }
+
+    private static FaultOptions.Restart restart(String text) {
+        return switch (text.toLowerCase(Locale.ROOT)) {
+            case "exponential-delay" -> FaultOptions.Restart.EXPONENTIAL_DELAY;
+            case "fixed-delay" -> FaultOptions.Restart.FIXED_DELAY;
+            case "none" -> FaultOptions.Restart.NONE;
+            default ->
+                throw new TypeConversionException(
+                        "'" + text + "' is no way to restart; write exponential-delay, fixed-delay or none");
+        };
+    }
+
+    /** One sentence and where to read more; the whole usage would bury it. */
+    private static int explain(ParameterException refused, String[] args) {
+        CommandLine line = refused.getCommandLine();
+        line.getErr().println(refused.getMessage());
+        line.getErr().println("See: " + line.getCommandSpec().qualifiedName() + " --help");
+        return line.getCommandSpec().exitCodeOnInvalidInput();
+    }
+
+    /** The reason has been printed; a stack trace would only hide it. */
+    private static final class JobNotStarted extends RuntimeException {
+        private static final long serialVersionUID = 1L;
+
+        JobNotStarted() {
+            super("the job was not started", null, false, false);
+        }
+    }
+}

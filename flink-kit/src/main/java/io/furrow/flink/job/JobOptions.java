@@ -1,0 +1,292 @@
+package io.furrow.flink.job;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.TreeMap;
+import java.util.regex.Pattern;
+import java.util.regex.PatternSyntaxException;
+
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+import io.furrow.model.topic.Topics;
+
+/**
+ * The options that every job has, read from the command line by picocli. Holds no Flink type, so that {@code --help} works
+ * without Flink on the class path.
+ */
+public abstract class JobOptions {
+    /** User and password of a URI. */
+    private static final Pattern CREDENTIALS = Pattern.compile("://[^/@]*@");
+
+    private static final Pattern NAME = Pattern.compile("[A-Za-z0-9._-]{1,100}");
+
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--name",
+            paramLabel = "NAME",
+            description =
+                    "Name of this instance in the web UI, in its consumer group furrow-NAME and in its transactional"
+                            + " ids. Instances beside each other need different ones, and topics of their own to write to where"
+                            + " their results differ. Default: the name of the job.")
+    private String name;
+
+    @Option(
+            names = "--bootstrap-servers",
+            paramLabel = "HOST:PORT,…",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka brokers to start from. Default: ${DEFAULT-VALUE}.")
+    private String bootstrapServers;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for every Kafka client of the job, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--input",
+            paramLabel = "TOPIC,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "data.raw",
+            description =
+                    "Topics to read, or regular expressions for whole names, for instance"
+                            + " 'data[.]north[.]realtime[.].*': then also topics that come later, but none of dead letters or of what analytics find. A"
+                            + " replay's topic stands alone and is named in full: each replay has an instance of its own, called"
+                            + " <job>-<replay> without --name, whose results go to <topic>.<result>. Default: ${DEFAULT-VALUE}.")
+    private List<String> input;
+
+    @Option(
+            names = "--from",
+            paramLabel = "POSITION",
+            defaultValue = "committed",
+            description =
+                    "Where to read from without a savepoint or checkpoint: committed, where the consumer group left"
+                            + " off, else the beginning; earliest; latest; or a time as in 2026-05-01T06:00:00Z. Default:"
+                            + " ${DEFAULT-VALUE}.")
+    private StartPosition from;
+
+    @Option(
+            names = "--delivery",
+            paramLabel = "MODE",
+            defaultValue = "at-least-once",
+            description = "at-least-once: visible at once, repeats after a failure carry the same event id; "
+                    + "exactly-once: visible after each checkpoint. Default: ${DEFAULT-VALUE}.")
+    private Delivery delivery;
+
+    @Option(
+            names = "--out-of-orderness",
+            paramLabel = "DURATION",
+            defaultValue = "2s",
+            description = "How much later than a newer event an older one may come and still count. Longer: fewer late "
+                    + "events, later results. Default: ${DEFAULT-VALUE}.")
+    private Duration outOfOrderness;
+
+    @Option(
+            names = "--idle-timeout",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description =
+                    "After this time without a record a partition no longer holds up event time. Depends on the wall "
+                            + "clock. Default: ${DEFAULT-VALUE}.")
+    private Duration idleTimeout;
+
+    @Option(
+            names = "--idle-advance",
+            description =
+                    "Let event time go on with the wall clock where no record has come for --idle-timeout, so that"
+                            + " what is open ends without further traffic, also after a restart. What comes after that"
+                            + " can be late: the one switch with which the same input does not always give the same result.")
+    private boolean idleAdvance;
+
+    @Option(
+            names = "--parallelism",
+            paramLabel = "N",
+            description = "Subtasks per operator. Default: as the cluster says.")
+    private Integer parallelism;
+
+    @Mixin
+    private final FaultOptions faults = new FaultOptions();
+
+    @Mixin
+    private final ClockOptions clocks = new ClockOptions();
+
+    @Option(
+            names = {"-h", "--help"},
+            usageHelp = true,
+            description = "Show this text.")
+    private boolean help;
+
+    /**
+     * The name of this instance of the job, which its consumer group and its transactions bear.
+     *
+     * @throws ParameterException if no client of Kafka could bear it
+     */
+    public String jobName() {
+        if (name == null) {
+            String ofReplay = inputTopics()
+                    .replay()
+                    .flatMap(Topics::replayOf)
+                    .map(replay -> "-" + replay)
+                    .orElse("");
+            return defaultName() + ofReplay;
+        }
+        if (!NAME.matcher(name).matches()) {
+            throw refused("--name '" + name + "' is not 1 to 100 of A-Z a-z 0-9 . _ -", null);
+        }
+        return name;
+    }
+
+    /** The name of an instance that is given none. */
+    protected String defaultName() {
+        return spec.name();
+    }
+
+    /** Whether this instance was given a name. */
+    boolean isNamed() {
+        return name != null;
+    }
+
+    /** The consumer group of the job's input. */
+    public String groupId() {
+        return "furrow-" + jobName();
+    }
+
+    public String bootstrapServers() {
+        return bootstrapServers;
+    }
+
+    /**
+     * A fresh copy of what {@code --kafka-properties} holds; empty without it.
+     *
+     * @throws ParameterException if the file cannot be read
+     */
+    public Properties kafkaProperties() {
+        Properties properties = new Properties();
+        if (kafkaProperties == null) {
+            return properties;
+        }
+        try (Reader reader = Files.newBufferedReader(kafkaProperties)) {
+            properties.load(reader);
+            return properties;
+        } catch (IOException | IllegalArgumentException e) { // the latter: an escape that stands for no character
+            throw refused(
+                    "--kafka-properties " + kafkaProperties + " cannot be read; name a readable properties file", e);
+        }
+    }
+
+    public List<String> input() {
+        return List.copyOf(input);
+    }
+
+    /** The same as topics or a pattern; a name that is neither is refused, and so are topics that share no event time. */
+    public InputTopics inputTopics() {
+        InputTopics topics = new InputTopics(input);
+        try {
+            topics.pattern();
+            topics.refusal(spec.name()).ifPresent(why -> {
+                throw refused("--input " + String.join(",", input) + ": " + why, null);
+            });
+            return topics;
+        } catch (PatternSyntaxException e) {
+            throw refused("--input is neither a topic nor a regular expression: " + e.getMessage(), e);
+        }
+    }
+
+    public StartPosition from() {
+        return from;
+    }
+
+    public Delivery delivery() {
+        return delivery;
+    }
+
+    public Duration outOfOrderness() {
+        return outOfOrderness;
+    }
+
+    public Duration idleTimeout() {
+        return idleTimeout;
+    }
+
+    public boolean idleAdvance() {
+        if (idleAdvance && inputTopics().replay().isPresent()) {
+            throw refused("--idle-advance goes by the wall clock, and a replay does not; leave it out", null);
+        }
+        return idleAdvance;
+    }
+
+    /** At least 10 ms, Flink's own limit; empty if the cluster decides. */
+    public Optional<Duration> checkpointInterval() {
+        Optional<Duration> interval = faults.checkpointInterval();
+        if (interval.filter(time -> time.toMillis() < 10).isPresent()) {
+            throw refused("--checkpoint-interval is below 10ms; write for instance 1s", null);
+        }
+        return interval;
+    }
+
+    /** How far clocks are believed. */
+    public ClockOptions clocks() {
+        return clocks;
+    }
+
+    /** How checkpoints are taken and what follows a failure. */
+    public FaultOptions faults() {
+        return faults;
+    }
+
+    public Optional<String> checkpointDir() {
+        return faults.checkpointDir();
+    }
+
+    /** Between 1 and 720, the number of key groups. */
+    public Optional<Integer> parallelism() {
+        if (parallelism != null && (parallelism < 1 || parallelism > 720)) {
+            throw refused(
+                    "--parallelism " + parallelism + " is not between 1 and 720; leave it out or name another", null);
+        }
+        return Optional.ofNullable(parallelism);
+    }
+
+    /**
+     * Every option with the value in force, as one would write it, less passwords in addresses; the web UI shows it as the
+     * job's configuration.
+     */
+    public Map<String, String> effective() {
+        Map<String, String> values = new TreeMap<>();
+        for (OptionSpec option : spec.options()) {
+            if (!option.usageHelp() && option.getValue() != null) {
+                List<String> given = option.originalStringValues();
+                String text = given.isEmpty() ? option.defaultValueString() : String.join(",", given);
+                if (text != null) { // null: an option that may be repeated and was not given
+                    values.put(option.longestName(), masked(text));
+                }
+            }
+        }
+        return values;
+    }
+
+    /** Less passwords in addresses. */
+    static String masked(String text) {
+        return CREDENTIALS.matcher(text).replaceAll("://***@");
+    }
+
+    /** A wrong setting: the message names the option and the remedy. */
+    protected ParameterException refused(String message, Throwable cause) {
+        return new ParameterException(spec.commandLine(), message, cause);
+    }
+}

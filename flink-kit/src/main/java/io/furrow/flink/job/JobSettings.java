@@ -1,0 +1,70 @@
+package io.furrow.flink.job;
+
+import java.util.Map;
+import java.util.Optional;
+import java.util.TreeMap;
+
+import org.apache.flink.configuration.ConfigOption;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.configuration.ReadableConfig;
+
+/**
+ * The settings of a job: what its options say, else what the cluster's configuration or {@code -D} says, else what every job of
+ * Furrow has. Remembers of each where it is from.
+ */
+final class JobSettings {
+    private final ReadableConfig cluster;
+    private final Configuration settings = new Configuration();
+    private final Map<String, String> origins = new TreeMap<>();
+
+    /** @param cluster its configuration, with what {@code -D} adds */
+    JobSettings(ReadableConfig cluster) {
+        this.cluster = cluster;
+    }
+
+    /** What every job must have. */
+    <T> void fix(ConfigOption<T> option, T value) {
+        settings.set(option, value);
+    }
+
+    /** What an option says; empty if it was not given: then the cluster decides. */
+    <T> void set(ConfigOption<T> option, Optional<T> given) {
+        given.ifPresent(value -> set(option, value, "option"));
+        if (given.isEmpty() && says(option)) {
+            note(option, cluster.get(option), "cluster");
+        }
+    }
+
+    /** The same, with a value for where the cluster says nothing either. */
+    <T> void set(ConfigOption<T> option, Optional<T> given, T otherwise) {
+        set(option, given);
+        if (given.isEmpty() && !says(option)) {
+            set(option, otherwise, "default");
+        }
+    }
+
+    <T> void set(ConfigOption<T> option, T value, String origin) {
+        settings.set(option, value);
+        note(option, value, origin);
+    }
+
+    boolean says(ConfigOption<?> option) {
+        return cluster.getOptional(option).isPresent();
+    }
+
+    /** Those that are to be laid over the cluster's configuration. */
+    Configuration overlay() {
+        return settings;
+    }
+
+    /** Settings by their names in Flink's configuration, as in {@code 10 s (default)}: from an option, the cluster or by default. */
+    Map<String, String> origins() {
+        return origins;
+    }
+
+    private <T> void note(ConfigOption<T> option, T value, String origin) {
+        Configuration written = new Configuration();
+        written.set(option, value);
+        origins.put(option.key(), JobOptions.masked(written.toMap().get(option.key())) + " (" + origin + ")");
+    }
+}

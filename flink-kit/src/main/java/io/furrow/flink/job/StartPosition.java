@@ -1,0 +1,48 @@
+package io.furrow.flink.job;
+
+import java.time.DateTimeException;
+import java.time.Instant;
+import java.util.Locale;
+import java.util.Optional;
+
+import picocli.CommandLine.TypeConversionException;
+
+/**
+ * Where a job without a savepoint or checkpoint begins to read. Holds no Flink type, as {@link JobOptions}.
+ *
+ * @param time where the kind is {@link Kind#TIME}, else empty
+ */
+public record StartPosition(Kind kind, Optional<Instant> time) {
+    /** How the position is given. */
+    public enum Kind {
+        /** Where the consumer group left off, else the beginning. */
+        COMMITTED,
+        EARLIEST,
+        LATEST,
+        /** The first record whose timestamp is not before a time. */
+        TIME
+    }
+
+    /** @throws TypeConversionException if the text names no position */
+    static StartPosition of(String text) {
+        return switch (text.toLowerCase(Locale.ROOT)) {
+            case "committed" -> new StartPosition(Kind.COMMITTED, Optional.empty());
+            case "earliest" -> new StartPosition(Kind.EARLIEST, Optional.empty());
+            case "latest" -> new StartPosition(Kind.LATEST, Optional.empty());
+            default -> new StartPosition(Kind.TIME, Optional.of(time(text)));
+        };
+    }
+
+    private static Instant time(String text) {
+        try {
+            Instant time = Instant.parse(text);
+            if (time.isBefore(Instant.EPOCH)) {
+                throw new TypeConversionException("'" + text + "' is before 1970, where no record can be");
+            }
+            return time;
+        } catch (DateTimeException e) {
+            throw new TypeConversionException("'" + text
+                    + "' is no position; write committed, earliest, latest or a time as in 2026-05-01T06:00:00Z");
+        }
+    }
+}

@@ -1,0 +1,188 @@
+package io.furrow.flink.kafka;
+
+import java.time.Duration;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.regex.Pattern;
+
+import org.apache.flink.api.common.eventtime.WatermarkGenerator;
+import org.apache.flink.api.common.eventtime.WatermarkOutput;
+import org.apache.flink.api.common.eventtime.WatermarkStrategy;
+import org.apache.flink.connector.base.DeliveryGuarantee;
+import org.apache.flink.connector.kafka.sink.KafkaSink;
+import org.apache.flink.connector.kafka.sink.TransactionNamingStrategy;
+import org.apache.flink.connector.kafka.source.KafkaSource;
+import org.apache.flink.connector.kafka.source.KafkaSourceBuilder;
+import org.apache.flink.connector.kafka.source.enumerator.initializer.OffsetsInitializer;
+import org.apache.flink.connector.kafka.source.reader.deserializer.KafkaRecordDeserializationSchema;
+import org.apache.kafka.clients.consumer.OffsetResetStrategy;
+
+import io.furrow.flink.job.InputTopics;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.StartPosition;
+import io.furrow.flink.record.Receipt;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.record.TopicRecordFormat;
+import io.furrow.flink.time.Epochs;
+import io.furrow.flink.time.ReceiptBoundWatermarks;
+import io.furrow.flink.time.ReplayWatermarks;
+
+/** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
+public final class KafkaConnectors {
+    public static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
+    /** Below the broker's default limit of 15 min, above any checkpoint interval in use. */
+    private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
+
+    private KafkaConnectors() {}
+
+    /**
+     * Reads the job's input from where the job's options say; only committed records. Record timestamps are the event times.
+     */
+    public static KafkaSource<TopicRecord> source(JobOptions options) {
+        return source(options, new TopicRecordFormat());
+    }
+
+    /** The same for records in another form. */
+    public static <T> KafkaSource<T> source(JobOptions options, KafkaRecordDeserializationSchema<T> form) {
+        InputTopics topics = options.inputTopics();
+        KafkaSourceBuilder<T> source = source(options, form, options.groupId());
+        topics.pattern().ifPresentOrElse(source::setTopicPattern, () -> source.setTopics(topics.names()));
+        return source.setStartingOffsets(offsets(options.from())).build();
+    }
+
+    @SuppressWarnings("deprecation") // the connector's only form of "else from the beginning" takes Kafka's old enum
+    private static OffsetsInitializer offsets(StartPosition from) {
+        return switch (from.kind()) {
+            case COMMITTED -> OffsetsInitializer.committedOffsets(OffsetResetStrategy.EARLIEST);
+            case EARLIEST -> OffsetsInitializer.earliest();
+            case LATEST -> OffsetsInitializer.latest();
+            case TIME -> OffsetsInitializer.timestamp(from.time().orElseThrow().toEpochMilli());
+        };
+    }
+
+    /** Reads a topic from its beginning and all that comes; a topic that is not there yet is awaited. */
+    public static KafkaSource<TopicRecord> wholeTopic(JobOptions options, String topic) {
+        return source(options, new TopicRecordFormat(), options.groupId() + "-" + topic)
+                .setTopicPattern(Pattern.compile(Pattern.quote(topic)))
+                .setStartingOffsets(OffsetsInitializer.earliest())
+                .build();
+    }
+
+    private static <T> KafkaSourceBuilder<T> source(
+            JobOptions options, KafkaRecordDeserializationSchema<T> form, String group) {
+        Properties properties = options.kafkaProperties();
+        properties.setProperty("isolation.level", "read_committed");
+        properties.setProperty("partition.discovery.interval.ms", "10000");
+        return KafkaSource.<T>builder()
+                .setBootstrapServers(options.bootstrapServers())
+                .setGroupId(group)
+                .setClientIdPrefix(group)
+                .setProperties(properties)
+                .setDeserializer(form);
+    }
+
+    /** Writes each record to the topic it names, under the job's delivery guarantee. */
+    public static KafkaSink<TopicRecord> sink(JobOptions options) {
+        return sink(options, "topics");
+    }
+
+    /** The same for one of several sinks of a job, separated by name: their transactions are. */
+    static KafkaSink<TopicRecord> sink(JobOptions options, String name) {
+        return sink(options, name, new TopicRecordFormat());
+    }
+
+    /** The same for records in another form. */
+    public static <T> KafkaSink<T> sink(JobOptions options, String name, AnyTopicSerializer<T> form) {
+        return sinkOf(options, form, name, guarantee(options));
+    }
+
+    /** The same without transactions: what is written is visible at once, whatever the job's delivery guarantee. */
+    public static KafkaSink<TopicRecord> promptSink(JobOptions options, String name) {
+        return sinkOf(options, new TopicRecordFormat(), name, DeliveryGuarantee.AT_LEAST_ONCE);
+    }
+
+    /** The same: a writer of it can work inside another sink's. */
+    static KafkaSink<TopicRecord> atLeastOnceSink(JobOptions options) {
+        return sinkOf(options, new TopicRecordFormat(), "dead-letters", DeliveryGuarantee.AT_LEAST_ONCE);
+    }
+
+    private static DeliveryGuarantee guarantee(JobOptions options) {
+        return switch (options.delivery()) {
+            case AT_LEAST_ONCE -> DeliveryGuarantee.AT_LEAST_ONCE;
+            case EXACTLY_ONCE -> DeliveryGuarantee.EXACTLY_ONCE;
+        };
+    }
+
+    /**
+     * Transactional ids are used again once their transactions have ended: a handful for each subtask. A sink aborts what its
+     * prefix begins, so none is the beginning of another: {@code furrow-<job>:<sink>:}.
+     */
+    private static <T> KafkaSink<T> sinkOf(
+            JobOptions options, AnyTopicSerializer<T> form, String name, DeliveryGuarantee guarantee) {
+        return KafkaSink.<T>builder()
+                .setBootstrapServers(options.bootstrapServers())
+                .setKafkaProducerConfig(producerProperties(options))
+                .setDeliveryGuarantee(guarantee)
+                .setTransactionalIdPrefix("furrow-" + options.jobName() + ":" + name + ":")
+                .setTransactionNamingStrategy(TransactionNamingStrategy.POOLING)
+                .setRecordSerializer(form)
+                .build();
+    }
+
+    /** Settings of the producers of a job beside the bootstrap servers; what {@code --kafka-properties} says goes before them. */
+    public static Properties producerProperties(JobOptions options) {
+        Properties properties = options.kafkaProperties();
+        properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
+        properties.putIfAbsent("batch.size", "131072");
+        properties.putIfAbsent("compression.type", "lz4");
+        properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        // A mission's topic may have been created just now. Were two requests under way, the broker could refuse the
+        // first
+        // (the partition is not there yet), accept the second, and then refuse the first forever: two minutes without
+        // any result until the producer gives up (KAFKA-15591).
+        properties.putIfAbsent("max.in.flight.requests.per.connection", "1");
+        return properties;
+    }
+
+    /**
+     * Event time = record timestamp, behind by the job's out-of-orderness; see {@link ReceiptBoundWatermarks}. That of a replay, which
+     * one subtask must read, is reported by its records alone; see {@link Epochs}.
+     */
+    public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
+        ReceiptBoundWatermarks.Quiet quiet =
+                new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance());
+        return options.inputTopics().replay().isPresent()
+                ? ReplayWatermarks.strategy(options.outOfOrderness(), quiet.after())
+                : WatermarkStrategy.forGenerator(
+                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), quiet));
+    }
+
+    /**
+     * The same for a job that keeps what is ahead of event time: a partition that is ahead of the slowest by more than the drift is
+     * not read on until the slowest has come closer.
+     */
+    public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options, Optional<Duration> maxDrift) {
+        return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift))
+                .orElseGet(() -> watermarks(options));
+    }
+
+    /**
+     * For a stream beside the events that has no event time of its own: it is always idle, so that it never holds back their
+     * watermark and never advances it while no event arrives.
+     */
+    public static WatermarkStrategy<TopicRecord> alwaysIdle() {
+        return WatermarkStrategy.forGenerator(context -> new AlwaysIdle());
+    }
+
+    private static final class AlwaysIdle implements WatermarkGenerator<TopicRecord> {
+        @Override
+        public void onEvent(TopicRecord event, long timestamp, WatermarkOutput output) {
+            onPeriodicEmit(output);
+        }
+
+        @Override
+        public void onPeriodicEmit(WatermarkOutput output) {
+            output.markIdle();
+        }
+    }
+}

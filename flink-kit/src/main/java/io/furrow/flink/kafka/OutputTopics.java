@@ -1,0 +1,204 @@
+package io.furrow.flink.kafka;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ExecutionException;
+import java.util.function.LongSupplier;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.AdminClientConfig;
+import org.apache.kafka.clients.admin.Config;
+import org.apache.kafka.common.config.ConfigResource;
+import org.apache.kafka.common.config.TopicConfig;
+import org.apache.kafka.common.errors.AuthorizationException;
+import org.apache.kafka.common.errors.TopicExistsException;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.flink.job.TopicOptions;
+
+/**
+ * The topics that a subtask writes to: made where they are not there, and how large a record each takes. Asks once per topic;
+ * an unreachable broker is asked again for a minute. Nobody waits for what others ask about another topic.
+ */
+final class OutputTopics implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(OutputTopics.class);
+    private static final Duration TIMEOUT = Duration.ofMinutes(1);
+    /** A limit is asked for again at most this often, however many records are too large. */
+    private static final long ANEW_NANOS = Duration.ofSeconds(10).toNanos();
+
+    private static final Duration UNHEARD_OF = Duration.ofMillis(50);
+    private static final Limit NO_LIMIT = new Limit(Long.MAX_VALUE, 0);
+    private static final String UNREADABLE =
+            "How large records {} takes may not be read: one that is too large will fail the job. Allow DescribeConfigs on "
+                    + "the topic, or set max.request.size in --kafka-properties";
+
+    private final Properties client;
+    private final TopicOptions.Settings settings;
+    private final LongSupplier nanoTime;
+    private final Map<String, Limit> known = new ConcurrentHashMap<>();
+    /** For each topic what whoever asks about it holds meanwhile. */
+    private final Map<String, Object> locks = new ConcurrentHashMap<>();
+
+    private Admin admin;
+
+    private record Limit(long bytes, long asked) {}
+
+    /** @param client of Kafka, with {@code bootstrap.servers} */
+    OutputTopics(Properties client, TopicOptions.Settings settings) {
+        this(client, settings, System::nanoTime);
+    }
+
+    OutputTopics(Properties client, TopicOptions.Settings settings, LongSupplier nanoTime) {
+        this.nanoTime = nanoTime;
+        this.settings = settings;
+        this.client = client;
+        client.setProperty(AdminClientConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, Long.toString(TIMEOUT.toMillis()));
+    }
+
+    /** Bytes of the largest record that the topic, which is there afterwards, takes; no limit where it may not be read. */
+    long limit(String topic) throws IOException, InterruptedException {
+        if (!known.containsKey(topic)) {
+            require(topic);
+        }
+        return known.getOrDefault(topic, NO_LIMIT).bytes();
+    }
+
+    /** The same for whoever has met the limit that is known: somebody may have raised it. */
+    long limitAskedAnew(String topic) throws IOException, InterruptedException {
+        Limit limit = known.get(topic);
+        if (limit != null && nanoTime.getAsLong() - limit.asked() > ANEW_NANOS) {
+            ask(topic);
+        }
+        return limit(topic);
+    }
+
+    private void require(String topic) throws IOException, InterruptedException {
+        synchronized (lock(topic)) {
+            if (!known.containsKey(topic)) {
+                ensure(topic);
+                ask(topic);
+            }
+        }
+    }
+
+    private Object lock(String topic) {
+        return locks.computeIfAbsent(topic, any -> new Object());
+    }
+
+    /**
+     * How many partitions the topic has, which is there afterwards, and its limit known. A broker that has not yet heard of a new topic is
+     * asked again.
+     */
+    int partitions(String topic) throws IOException, InterruptedException {
+        synchronized (lock(topic)) {
+            require(topic);
+            long until = nanoTime.getAsLong() + TIMEOUT.toNanos();
+            while (true) {
+                int partitions = describe(topic, until);
+                if (partitions == 0) {
+                    ensure(topic); // somebody may have deleted it since it was made
+                }
+                if (partitions > 0 && !known.containsKey(topic)) {
+                    ask(topic);
+                }
+                if (partitions > 0 && (known.containsKey(topic) || nanoTime.getAsLong() > until)) {
+                    return partitions;
+                }
+                Thread.sleep(UNHEARD_OF.toMillis());
+            }
+        }
+    }
+
+    /** 0 where the broker has not heard of the topic, until a time. */
+    private int describe(String topic, long until) throws IOException, InterruptedException {
+        try {
+            return admin().describeTopics(List.of(topic))
+                    .allTopicNames()
+                    .get()
+                    .get(topic)
+                    .partitions()
+                    .size();
+        } catch (ExecutionException e) {
+            boolean unknown = e.getCause() instanceof UnknownTopicOrPartitionException;
+            if (!unknown || nanoTime.getAsLong() > until) {
+                throw new IOException(
+                        "the partitions of " + topic + " cannot be read: "
+                                + e.getCause().getMessage() + "; is the topic there, and may the job describe it?",
+                        e.getCause());
+            }
+            return 0;
+        }
+    }
+
+    private void ensure(String topic) throws IOException, InterruptedException {
+        try {
+            admin().createTopics(List.of(settings.topic(topic))).all().get();
+            LOG.info("Made topic {}", topic);
+        } catch (ExecutionException e) {
+            if (!(e.getCause() instanceof TopicExistsException) && !isAllowedOnlyToWrite(topic, e.getCause())) {
+                throw new IOException(
+                        "topic " + topic + " could not be made: " + e.getCause().getMessage()
+                                + "; see --topic-partitions, --topic-replication, --topic-retention, or make it yourself",
+                        e.getCause());
+            }
+        }
+    }
+
+    /** Who may not make topics may still write to those that others made. */
+    private boolean isAllowedOnlyToWrite(String topic, Throwable refusal) throws InterruptedException {
+        if (!(refusal instanceof AuthorizationException)) {
+            return false;
+        }
+        try {
+            admin().describeTopics(List.of(topic)).allTopicNames().get();
+            return true;
+        } catch (ExecutionException e) {
+            LOG.warn("Topic {} is not there, or may not be seen", topic, e.getCause());
+            return false;
+        }
+    }
+
+    private void ask(String topic) throws IOException, InterruptedException {
+        ConfigResource resource = new ConfigResource(ConfigResource.Type.TOPIC, topic);
+        long asked = nanoTime.getAsLong();
+        try {
+            Config config =
+                    admin().describeConfigs(List.of(resource)).all().get().get(resource);
+            String bytes = config.get(TopicConfig.MAX_MESSAGE_BYTES_CONFIG).value();
+            known.put(topic, new Limit(Long.parseLong(bytes), asked));
+        } catch (ExecutionException e) {
+            if (e.getCause() instanceof AuthorizationException) {
+                LOG.warn(UNREADABLE, topic, e.getCause());
+                known.put(topic, NO_LIMIT);
+                return;
+            }
+            if (e.getCause() instanceof UnknownTopicOrPartitionException) {
+                return; // made just now, this broker has not heard of it: the next record asks again
+            }
+            throw new IOException(
+                    "how large records " + topic + " takes cannot be read: "
+                            + e.getCause().getMessage(),
+                    e.getCause());
+        }
+    }
+
+    private synchronized Admin admin() {
+        if (admin == null) {
+            admin = Admin.create(client);
+        }
+        return admin;
+    }
+
+    @Override
+    public synchronized void close() {
+        if (admin != null) {
+            admin.close(Duration.ofSeconds(1));
+        }
+    }
+}

@@ -1,0 +1,50 @@
+package io.furrow.flink.kafka;
+
+import org.apache.kafka.common.compress.Compression;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.record.MemoryRecords;
+import org.apache.kafka.common.record.SimpleRecord;
+
+import io.furrow.flink.record.HeaderTexts;
+import io.furrow.flink.record.TopicRecord;
+
+/** What a record weighs: in a producer, which counts it generously, and at the broker, as a batch of its own. */
+final class RecordSize {
+    /** A batch's own bytes, and the record's numbers and lengths where they take most room. */
+    private static final long OVERHEAD = 61 + 21 + 3 * 5;
+    /** The two lengths that stand before the name and the text of a header. */
+    private static final long PER_HEADER = 2 * 5;
+
+    private RecordSize() {}
+
+    /** In bytes, at least what the producer compares with {@code max.request.size}, and what the broker gets uncompressed. */
+    static long atMost(TopicRecord record) {
+        long bytes = OVERHEAD + length(record.key()) + length(record.value());
+        for (Header header : HeaderTexts.of(record.headers()).bytes()) {
+            bytes += PER_HEADER + utf8Length(header.key()) + header.value().length;
+        }
+        return bytes;
+    }
+
+    /** In bytes, exactly what the broker compares with {@code max.message.bytes}: costs as much as writing it. */
+    static long atTheBroker(TopicRecord record, Compression compression) {
+        Header[] headers = HeaderTexts.of(record.headers()).bytes().toArray(Header[]::new);
+        SimpleRecord alone = new SimpleRecord(Math.max(0, record.timestamp()), record.key(), record.value(), headers);
+        return MemoryRecords.withRecords(compression, alone).sizeInBytes();
+    }
+
+    private static int length(byte[] bytes) {
+        return bytes == null ? 0 : bytes.length;
+    }
+
+    private static int utf8Length(String text) {
+        int bytes = text.length();
+        for (int at = 0; at < text.length(); at++) {
+            char sign = text.charAt(at);
+            if (sign >= 0x80) {
+                bytes += sign < 0x800 || Character.isSurrogate(sign) ? 1 : 2;
+            }
+        }
+        return bytes;
+    }
+}

@@ -1,0 +1,57 @@
+package io.furrow.flink.kafka;
+
+import java.io.IOException;
+import java.io.InterruptedIOException;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ConcurrentMap;
+import java.util.concurrent.ExecutionException;
+
+/**
+ * Reads that are under way: who wants one that another thread has begun waits for its result. Nothing is kept of a read that has
+ * ended.
+ *
+ * @param <K> what makes two reads the same
+ * @param <V> what is read; shared, so not to be changed
+ */
+final class SharedReads<K, V> {
+    private final ConcurrentMap<K, CompletableFuture<V>> underWay = new ConcurrentHashMap<>();
+
+    /** A read. */
+    interface Read<V> {
+        V run() throws IOException;
+    }
+
+    /** The result of the read that is under way, else of this one; also of this one where the other fails. */
+    V join(K key, Read<V> read) throws IOException {
+        CompletableFuture<V> mine = new CompletableFuture<>();
+        CompletableFuture<V> other = underWay.putIfAbsent(key, mine);
+        if (other == null) {
+            return lead(key, mine, read);
+        }
+        try {
+            return other.get();
+        } catch (ExecutionException e) { // its thread may have been stopped, which is no reason for this one
+            return read.run();
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new InterruptedIOException("stopped while another thread was reading");
+        }
+    }
+
+    private V lead(K key, CompletableFuture<V> mine, Read<V> read) throws IOException {
+        try {
+            V value = read.run();
+            mine.complete(value);
+            return value;
+        } finally {
+            underWay.remove(key);
+            mine.completeExceptionally(new IOException("the read did not end")); // no effect where it did
+        }
+    }
+
+    /** How many reads are under way. */
+    int size() {
+        return underWay.size();
+    }
+}

@@ -1,0 +1,2 @@
+/** Records between operators: their serializer, dead letters, deduplication. */
+package io.furrow.flink.record;

@@ -1,0 +1,53 @@
+package io.furrow.flink.time;
+
+import java.util.function.LongSupplier;
+
+/**
+ * How long a replay has been read, over all partitions of its reader: a clock that stands still while the replay is paused.
+ * The time between two records counts, of a long one no more than a pause; after the end of an epoch, when nothing more is to
+ * come, all of it.
+ */
+final class ReplayProgress {
+    private final LongSupplier clock;
+    private final long pauseMillis;
+    private long read;
+    private long last;
+    private boolean ended;
+    private long furthest = Long.MIN_VALUE;
+
+    /** @param clock milliseconds since whenever */
+    ReplayProgress(LongSupplier clock, long pauseMillis) {
+        this.clock = clock;
+        this.pauseMillis = pauseMillis;
+        last = clock.getAsLong();
+    }
+
+    /**
+     * A record was read.
+     *
+     * @param reached event time of its partition
+     * @param end whether it ends its epoch
+     */
+    void advance(long reached, boolean end) {
+        read = millis();
+        last = clock.getAsLong();
+        ended = end;
+        furthest = Math.max(furthest, reached);
+    }
+
+    /** Milliseconds of reading. */
+    long millis() {
+        long since = clock.getAsLong() - last;
+        return read + (ended ? since : Math.min(since, pauseMillis));
+    }
+
+    /** Milliseconds by the clock itself. */
+    long clockMillis() {
+        return clock.getAsLong();
+    }
+
+    /** Whether no partition is further. */
+    boolean isFurthest(long reached) {
+        return reached >= furthest;
+    }
+}

@@ -1,0 +1,2 @@
+/** Event time: watermarks, lateness, epochs of replays. */
+package io.furrow.flink.time;

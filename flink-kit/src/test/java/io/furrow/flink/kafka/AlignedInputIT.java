@@ -1,0 +1,131 @@
+package io.furrow.flink.kafka;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.atomic.AtomicReference;
+
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.configuration.Configuration;
+import org.apache.flink.core.execution.JobClient;
+import org.apache.flink.metrics.Gauge;
+import org.apache.flink.runtime.testutils.InMemoryReporter;
+import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.flink.job.JobEnvironment;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TestJob;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+@Timeout(240)
+class AlignedInputIT {
+    private static final InMemoryReporter METRICS = InMemoryReporter.createWithRetainedMetrics();
+
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
+            .setConfiguration(METRICS.addToConfiguration(new Configuration()))
+            .setNumberTaskManagers(1)
+            .setNumberSlotsPerTaskManager(1)
+            .build());
+
+    private static final long HOUR = Duration.ofHours(1).toMillis();
+
+    @TempDir
+    private Path directory;
+
+    private KafkaProducer<byte[], byte[]> producer;
+
+    @Test
+    void readsAPartitionThatIsAheadOnlyWhenTheSlowestHasComeCloser() throws Exception {
+        long begin = System.currentTimeMillis() - 10 * HOUR;
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(directory)) {
+            Map<String, Object> client = Map.of("bootstrap.servers", kafka.bootstrapServers());
+            try (KafkaConsumer<String, String> consumer =
+                    new KafkaConsumer<>(client, new StringDeserializer(), new StringDeserializer())) {
+                producer = new KafkaProducer<>(
+                        kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer());
+                kafka.createTopics(List.of(new NewTopic("in", 2, (short) 1), new NewTopic("out", 1, (short) 1)));
+                consumer.assign(List.of(new TopicPartition("out", 0)));
+                consumer.seekToBeginning(consumer.assignment());
+                write(0, begin, "fast");
+                write(1, begin, "slow");
+                write(0, begin + HOUR, "fast, an hour on");
+
+                JobClient job = job(kafka.bootstrapServers());
+                try {
+                    await().atMost(Duration.ofMinutes(1)).until(() -> waits(job.getJobID()));
+                    write(0, begin + HOUR + 1, "fast, later");
+                    write(1, begin + 2 * HOUR, "slow, two hours on");
+
+                    List<String> read = new ArrayList<>();
+                    await().atMost(Duration.ofMinutes(1)).until(() -> {
+                        consumer.poll(Duration.ofMillis(200)).forEach(record -> read.add(record.value()));
+                        return read.size() >= 5;
+                    });
+                    assertThat(read.subList(0, 3)).contains("fast", "slow", "fast, an hour on");
+                    assertThat(read.subList(3, 5)).containsExactly("slow, two hours on", "fast, later");
+                } finally {
+                    job.cancel().get();
+                    producer.close();
+                }
+            }
+        }
+    }
+
+    /** Whether a partition was made to wait. */
+    private static boolean waits(JobID job) {
+        return METRICS.findMetrics(job, "accumulatedPausedTimeMs").values().stream()
+                .anyMatch(metric -> metric instanceof Gauge<?> gauge && ((Number) gauge.getValue()).longValue() > 0);
+    }
+
+    private void write(int partition, long time, String value) throws Exception {
+        producer.send(new ProducerRecord<>("in", partition, time, null, value.getBytes(StandardCharsets.UTF_8)))
+                .get();
+    }
+
+    private static JobClient job(String servers) throws Exception {
+        AtomicReference<JobOptions> parsed = new AtomicReference<>();
+        TestJob.run(
+                parsed::set,
+                "copy",
+                "--bootstrap-servers",
+                servers,
+                "--parallelism",
+                "1",
+                "--input",
+                "in",
+                "--idle-timeout",
+                "1h");
+        StreamExecutionEnvironment env = JobEnvironment.create(parsed.get());
+        env.fromSource(
+                        KafkaConnectors.source(parsed.get()),
+                        KafkaConnectors.watermarks(parsed.get(), Optional.of(Duration.ofSeconds(10))),
+                        "Records")
+                .uid("records")
+                .map(record -> record.to("out"))
+                .uid("rename-topic")
+                .sinkTo(KafkaConnectors.sink(parsed.get()))
+                .uid("write-records");
+        return env.executeAsync();
+    }
+}

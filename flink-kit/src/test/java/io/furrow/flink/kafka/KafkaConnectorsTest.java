@@ -1,0 +1,79 @@
+package io.furrow.flink.kafka;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.concurrent.atomic.AtomicReference;
+
+import org.apache.flink.api.common.eventtime.WatermarkAlignmentParams;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.flink.job.AlignmentOptions;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TestJob;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class KafkaConnectorsTest {
+    @TempDir
+    private Path directory;
+
+    @Test
+    void haveOneRequestUnderWaySoThatANewTopicStallsNoProducer() {
+        assertThat(KafkaConnectors.producerProperties(parsed("copy")))
+                .containsEntry("max.in.flight.requests.per.connection", "1");
+    }
+
+    @Test
+    void letTheFileOfKafkaPropertiesPrevail() throws Exception {
+        Path file = Files.writeString(
+                directory.resolve("kafka.properties"), "max.in.flight.requests.per.connection=5\nbatch.size=1\n");
+
+        assertThat(KafkaConnectors.producerProperties(parsed("copy", "--kafka-properties", file.toString())))
+                .containsEntry("max.in.flight.requests.per.connection", "5")
+                .containsEntry("batch.size", "1")
+                .containsKey("max.request.size");
+    }
+
+    @Test
+    void compressUnlessTheFileOfKafkaPropertiesSaysOtherwise() throws Exception {
+        Path file = Files.writeString(directory.resolve("kafka.properties"), "compression.type=none\n");
+
+        assertThat(KafkaConnectors.producerProperties(parsed("copy"))).containsEntry("compression.type", "lz4");
+        assertThat(KafkaConnectors.producerProperties(parsed("copy", "--kafka-properties", file.toString())))
+                .containsEntry("compression.type", "none");
+    }
+
+    @Test
+    void letNoPartitionRunAheadUnlessThatIsSwitchedOff() {
+        assertThat(alignment().isEnabled()).isTrue();
+        assertThat(alignment().getMaxAllowedWatermarkDrift()).isEqualTo(60_000);
+        assertThat(alignment("--max-drift", "5s").getMaxAllowedWatermarkDrift()).isEqualTo(5_000);
+        assertThat(alignment("--max-drift", "0s").isEnabled()).isFalse();
+    }
+
+    @Test
+    void letPartitionsRunAheadWhereAnswersWouldWait() {
+        AlignmentOptions options = new AlignmentOptions();
+        JobCommandLine.of(options).parseArgs();
+        assertThat(options.maxDrift(true)).isEmpty();
+
+        JobCommandLine.of(options).parseArgs("--max-drift", "5s");
+        assertThat(options.maxDrift(true)).contains(Duration.ofSeconds(5));
+    }
+
+    private static WatermarkAlignmentParams alignment(String... arguments) {
+        AlignmentOptions options = new AlignmentOptions();
+        JobCommandLine.of(options).parseArgs(arguments);
+        return KafkaConnectors.watermarks(parsed("copy"), options.maxDrift(false))
+                .getAlignmentParameters();
+    }
+
+    private static JobOptions parsed(String... arguments) {
+        AtomicReference<JobOptions> parsed = new AtomicReference<>();
+        assertThat(TestJob.run(parsed::set, arguments).exitCode()).isZero();
+        return parsed.get();
+    }
+}

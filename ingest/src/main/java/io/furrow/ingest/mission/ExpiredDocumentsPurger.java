@@ -1,0 +1,64 @@
+package io.furrow.ingest.mission;
+
+import java.time.Clock;
+import java.time.Duration;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+
+import com.mongodb.MongoException;
+import com.mongodb.client.MongoClient;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.Retention;
+
+/** Removes expired documents from time to time where the server does not do it by itself; a failure is tried again later. */
+final class ExpiredDocumentsPurger implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(ExpiredDocumentsPurger.class);
+    private static final long MAX_PAUSE = Duration.ofMinutes(5).toMillis();
+    private static final long MIN_PAUSE = Duration.ofSeconds(1).toMillis();
+    /** An expired document stays at most this part of its time longer. */
+    private static final int PART = 20;
+
+    private final MongoClient client;
+    private final MissionCollections collections;
+    private final ScheduledExecutorService thread;
+
+    private ExpiredDocumentsPurger(MongoAccess access, Retention retention) {
+        client = access.open(); // its own, because collections remember by thread what they have made
+        collections = new MissionCollections(client, retention, Clock.systemUTC());
+        thread = Executors.newSingleThreadScheduledExecutor(work -> {
+            Thread made = new Thread(work, "purge of missions");
+            made.setDaemon(true);
+            return made;
+        });
+    }
+
+    static ExpiredDocumentsPurger start(MongoAccess access, Retention retention) {
+        ExpiredDocumentsPurger purge = new ExpiredDocumentsPurger(access, retention);
+        long pause = retention.shortest().map(Duration::toMillis).orElse(MAX_PAUSE) / PART;
+        pause = Math.min(MAX_PAUSE, Math.max(MIN_PAUSE, pause));
+        purge.thread.scheduleWithFixedDelay(purge::purge, pause, pause, TimeUnit.MILLISECONDS);
+        return purge;
+    }
+
+    private void purge() {
+        try {
+            if (!collections.serverExpires()) {
+                long removed = collections.purge();
+                LOG.debug("{} expired documents removed", removed);
+            }
+        } catch (MongoException e) {
+            LOG.warn("Expired documents could not be removed; it will be tried again", e);
+        }
+    }
+
+    @Override
+    public void close() {
+        thread.shutdownNow();
+        client.close();
+    }
+}

@@ -1,2 +1,0 @@
-/** The job {@code normalise}: the context broker's native Kafka notifications become the records of {@code data.raw}. */
-package io.furrow.ingest.normalise;

@@ -1,0 +1,137 @@
+package io.furrow.ingest.normalize;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.regex.Pattern;
+import java.util.regex.PatternSyntaxException;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.IDefaultValueProvider;
+import picocli.CommandLine.IModelTransformer;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.ArgSpec;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Model.OptionSpec;
+import picocli.CommandLine.Option;
+
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TopicOptions;
+import io.furrow.model.event.EventTimeRule;
+import io.furrow.model.event.NotificationRules;
+import io.furrow.model.event.Origin;
+import io.furrow.model.topic.Topics;
+
+/** The options of the job {@code normalize}. */
+@Command(
+        name = "normalize",
+        description = "Brings the context broker's native Kafka notifications, in any form, to data.raw.",
+        defaultValueProvider = NormalizeOptions.OwnDefaults.class,
+        modelTransformer = NormalizeOptions.WithoutEventTime.class)
+public final class NormalizeOptions extends JobOptions {
+    private static final Duration HOUR = Duration.ofHours(1);
+
+    @Mixin
+    private final TopicOptions topics = new TopicOptions();
+
+    @Option(
+            names = "--output",
+            paramLabel = "TOPIC",
+            defaultValue = Topics.RAW,
+            description = "Topic to write events to. Default: ${DEFAULT-VALUE}.")
+    private String output;
+
+    @Option(
+            names = "--exclude-types",
+            paramLabel = "REGEX,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "Analytics:.*,Domain,Mission",
+            description =
+                    "An entity whose whole type matches one is dropped and counted. Name here what is written into the "
+                            + "context broker from Kafka, or it comes back as news. Default: ${DEFAULT-VALUE}.")
+    private List<String> excludeTypes;
+
+    @Option(
+            names = "--max-clock-skew",
+            paramLabel = "DURATION",
+            defaultValue = "5min",
+            description =
+                    "How far a device's clock may be ahead, less than an hour; beyond it the event gets the time of "
+                            + "the notification. Default: ${DEFAULT-VALUE}.")
+    private Duration maxClockSkew;
+
+    @Option(
+            names = "--event-time",
+            paramLabel = "SOURCE,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "device,attributes,entity",
+            description =
+                    "Which time of an event is its event time: the first of these that it has. device: its attribute Time, "
+                            + "else TimeInstant, dateObserved, timestamp. attributes: the newest metadata dateModified of its "
+                            + "attributes. entity: its dateModified. An event that has none of them gets the time of the "
+                            + "notification. Default: ${DEFAULT-VALUE}.")
+    private List<String> eventTime;
+
+    @Option(
+            names = "--max-record-bytes",
+            paramLabel = "N",
+            defaultValue = "8388608",
+            description =
+                    "An entity that makes a larger record becomes a dead letter: a record that the broker refuses "
+                            + "would stop the job. Default: ${DEFAULT-VALUE}.")
+    private int maxRecordBytes;
+
+    /** The one default of all jobs that is another for this one. */
+    static final class OwnDefaults implements IDefaultValueProvider {
+        @Override
+        public String defaultValue(ArgSpec argument) {
+            return argument instanceof OptionSpec option && option.longestName().equals("--input")
+                    ? Topics.NOTIFICATIONS
+                    : null;
+        }
+    }
+
+    /** The job has no event time: what would set it is not one of its options. */
+    static final class WithoutEventTime implements IModelTransformer {
+        private static final List<String> OPTIONS =
+                List.of("--out-of-orderness", "--idle-timeout", "--idle-advance", "--clock-skew", "--max-ahead");
+
+        @Override
+        public CommandSpec transform(CommandSpec spec) {
+            OPTIONS.forEach(name -> spec.remove(spec.findOption(name)));
+            return spec;
+        }
+    }
+
+    /** How topics are made. */
+    public TopicOptions topics() {
+        return topics;
+    }
+
+    /** What the translation needs to know. */
+    NormalizeNotifications.Settings settings() {
+        NotificationRules rules =
+                new NotificationRules(NormalizeNotifications.STAGE, excluded(), times(), Origin.KAFKA);
+        return new NormalizeNotifications.Settings(output, rules, maxRecordBytes);
+    }
+
+    private List<Pattern> excluded() {
+        try {
+            return excludeTypes.stream().map(Pattern::compile).toList();
+        } catch (PatternSyntaxException e) {
+            throw refused("--exclude-types " + e.getPattern() + " is no regular expression: " + e.getDescription(), e);
+        }
+    }
+
+    private EventTimeRule times() {
+        if (maxClockSkew.compareTo(HOUR) >= 0) {
+            throw refused("--max-clock-skew is an hour or more; write for instance 5min", null);
+        }
+        try {
+            return EventTimeRule.of(eventTime, maxClockSkew);
+        } catch (IllegalArgumentException e) {
+            throw refused("--event-time: " + e.getMessage(), e);
+        }
+    }
+}

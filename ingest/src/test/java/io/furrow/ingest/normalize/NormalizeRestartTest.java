@@ -1,0 +1,116 @@
+package io.furrow.ingest.normalize;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.Set;
+import java.util.concurrent.TimeUnit;
+
+import org.apache.flink.runtime.minicluster.MiniCluster;
+import org.apache.flink.streaming.api.datastream.DataStream;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.test.junit5.InjectMiniCluster;
+import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.extension.RegisterExtension;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.restart.JobCase;
+import io.furrow.flink.restart.Restarts;
+import io.furrow.ingest.CollectedOutput;
+import io.furrow.model.event.HeaderNames;
+
+@Timeout(value = 10, unit = TimeUnit.HOURS)
+class NormalizeRestartTest {
+    @RegisterExtension
+    static final MiniClusterExtension FLINK = Restarts.cluster();
+
+    @Test
+    void writesWhatAnUndisturbedRunWritesWhereverItIsRestarted(
+            @InjectMiniCluster MiniCluster flink, @TempDir Path folder) throws Exception {
+        new Restarts(flink, folder).changeNothing(3, Case::new);
+    }
+
+    @Test
+    void goesOnFromTheSavepointsOfReleases(@InjectMiniCluster MiniCluster flink, @TempDir Path folder)
+            throws Exception {
+        new Restarts(flink, folder).goOnFromReleases("normalize", new Case(1));
+    }
+
+    /** Notifications of one to three entities, some of which cannot be read. */
+    private static final class Case implements JobCase {
+        private final List<Arrival> arrivals = new ArrayList<>();
+
+        Case(long seed) {
+            Random random = Restarts.random(seed);
+            for (int i = 0; i < 300; i++) {
+                long received = 1_700_000_000_000L + i * 100L;
+                StringBuilder entities = new StringBuilder();
+                for (int n = random.nextInt(3); n >= 0; n--) {
+                    entities.append(entities.length() == 0 ? "" : ",")
+                            .append("{'id':'t%d','type':'T','v':{'type':'Number','value':%d,'metadata':{}}}"
+                                    .formatted(n, random.nextInt(1_000_000)));
+                }
+                String body = "{'subscriptionId':'s','data':[" + entities + (random.nextInt(10) == 0 ? "" : "]}");
+                arrivals.add(new Arrival(notification(body, received), false));
+            }
+        }
+
+        private static TopicRecord notification(String body, long received) {
+            return TopicRecord.of(
+                    "ngsi.notifications",
+                    received,
+                    "s",
+                    body.replace('\'', '"').getBytes(StandardCharsets.UTF_8),
+                    Map.of("Fiware-Service", "farm", "Fiware-Servicepath", "/north"));
+        }
+
+        @Override
+        public List<Arrival> arrivals() {
+            return arrivals;
+        }
+
+        @Override
+        public long bound() {
+            return 0;
+        }
+
+        @Override
+        public JobOptions options(int parallelism) {
+            NormalizeOptions options = new NormalizeOptions();
+            JobCommandLine.of(options).parseArgs("--parallelism=" + parallelism);
+            return options;
+        }
+
+        @Override
+        public DataStream<TopicRecord> define(
+                StreamExecutionEnvironment env, DataStream<TopicRecord> records, JobOptions options) {
+            CollectedOutput out = new CollectedOutput();
+            NormalizeJob.define(records, out, (NormalizeOptions) options);
+            return out.all();
+        }
+
+        @Override
+        public Set<String> topics() {
+            return Set.of("data.raw", "ngsi.notifications.dead");
+        }
+
+        @Override
+        public List<String> judges() {
+            return List.of();
+        }
+
+        /** With the event's id, by which a repetition is known. */
+        @Override
+        public String content(TopicRecord record) {
+            return Restarts.text(record) + " " + record.headers().get(HeaderNames.CE_ID);
+        }
+    }
+}

@@ -1,0 +1,175 @@
+package io.furrow.kafka.secret;
+
+import java.io.IOException;
+import java.nio.file.Path;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.concurrent.CyclicBarrier;
+import java.util.concurrent.ExecutorService;
+import java.util.concurrent.Executors;
+import java.util.concurrent.Future;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.TestInstance;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+@TestInstance(TestInstance.Lifecycle.PER_CLASS)
+class SecretTopicIT {
+    private static final Instant NOW = Instant.parse("2026-03-01T08:00:00Z");
+
+    private final FarmSecret first = FarmSecret.generate();
+    private final FarmSecret second = first.rotated(NOW, NOW.plusSeconds(60), false);
+    private EmbeddedKafka kafka;
+
+    @BeforeAll
+    void start(@TempDir Path directory) throws IOException {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+    }
+
+    @AfterAll
+    void stop() {
+        kafka.close();
+    }
+
+    @BeforeEach
+    void makeAFarmWithoutASecret() throws Exception {
+        try (Admin admin = Admin.create(client())) {
+            if (admin.listTopics().names().get().contains(Topics.SECRETS)) {
+                admin.deleteTopics(List.of(Topics.SECRETS)).all().get();
+                await().until(() -> !admin.listTopics().names().get().contains(Topics.SECRETS));
+            }
+        }
+        kafka.createTopics(
+                List.of(new NewTopic(Topics.SECRETS, 1, (short) 1).configs(Map.of("cleanup.policy", "compact"))));
+    }
+
+    @Test
+    void takesTheFirstSecretAndRefusesAnotherSayingWhatToDo() throws Exception {
+        FarmSecret another = FarmSecret.generate();
+        topic(null).claim(first);
+        topic(null).claim(first);
+
+        assertThatThrownBy(() -> topic(null).claim(another))
+                .isInstanceOf(IOException.class)
+                .hasMessageContainingAll(
+                        "this farm has another secret",
+                        first.toString(),
+                        another.toString(),
+                        "--replace-farm-secret " + first.fingerprint());
+        topic(null).claim(first);
+    }
+
+    @Test
+    void followsARotationAndRefusesTheSecretFromBefore() throws Exception {
+        topic(null).claim(first);
+        topic(null).claim(second);
+
+        assertThatThrownBy(() -> topic(null).claim(first))
+                .isInstanceOf(IOException.class)
+                .hasMessageContainingAll("was rotated", second.toString(), "copy of the newest file");
+        assertThatThrownBy(() -> topic(null).claim(first.rotated(NOW, NOW, false)))
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("another secret");
+    }
+
+    @Test
+    void takesAnotherSecretOnlyInThePlaceOfTheOneThatIsNamed() throws Exception {
+        FarmSecret another = FarmSecret.generate();
+        topic(null).claim(first);
+        assertThatThrownBy(() -> topic(another.fingerprint()).claim(another)).isInstanceOf(IOException.class);
+
+        topic(first.fingerprint()).claim(another);
+
+        // Who still names it does not take it back.
+        assertThatThrownBy(() -> topic(null).claim(first)).isInstanceOf(IOException.class);
+        topic(first.fingerprint()).claim(another);
+    }
+
+    /** Of processes that start at once on a new farm, each with a secret of its own, one wins and all others are told. */
+    @Test
+    void letsExactlyOneOfSeveralWin() throws Exception {
+        int processes = 4;
+        CyclicBarrier together = new CyclicBarrier(processes);
+        ExecutorService threads = Executors.newFixedThreadPool(processes);
+        List<FarmSecret> secrets = new ArrayList<>();
+        List<Future<Boolean>> outcomes = new ArrayList<>();
+        for (int i = 0; i < processes; i++) {
+            FarmSecret secret = FarmSecret.generate();
+            secrets.add(secret);
+            outcomes.add(threads.submit(() -> {
+                together.await();
+                return isTaken(secret);
+            }));
+        }
+        List<FarmSecret> taken = new ArrayList<>();
+        for (int i = 0; i < processes; i++) {
+            if (outcomes.get(i).get()) {
+                taken.add(secrets.get(i));
+            }
+        }
+        threads.shutdown();
+
+        assertThat(taken).hasSize(1);
+        topic(null).claim(taken.get(0));
+    }
+
+    /** Instances of one control plane are started at once, and none may give up. */
+    @Test
+    void takesTheSameSecretFromSeveralAtOnce() throws Exception {
+        for (int round = 0; round < 10; round++) {
+            makeAFarmWithoutASecret();
+            int processes = 6;
+            CyclicBarrier together = new CyclicBarrier(processes);
+            ExecutorService threads = Executors.newFixedThreadPool(processes);
+            List<Future<Boolean>> outcomes = new ArrayList<>();
+            for (int i = 0; i < processes; i++) {
+                outcomes.add(threads.submit(() -> {
+                    together.await();
+                    return isTaken(first);
+                }));
+            }
+            for (Future<Boolean> outcome : outcomes) {
+                assertThat(outcome.get()).isTrue();
+            }
+            threads.shutdown();
+        }
+    }
+
+    private boolean isTaken(FarmSecret secret) throws IOException {
+        try {
+            topic(null).claim(secret);
+            return true;
+        } catch (IOException e) {
+            if (!e.getMessage().contains("this farm has another secret")) {
+                throw e;
+            }
+            return false;
+        }
+    }
+
+    private SecretTopic topic(String replaced) {
+        return new SecretTopic(client(), replaced);
+    }
+
+    private Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+}

@@ -1,2 +1,0 @@
-/** The data catalogue, read and printed. */
-package io.furrow.launcher.catalog;

@@ -1,0 +1,222 @@
+package io.furrow.launcher.command;
+
+import java.io.IOException;
+import java.io.PrintWriter;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.Properties;
+import java.util.concurrent.Callable;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.CommandException;
+import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.HelpOption;
+import io.furrow.cli.option.HttpUri;
+import io.furrow.control.ControlSettings;
+import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.control.rest.access.CertificateFiles;
+import io.furrow.kafka.secret.SecretFile;
+import io.furrow.launcher.LogFile;
+import io.furrow.launcher.option.AccessFlags;
+import io.furrow.launcher.option.ProvisioningOptions;
+import io.furrow.launcher.option.ReplayFlags;
+import io.furrow.launcher.option.TlsOptions;
+import io.furrow.launcher.option.WatchFlags;
+import io.furrow.launcher.suite.ControlService;
+import io.furrow.launcher.suite.FarmSecretFile;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.provisioner.AgentSettings;
+import io.furrow.provisioner.ProvisioningSettings;
+
+/** {@code ./furrow control-plane}. */
+@Command(
+        name = "control-plane",
+        abbreviateSynopsis = true,
+        description =
+                "Runs an instance of the control plane alone, beside a Kafka that already runs. Several share the work; what one "
+                        + "had when it died another takes over.")
+public final class ControlPlaneCommand implements Callable<Integer> {
+    private static final long STOPPED_WITHIN_SECONDS = 35;
+
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka. Default: ${DEFAULT-VALUE}.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for every Kafka client, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--standby-replicas",
+            paramLabel = "N",
+            defaultValue = "0",
+            description = "How many further instances hold a copy of all state, ready to take over. Default: 0.")
+    private int standbyReplicas;
+
+    @Option(
+            names = "--control-host",
+            paramLabel = "ADDRESS",
+            defaultValue = "127.0.0.1",
+            description =
+                    "Address of the REST API; another than this machine's needs --api-tokens, and --api-certificate or "
+                            + "--api-insecure. Default: ${DEFAULT-VALUE}.")
+    private String host;
+
+    @Option(
+            names = "--control-port",
+            paramLabel = "PORT",
+            defaultValue = "8085",
+            description = "Port of the REST API, 0 for a free one. Default: ${DEFAULT-VALUE}.")
+    private int port;
+
+    @Option(
+            names = "--health-port",
+            paramLabel = "PORT",
+            defaultValue = "8086",
+            description =
+                    "Port of the pages /health, /ready and /metrics, plain HTTP without tokens also where the API has both; 0 for a "
+                            + "free one. Default: ${DEFAULT-VALUE}.")
+    private int healthPort;
+
+    @Option(
+            names = "--orion",
+            paramLabel = "URL",
+            defaultValue = "http://127.0.0.1:1026",
+            converter = HttpUri.class,
+            description = "Context broker, through which commands reach devices. Default: ${DEFAULT-VALUE}.")
+    private URI orion;
+
+    @Option(
+            names = "--fiware-service",
+            paramLabel = "NAME",
+            defaultValue = "farm",
+            description = "Tenant of the context broker. Default: ${DEFAULT-VALUE}.")
+    private String fiwareService;
+
+    @Option(
+            names = "--log",
+            paramLabel = "FILE",
+            defaultValue = "/dev/stderr",
+            description = "Where to log. Default: ${DEFAULT-VALUE}.")
+    private Path log;
+
+    @Mixin
+    private ProvisioningOptions provisioning;
+
+    @Mixin
+    private AccessFlags access;
+
+    @Mixin
+    private TlsOptions tls;
+
+    @Mixin
+    private WatchFlags watch;
+
+    @Mixin
+    private ReplayFlags replays;
+
+    @Mixin
+    private HelpOption help;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (provisioning.iotAgent != null && provisioning.secret == null) {
+            throw new ParameterException(
+                    spec.commandLine(),
+                    "--iot-agent needs --farm-secret: all instances and the host of the devices make passwords of the same.");
+        }
+        watch.watch(null); // refuses what cannot be used before anything starts
+        provisioning.agent(fiwareService); // the same
+        replays.settings(); // the same
+        CertificateFiles certificate = tls.certificate();
+        LogFile.writeTo(log);
+        SecretFile secret = provisioning.secret == null
+                ? null
+                : FarmSecretFile.open(provisioning.secret, settings().client(), provisioning.replacedSecret);
+        RestSettings rest = RestSettings.on(port)
+                .withHost(host)
+                .withTokens(provisioning.tokens)
+                .withCertificate(certificate)
+                .withInsecure(tls.insecure)
+                .withContextBroker(orion)
+                .withSecret(secret)
+                .withAllowed(access.allowed());
+        return runUntilStopped(rest, secret);
+    }
+
+    private int runUntilStopped(RestSettings rest, SecretFile secret) throws InterruptedException {
+        CountDownLatch stop = new CountDownLatch(1);
+        CountDownLatch stopped = new CountDownLatch(1);
+        Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(stop, stopped), "stop"));
+        try (ControlService service = new ControlService(settings())) {
+            PrintWriter out = spec.commandLine().getOut();
+            out.println("The control plane starts; Ctrl-C stops it.");
+            out.flush();
+            RestApi.check(settings(), rest);
+            service.startManagers();
+            out.println("REST API: " + serve(service, rest, secret) + "/openapi.json");
+            out.println("Health: " + service.health() + "/ready");
+            out.flush();
+            stop.await();
+            return 0;
+        } catch (IOException e) { // says what is unavailable or refused, and what to do
+            throw new CommandException(e.getMessage(), e);
+        } finally {
+            stopped.countDown();
+        }
+    }
+
+    private ControlSettings settings() {
+        Properties client = KafkaClient.settings(kafka, kafkaProperties);
+        return ControlSettings.of(client)
+                .withTenant(fiwareService)
+                .withStandbyReplicas(standbyReplicas)
+                .with(replays.settings());
+    }
+
+    private URI serve(ControlService service, RestSettings rest, SecretFile secret) throws IOException {
+        ControlSettings settings = settings();
+        FiwareScope scope = settings.missions().scope();
+        AgentSettings agent = provisioning.agent(fiwareService);
+        return service.serve(
+                rest,
+                healthPort,
+                watch.watch(null).options(new DeviceCommands(orion, scope)),
+                agent == null
+                        ? null
+                        : new ProvisioningSettings(
+                                settings.client(),
+                                scope,
+                                secret,
+                                agent,
+                                provisioning.accounts().accounts(),
+                                provisioning.gateways));
+    }
+
+    private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {
+        stop.countDown();
+        try {
+            stopped.await(STOPPED_WITHIN_SECONDS, TimeUnit.SECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

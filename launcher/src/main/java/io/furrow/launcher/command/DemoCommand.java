@@ -1,0 +1,40 @@
+package io.furrow.launcher.command;
+
+import java.util.concurrent.Callable;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.option.HelpOption;
+import io.furrow.launcher.Session;
+import io.furrow.launcher.option.SuiteOptions;
+import io.furrow.launcher.suite.SuiteSettings;
+
+/** {@code ./furrow demo}. */
+@Command(
+        name = "demo",
+        abbreviateSynopsis = true,
+        description =
+                "Starts everything in one JVM on 127.0.0.1, with the missions and simulated devices of a small farm, and shows what "
+                        + "comes out.")
+public final class DemoCommand implements Callable<Integer> {
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SuiteOptions options;
+
+    @Mixin
+    private HelpOption help;
+
+    @Override
+    public Integer call() throws Exception {
+        return new Session(spec.commandLine().getOut())
+                .run(options.settings(null, null, SuiteSettings.Farm.SIMULATED), options.data, suite -> {
+                    DemoFarm.start(suite.control());
+                    return () -> {};
+                });
+    }
+}

@@ -1,0 +1,96 @@
+package io.furrow.launcher.command;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.net.URI;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlPlaneException;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.mission.MissionDevices;
+import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** The domains, templates and missions of the demonstration farm, made and started as anybody else makes his. */
+public final class DemoFarm {
+    private static final String FILE = "/io/furrow/simulators/demo/missions.json";
+    private static final Set<String> ACTIVE = Set.of("starting", "running", "stopping");
+    private static final String TEMPLATE = "template";
+    private static final String DOMAIN = "domain";
+    private static final String MISSION = "mission";
+
+    private final ControlApi api;
+
+    private DemoFarm(ControlApi api) {
+        this.api = api;
+    }
+
+    /**
+     * Makes what is missing, and starts the missions that do not run; what is there from an earlier start stays.
+     *
+     * @param control base of the control plane's REST API
+     * @throws ControlPlaneException if it is unavailable or refuses
+     */
+    public static void start(URI control) throws IOException {
+        DemoFarm farm = new DemoFarm(new ControlApi(control, null));
+        JsonNode wanted;
+        try (InputStream json = FiwareStandIn.class.getResourceAsStream(FILE)) {
+            wanted = NgsiJson.mapper().readTree(json);
+        }
+        wanted.path("domains").forEach(farm::domain);
+        wanted.path("templates").forEach(farm::template);
+        wanted.path("missions").forEach(farm::mission);
+    }
+
+    private void domain(JsonNode domain) {
+        if (!has("/api/domains", DOMAIN, domain)) {
+            api.send("POST", "/api/domains", domain);
+        }
+    }
+
+    /** A template that was changed since then gets a further version. */
+    private void template(JsonNode template) {
+        String name = template.path(TEMPLATE).asText();
+        for (JsonNode known : api.get("/api/templates")) {
+            if (known.path(TEMPLATE).asText().equals(name) && devices(known).equals(devices(template))) {
+                return;
+            }
+        }
+        api.send("POST", "/api/templates", template);
+    }
+
+    private static MissionDevices devices(JsonNode template) {
+        try {
+            return MissionTemplate.read(NgsiJson.write(template)).devices();
+        } catch (RefusedException e) {
+            throw new ControlPlaneException(
+                    "template %s cannot be read: %s".formatted(template.path(TEMPLATE), e.getMessage()), e);
+        }
+    }
+
+    private void mission(JsonNode mission) {
+        for (JsonNode known : api.get("/api/missions")) {
+            if (known.path(MISSION).equals(mission.path(MISSION))
+                    && ACTIVE.contains(known.at("/status/state").asText())) {
+                return;
+            }
+        }
+        ObjectNode body = mission.deepCopy();
+        body.remove(MISSION);
+        api.send("POST", "/api/missions" + ControlApi.part(mission.path(MISSION).asText()) + "/start", body);
+    }
+
+    private boolean has(String path, String member, JsonNode wanted) {
+        for (JsonNode known : api.get(path)) {
+            if (known.path(member).equals(wanted.path(member))) {
+                return true;
+            }
+        }
+        return false;
+    }
+}

@@ -1,0 +1,186 @@
+package io.furrow.launcher.command;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.PrintWriter;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.concurrent.Callable;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.CommandException;
+import io.furrow.cli.option.HelpOption;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.simulators.device.FleetSettings;
+import io.furrow.simulators.fleet.FarmFleet;
+import io.furrow.simulators.fleet.FleetAccess;
+import io.furrow.simulators.mqtt.MqttAccess;
+import io.furrow.simulators.scenario.Farm;
+
+/** {@code ./furrow scenario}. */
+@Command(
+        name = "scenario",
+        abbreviateSynopsis = true,
+        sortOptions = false,
+        description = {
+            "Runs the devices of a scenario file, without a control plane: provisions them at the IoT Agent, connects them and lets"
+                    + " them report, by default to ./furrow up on this machine.",
+            "The form of the file: simulators/README.md."
+        })
+public final class ScenarioCommand implements Callable<Integer> {
+    private static final Duration DRAINED_WITHIN = Duration.ofSeconds(10);
+
+    @Spec
+    private CommandSpec spec;
+
+    @Parameters(paramLabel = "FILE", description = "The scenario, JSON.")
+    private Path file;
+
+    @Option(
+            names = "--orion",
+            paramLabel = "URL",
+            defaultValue = "http://127.0.0.1:1026",
+            description = "Context broker, to which robots report. Default: ${DEFAULT-VALUE}.")
+    private URI orion;
+
+    @Option(
+            names = "--iot-agent",
+            paramLabel = "URL",
+            defaultValue = "http://127.0.0.1:4041",
+            description = "IoT Agent, which receives all other devices. Default: ${DEFAULT-VALUE}.")
+    private URI iotAgent;
+
+    @Option(
+            names = "--iot-agent-resource",
+            paramLabel = "PATH",
+            defaultValue = FleetSettings.DEFAULT_RESOURCE,
+            description =
+                    "Default resource of the IoT Agent (IOTA_DEFAULT_RESOURCE), \"\" where it is empty. Default: ${DEFAULT-VALUE}.")
+    private String iotAgentResource;
+
+    @Option(
+            names = "--mqtt",
+            paramLabel = "URI",
+            defaultValue = "tcp://127.0.0.1:1883",
+            description = "MQTT broker: tcp://host:port, or ssl://host:port with TLS. Default: ${DEFAULT-VALUE}.")
+    private URI mqtt;
+
+    @Option(
+            names = "--mqtt-trusted",
+            paramLabel = "FILE",
+            description = "PEM file with the certificates to trust. Default: those that Java trusts.")
+    private Path trusted;
+
+    @Option(
+            names = "--mqtt-user",
+            paramLabel = "NAME",
+            defaultValue = Suite.MQTT_USER,
+            description = "User at the MQTT broker. Default: ${DEFAULT-VALUE}.")
+    private String user;
+
+    @Option(
+            names = "--mqtt-password-file",
+            paramLabel = "FILE",
+            description = "File whose first line is the user's password. Default: the password of ./furrow up.")
+    private Path passwordFile;
+
+    @Option(
+            names = "--qos",
+            paramLabel = "N",
+            defaultValue = "1",
+            description =
+                    "QoS of measures: 0, what is measured while the connection is broken is lost; or 1. Default: 1.")
+    private int qos;
+
+    @Option(
+            names = "--fiware-service",
+            paramLabel = "NAME",
+            defaultValue = "farm",
+            description = "Tenant. Default: ${DEFAULT-VALUE}.")
+    private String service;
+
+    @Option(
+            names = "--for",
+            paramLabel = "DURATION",
+            description = "Stop after this, as in 10m, and wait until the broker has all. Default: at Ctrl-C.")
+    private Duration howLong;
+
+    @Mixin
+    private HelpOption help;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        try {
+            return run(farm(), access());
+        } catch (IllegalArgumentException
+                | IOException e) { // a wrong option; a file, an agent or a broker that refuses
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    private int run(Farm farm, FleetAccess access) throws IOException, InterruptedException {
+        PrintWriter out = spec.commandLine().getOut();
+        CountDownLatch stop = new CountDownLatch(1);
+        CountDownLatch stopped = new CountDownLatch(1);
+        Thread hook = new Thread(() -> stopFromOutside(stop, stopped), "stop");
+        Runtime.getRuntime().addShutdownHook(hook);
+        try (FarmFleet fleet = FarmFleet.start(farm, access)) {
+            out.printf("%,d devices run; Ctrl-C stops them.%n", farm.devices().size());
+            long end = howLong == null ? Long.MAX_VALUE : System.nanoTime() + howLong.toNanos();
+            while (System.nanoTime() < end && !stop.await(1, TimeUnit.SECONDS)) {
+                out.printf("\r  %,d reports, %,d connections", fleet.reports(), fleet.connections());
+                out.flush();
+            }
+            boolean drained = fleet.drain(DRAINED_WITHIN);
+            FarmFleet.Tally tally = fleet.tally();
+            out.printf(
+                    "%n%,d reports, %,d acknowledged by the MQTT broker, %,d open, %,d dropped%n",
+                    fleet.reports(), tally.acknowledged(), tally.open(), tally.dropped());
+            out.flush();
+            return drained && tally.dropped() == 0 ? 0 : 1;
+        } finally {
+            stopped.countDown();
+        }
+    }
+
+    private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {
+        stop.countDown();
+        try {
+            stopped.await(DRAINED_WITHIN.toMillis(), TimeUnit.MILLISECONDS);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    private Farm farm() throws IOException {
+        if (!Files.isReadable(file)) {
+            throw new CommandException("%s cannot be read; name a scenario file".formatted(file), null);
+        }
+        try (InputStream json = Files.newInputStream(file)) {
+            return Farm.read(json, Instant.now());
+        }
+    }
+
+    private FleetAccess access() throws IOException {
+        String password = passwordFile == null
+                ? Suite.MQTT_PASSWORD
+                : Files.readString(passwordFile).lines().findFirst().orElse("").strip();
+        FleetSettings fiware = new FleetSettings(orion, iotAgent, mqtt, user, password, service, "/")
+                .withIotAgentResource(iotAgentResource);
+        return new FleetAccess(
+                fiware,
+                new MqttAccess(mqtt, trusted, qos),
+                FleetAccess.Logins.all(new MqttAccess.Login(user, password)));
+    }
+}

@@ -1,0 +1,55 @@
+package io.furrow.launcher.command;
+
+import java.net.URI;
+import java.util.concurrent.Callable;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.option.HelpOption;
+import io.furrow.cli.option.HttpUri;
+import io.furrow.launcher.Session;
+import io.furrow.launcher.option.FarmOptions;
+import io.furrow.launcher.option.SuiteOptions;
+
+/** {@code ./furrow up}. */
+@Command(
+        name = "up",
+        abbreviateSynopsis = true,
+        description =
+                "Starts everything in one JVM on 127.0.0.1 for real devices, or beside a context broker and a Kafka that "
+                        + "already run.")
+public final class UpCommand implements Callable<Integer> {
+    @Spec
+    private CommandSpec spec;
+
+    @Mixin
+    private SuiteOptions options;
+
+    @Option(
+            names = "--orion",
+            paramLabel = "URL",
+            converter = HttpUri.class,
+            description =
+                    "Use this context broker, for instance http://127.0.0.1:1026, and start neither the stand-in nor an "
+                            + "MQTT broker. It must reach the listener for notifications.")
+    private URI orion;
+
+    @Option(names = "--kafka", paramLabel = "HOST:PORT", description = "Use this Kafka and start no broker.")
+    private String kafka;
+
+    @Mixin
+    private FarmOptions farm;
+
+    @Mixin
+    private HelpOption help;
+
+    @Override
+    public Integer call() throws Exception {
+        return new Session(spec.commandLine().getOut())
+                .run(options.settings(orion, kafka, farm.farm(options.fiwareService)), options.data, suite -> () -> {});
+    }
+}

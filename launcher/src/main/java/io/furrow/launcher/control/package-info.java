@@ -1,2 +1,0 @@
-/** The commands that speak with the control plane over its REST API. */
-package io.furrow.launcher.control;

@@ -1,2 +1,0 @@
-/** Dead letters, brought back to where they came from. */
-package io.furrow.launcher.dead;

@@ -1,0 +1,123 @@
+package io.furrow.launcher.option;
+
+import java.net.URI;
+import java.nio.file.Path;
+import java.time.Duration;
+
+import picocli.CommandLine.Option;
+
+import io.furrow.cli.CommandException;
+import io.furrow.cli.option.HttpUri;
+import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.provisioner.AgentSettings;
+
+/** Options that say who may command, and where the devices of missions are registered. */
+public final class ProvisioningOptions {
+    @Option(
+            names = "--iot-agent",
+            paramLabel = "URL",
+            converter = HttpUri.class,
+            description = "Provision devices of missions at this IoT Agent, for instance http://127.0.0.1:4041. Needs "
+                    + "--orion; without it none are provisioned at another context broker.")
+    public URI iotAgent;
+
+    @Option(
+            names = "--iot-agent-resource",
+            paramLabel = "PATH",
+            description =
+                    "Default resource of that IoT Agent (IOTA_DEFAULT_RESOURCE), through whose service groups it finds "
+                            + "its devices; \"\" where it is empty. Default: " + AgentSettings.DEFAULT_RESOURCE + ".")
+    private String resource;
+
+    @Option(
+            names = "--iot-agent-interval",
+            paramLabel = "DURATION",
+            description =
+                    "How often groups and devices at that IoT Agent are compared with what is wanted, so that what it "
+                            + "has lost comes back. Longer for many thousands of devices. Default: 30s.")
+    private Duration interval;
+
+    @Option(
+            names = "--mqtt-password-file",
+            paramLabel = "FILE",
+            description = "Mosquitto's password_file, in which devices of missions get accounts. With --mqtt-acl-file.")
+    Path passwords;
+
+    @Option(
+            names = "--mqtt-acl-file",
+            paramLabel = "FILE",
+            description = "Mosquitto's acl_file, in which they get the rules what they may publish and hear.")
+    Path rules;
+
+    @Option(
+            names = "--mqtt-reload",
+            paramLabel = "COMMAND",
+            description =
+                    "Run by sh after a change of both, for instance 'kill -HUP $(cat /run/mosquitto/mosquitto.pid)'.")
+    String reload;
+
+    @Option(
+            names = "--farm-secret",
+            paramLabel = "FILE",
+            description =
+                    "The secret of which API keys and MQTT passwords are made, see ./furrow secret. Default of up: farm-secret in "
+                            + "the directory of --data, made with it.")
+    public Path secret;
+
+    @Option(
+            names = "--replace-farm-secret",
+            paramLabel = "FINGERPRINT",
+            description =
+                    "Let --farm-secret take the place of the farm's secret with this fingerprint, which is lost. Every device needs "
+                            + "new credentials then.")
+    public String replacedSecret;
+
+    @Option(
+            names = "--mqtt-gateways",
+            description =
+                    "Give each mission an account that speaks for all its devices, as ./furrow device-host needs it "
+                            + "beyond 500 devices.")
+    public boolean gateways;
+
+    @Option(
+            names = "--api-tokens",
+            paramLabel = "FILE",
+            description =
+                    "Ask for a token at the control plane's REST API: lines '<name> <token> <role>', the role viewer, operator or "
+                            + "admin. Read again when it changes. Default: anyone who reaches 127.0.0.1 may do everything.")
+    public Path tokens;
+
+    /**
+     * The IoT Agent; null if none is named.
+     *
+     * @throws CommandException if the options do not go together or cannot be right
+     */
+    public AgentSettings agent(String fiwareService) {
+        if (iotAgent == null) {
+            if (resource != null || interval != null) {
+                throw new CommandException(
+                        "--iot-agent-resource and --iot-agent-interval need --iot-agent: the stand-in has its own.");
+            }
+            return null;
+        }
+        if (fiwareService.isBlank()) {
+            throw new CommandException(
+                    "--iot-agent needs a tenant: name one with --fiware-service. An IoT Agent keeps no devices of the default one.");
+        }
+        try {
+            AgentSettings agent = AgentSettings.at(iotAgent);
+            agent = resource == null ? agent : agent.withResource(resource);
+            return interval == null ? agent : agent.withInterval(interval);
+        } catch (IllegalArgumentException e) { // says which setting is wrong
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    public SuiteSettings.AccountFiles accounts() {
+        return new SuiteSettings.AccountFiles(passwords, rules, reload, gateways);
+    }
+
+    SuiteSettings.Secret secret() {
+        return new SuiteSettings.Secret(secret, replacedSecret);
+    }
+}

@@ -1,0 +1,54 @@
+package io.furrow.launcher.option;
+
+import java.time.Duration;
+
+import picocli.CommandLine.Option;
+
+import io.furrow.cli.CommandException;
+import io.furrow.control.replay.ReplaySettings;
+
+/** Options of the control plane that concern replays. */
+public final class ReplayFlags {
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            description =
+                    "MongoDB of the stored missions, for instance mongodb://127.0.0.1:27017: replays of missions that are not there are "
+                            + "refused, and markers are kept there. Default: none, any replay is handed on, and there are no markers.")
+    private String mongo;
+
+    @Option(
+            names = "--mongo-database",
+            paramLabel = "NAME",
+            defaultValue = "persistence",
+            description = "Its database. Default: ${DEFAULT-VALUE}.")
+    private String database;
+
+    @Option(
+            names = "--mongo-poll",
+            paramLabel = "DURATION",
+            defaultValue = "2s",
+            description = "Between two looks for missions that are new or gone. Default: ${DEFAULT-VALUE}.")
+    private Duration poll;
+
+    @Option(
+            names = "--replay-grace",
+            paramLabel = "DURATION",
+            defaultValue = "1h",
+            description = "How long topics of a replay are kept after it was over. Default: ${DEFAULT-VALUE}.")
+    private Duration grace;
+
+    /** @throws CommandException where they cannot be used */
+    public ReplaySettings settings() {
+        if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative()) {
+            throw new CommandException(
+                    "--mongo-poll is at least 100ms, and --replay-grace not negative; they are %s and %s."
+                            .formatted(poll, grace));
+        }
+        return ReplaySettings.DEFAULT
+                .withMongo(mongo)
+                .withDatabase(database)
+                .withPollInterval(poll)
+                .withGrace(grace);
+    }
+}

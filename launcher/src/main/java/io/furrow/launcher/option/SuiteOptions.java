@@ -1,0 +1,172 @@
+package io.furrow.launcher.option;
+
+import java.net.URI;
+import java.nio.file.Path;
+
+import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
+
+import io.furrow.launcher.suite.SuiteSettings;
+
+/** What is common to {@code demo} and {@code up}: where things are kept, and on which ports of 127.0.0.1 they listen. */
+public final class SuiteOptions {
+    @Option(
+            names = "--data",
+            paramLabel = "DIR",
+            description =
+                    "Keep everything here across restarts: Kafka's log, Connect's offsets, checkpoints, entities, missions. "
+                            + "Default: a temporary directory that is deleted at the end.")
+    public Path data;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for every Kafka client, for instance security settings.")
+    Path kafkaProperties;
+
+    @Option(
+            names = "--fiware-service",
+            paramLabel = "NAME",
+            defaultValue = "farm",
+            description = "Tenant of the context broker. Default: ${DEFAULT-VALUE}.")
+    public String fiwareService;
+
+    @Option(
+            names = "--window",
+            paramLabel = "DURATION",
+            defaultValue = "10s",
+            description =
+                    "Length of the windows over which a field's temperature is averaged. Default: ${DEFAULT-VALUE}.")
+    String window;
+
+    @Option(
+            names = "--fields",
+            paramLabel = "FILE",
+            description =
+                    "GeoJSON, Shapefile or GeoPackage with the farm's fields, put on service.fields at the start as the "
+                            + "fields of all times before the first import. Default: what is there; on a broker of the suite's own where "
+                            + "nothing is, the fields of the demonstration farm.")
+    Path fields;
+
+    @Option(
+            names = "--dashboard-port",
+            paramLabel = "PORT",
+            defaultValue = "8080",
+            description = PORT_OF + "the dashboard" + DEFAULT)
+    int dashboardPort;
+
+    @Option(
+            names = "--kafka-port",
+            paramLabel = "PORT",
+            defaultValue = "9092",
+            description = PORT_OF + "Kafka" + DEFAULT)
+    int kafkaPort;
+
+    @Option(
+            names = "--connect-port",
+            paramLabel = "PORT",
+            defaultValue = "8083",
+            description = PORT_OF + "Connect's REST API" + DEFAULT)
+    int connectPort;
+
+    @Option(
+            names = "--flink-port",
+            paramLabel = "PORT",
+            defaultValue = "8081",
+            description = PORT_OF + "Flink's web UI" + DEFAULT)
+    int flinkPort;
+
+    @Option(
+            names = "--notify-port",
+            paramLabel = "PORT",
+            defaultValue = "8090",
+            description = PORT_OF + "the listener for notifications" + DEFAULT)
+    int notifyPort;
+
+    @Option(names = "--mqtt-port", paramLabel = "PORT", defaultValue = "1883", description = PORT_OF + "MQTT" + DEFAULT)
+    int mqttPort;
+
+    @Option(
+            names = "--orion-port",
+            paramLabel = "PORT",
+            defaultValue = "1026",
+            description = PORT_OF + "the context broker's stand-in" + DEFAULT)
+    int orionPort;
+
+    @Option(
+            names = "--iot-agent-port",
+            paramLabel = "PORT",
+            defaultValue = "4041",
+            description = PORT_OF + "the IoT Agent's stand-in" + DEFAULT)
+    int iotAgentPort;
+
+    @Option(
+            names = "--mongo-port",
+            paramLabel = "PORT",
+            defaultValue = "27017",
+            description = PORT_OF + "the server for missions that speaks MongoDB's protocol" + DEFAULT)
+    int mongoPort;
+
+    @Option(
+            names = "--mongo",
+            paramLabel = "URI",
+            description = "Keep missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server.")
+    String mongo;
+
+    @Option(
+            names = "--control-port",
+            paramLabel = "PORT",
+            defaultValue = "8085",
+            description = PORT_OF + "the control plane's REST API" + DEFAULT)
+    int controlPort;
+
+    @Option(
+            names = "--health-port",
+            paramLabel = "PORT",
+            defaultValue = "8086",
+            description = PORT_OF + "the control plane's pages /health, /ready and /metrics" + DEFAULT)
+    int healthPort;
+
+    @Mixin
+    AccessFlags access;
+
+    @Mixin
+    WatchFlags watch;
+
+    @Option(
+            names = "--predict",
+            paramLabel = "DURATION",
+            description =
+                    "How far ahead encounters are predicted, 0s for none. Default: 10s with --stop-on-predicted, else 0s.")
+    String horizon;
+
+    private static final String PORT_OF = "Port of ";
+    private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
+
+    public SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm) {
+        SuiteSettings.Ports ports = new SuiteSettings.Ports(
+                kafkaPort,
+                connectPort,
+                flinkPort,
+                notifyPort,
+                mqttPort,
+                orionPort,
+                iotAgentPort,
+                mongoPort,
+                controlPort,
+                healthPort,
+                dashboardPort);
+        return new SuiteSettings(
+                kafkaProperties,
+                fiwareService,
+                window,
+                fields,
+                ports,
+                orion,
+                kafka,
+                mongo,
+                farm,
+                watch.watch(horizon),
+                access.allowed());
+    }
+}

@@ -1,0 +1,116 @@
+package io.furrow.launcher.option;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+
+import io.furrow.dashboard.auth.AddressRange;
+import io.furrow.dashboard.auth.Role;
+import io.furrow.dashboard.auth.TrustedProxy;
+
+/** Options that say which proxy in front of the dashboard signs users in, and what it says of them. */
+public final class TrustedProxyFlags {
+    private static final Map<String, Role> GROUPS =
+            Map.of("viewer", Role.VIEWER, "operator", Role.OPERATOR, "admin", Role.ADMIN);
+
+    @Option(
+            names = "--trusted-proxy",
+            paramLabel = "ADDRESS,…",
+            split = ",",
+            hideParamSyntax = true,
+            description =
+                    "Addresses, or blocks as 10.0.0.0/24, of a proxy that signs users in and names them in headers. Nobody else's headers are "
+                            + "believed. Every process that can connect from there can be any user. Needs --proxy-token-file.")
+    private List<String> addresses;
+
+    @Option(
+            names = "--proxy-token-file",
+            paramLabel = "FILE",
+            description =
+                    "File with the dashboard's own token, with which it asks the control plane for users of the trusted proxy. Its line in "
+                            + "--api-tokens of the control plane ends with 'for-users'.")
+    private Path token;
+
+    @Option(
+            names = "--user-header",
+            paramLabel = "NAME",
+            defaultValue = "X-Forwarded-User",
+            description = "Header in which the trusted proxy names the user. Default: ${DEFAULT-VALUE}.")
+    private String userHeader;
+
+    @Option(
+            names = "--groups-header",
+            paramLabel = "NAME",
+            defaultValue = "X-Forwarded-Groups",
+            description = "Header in which the trusted proxy names the user's groups. Default: ${DEFAULT-VALUE}.")
+    private String groupsHeader;
+
+    @Option(
+            names = "--group-roles",
+            paramLabel = "GROUP=ROLE,…",
+            split = ",",
+            hideParamSyntax = true,
+            description =
+                    "Role of the members of a group: viewer, operator or admin; of several the highest. Who is in none is refused. Default: "
+                            + "viewer=viewer,operator=operator,admin=admin.")
+    private Map<String, String> groupRoles;
+
+    /** Null if none is trusted. */
+    public TrustedProxy proxy(CommandSpec spec) {
+        if (addresses == null) {
+            if (token != null) {
+                throw new ParameterException(spec.commandLine(), "--proxy-token-file needs --trusted-proxy.");
+            }
+            return null;
+        }
+        if (token == null) {
+            throw new ParameterException(
+                    spec.commandLine(),
+                    "--trusted-proxy needs --proxy-token-file: the dashboard asks the control plane for the proxy's users with a token of its own.");
+        }
+        try {
+            return new TrustedProxy(
+                    addresses.stream().map(AddressRange::parse).toList(),
+                    userHeader,
+                    groupsHeader,
+                    roles(),
+                    read(token));
+        } catch (IllegalArgumentException e) {
+            throw new ParameterException(spec.commandLine(), "--trusted-proxy: " + e.getMessage() + ".", e);
+        } catch (IOException e) {
+            throw new ParameterException(
+                    spec.commandLine(), "--proxy-token-file: %s cannot be read (%s).".formatted(token, e), e);
+        }
+    }
+
+    private Map<String, Role> roles() {
+        if (groupRoles == null) {
+            return GROUPS;
+        }
+        Map<String, Role> roles = new HashMap<>();
+        groupRoles.forEach((group, word) -> {
+            Role role = GROUPS.get(word);
+            if (role == null) {
+                throw new IllegalArgumentException(
+                        "'%s' is no role for the group '%s'; it is viewer, operator or admin".formatted(word, group));
+            }
+            roles.put(group, role);
+        });
+        return roles;
+    }
+
+    private static String read(Path file) throws IOException {
+        String token = Files.readString(file).strip();
+        if (token.isEmpty() || token.chars().anyMatch(Character::isWhitespace)) {
+            throw new IllegalArgumentException("the file %s holds one token and nothing else".formatted(file));
+        }
+        return token;
+    }
+}

@@ -1,0 +1,108 @@
+package io.furrow.launcher.replay;
+
+import java.io.PrintWriter;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.Callable;
+import java.util.concurrent.CountDownLatch;
+
+import picocli.CommandLine.Command;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.ParameterException;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.KafkaClient;
+import io.furrow.cli.option.HttpUri;
+import io.furrow.launcher.LogFile;
+import io.furrow.model.topic.Topics;
+
+/** {@code ./furrow replay analytics}. */
+@Command(
+        name = "analytics",
+        abbreviateSynopsis = true,
+        description =
+                "Runs on a Flink cluster the analytics jobs that replays were started with, and ends them with their replays, until Ctrl-C; "
+                        + "the jobs then stay, and a next start finds them. ./furrow demo and up do so by themselves, on their own Flink.")
+public final class AnalyticsCommand implements Callable<Integer> {
+    @Spec
+    private CommandSpec spec;
+
+    @Option(
+            names = "--flink-url",
+            paramLabel = "URL",
+            required = true,
+            converter = HttpUri.class,
+            description =
+                    "REST API of the cluster, for instance http://jobmanager:8081. It must take jars: web.submit.enable.")
+    private URI flink;
+
+    @Option(
+            names = "--jar",
+            paramLabel = "FILE",
+            required = true,
+            description = "The job jar of analytics, analytics/target/furrow-analytics-*-job.jar. Uploaded once.")
+    private Path jar;
+
+    @Option(
+            names = "--bootstrap-servers",
+            paramLabel = "HOST:PORT",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka, as this command and the cluster reach it. Default: ${DEFAULT-VALUE}.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for the Kafka clients, here and, under the same path, on the cluster.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--option",
+            paramLabel = "--NAME=VALUE",
+            description =
+                    "One more option for every job, for instance --option=--parallelism=2. May be given several times.")
+    private List<String> options = List.of();
+
+    @Option(
+            names = "--elastic",
+            description = "Start jobs also where no slot is free: the cluster gets task managers on demand.")
+    private boolean elastic;
+
+    @Option(
+            names = "--log",
+            paramLabel = "FILE",
+            defaultValue = "/dev/stderr",
+            description = "Where to log. Default: ${DEFAULT-VALUE}.")
+    private Path log;
+
+    @Override
+    public Integer call() throws InterruptedException {
+        if (!Files.isReadable(jar)) {
+            throw new ParameterException(
+                    spec.commandLine(), "--jar " + jar + " cannot be read; ./mvnw -pl analytics -am package makes it");
+        }
+        LogFile.writeTo(log);
+        List<String> all = new ArrayList<>(List.of("--bootstrap-servers", kafka));
+        if (kafkaProperties != null) {
+            all.addAll(List.of("--kafka-properties", kafkaProperties.toString()));
+        }
+        all.addAll(options);
+        ClusterAnalytics executor = new ClusterAnalytics(new FlinkRest(flink), jar, all, elastic);
+        CountDownLatch stop = new CountDownLatch(1);
+        Runtime.getRuntime().addShutdownHook(new Thread(stop::countDown, "stop"));
+        ReplayAnalytics analytics = ReplayAnalytics.start(KafkaClient.settings(kafka, kafkaProperties), executor);
+        try {
+            PrintWriter out = spec.commandLine().getOut();
+            out.println("Follows " + Topics.REPLAYS + " at " + kafka + "; Ctrl-C stops it, jobs stay.");
+            out.flush();
+            stop.await();
+            return 0;
+        } finally {
+            analytics.close();
+        }
+    }
+}

@@ -1,0 +1,187 @@
+package io.furrow.launcher.replay;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.function.LongSupplier;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.cli.control.AnalyticsJob;
+
+/**
+ * Reconciles the running analytics jobs with those that replays ask for. A replay's jobs start together, when its
+ * topic is there and they all fit; they end when the replay is over and {@link JobEnding} allows it. A replay that is
+ * over before its jobs ran gets them all the same. Keeps nothing that a restart would miss: jobs are found by their
+ * names, and how far they are by their consumer groups.
+ */
+final class AnalyticsReconciler {
+    private static final Logger LOG = LoggerFactory.getLogger(AnalyticsReconciler.class);
+    private static final Duration BETWEEN_ATTEMPTS = Duration.ofSeconds(20);
+
+    private final AnalyticsExecutor executor;
+    private final JobProgress.Source progress;
+    private final LongSupplier millis;
+    /** By topic; a replay stays here until its jobs have ended. */
+    private final Map<String, WantedAnalytics> known = new TreeMap<>();
+
+    private final Map<String, JobEnding> endings = new HashMap<>();
+    /** When a job may be started again, by name. */
+    private final Map<String, Long> nextAttempts = new HashMap<>();
+
+    private final Set<String> done = new HashSet<>();
+    private final Map<String, String> waiting = new TreeMap<>();
+
+    /** @param millis monotonic */
+    AnalyticsReconciler(AnalyticsExecutor executor, JobProgress.Source progress, LongSupplier millis) {
+        this.executor = executor;
+        this.progress = progress;
+        this.millis = millis;
+    }
+
+    /** @param wanted all replays that there are */
+    void reconcile(Collection<WantedAnalytics> wanted) throws AnalyticsException {
+        Set<String> running = executor.running();
+        learn(wanted, running);
+        for (WantedAnalytics replay : List.copyOf(known.values())) {
+            try {
+                end(replay, running);
+                start(replay, running);
+            } catch (AnalyticsException e) { // of this replay's topic; others continue
+                LOG.warn("Analytics on {} cannot be looked after now", replay.topic(), e);
+            }
+        }
+        known.values().removeIf(replay -> isForgotten(replay, wanted, running));
+        Set<String> topics = known.keySet();
+        waiting.keySet().retainAll(topics);
+    }
+
+    /** A sentence for each replay whose jobs wait for room. */
+    Collection<String> waiting() {
+        return List.copyOf(waiting.values());
+    }
+
+    private void learn(Collection<WantedAnalytics> wanted, Set<String> running) {
+        known.replaceAll((topic, replay) -> replay.ended());
+        for (WantedAnalytics replay : wanted) {
+            if (!replay.jobs().isEmpty()) {
+                known.put(replay.topic(), replay);
+            }
+        }
+        for (String name : running) {
+            AnalyticsJob.named(name)
+                    .filter(this::hasTopic)
+                    .ifPresent(job -> known.computeIfAbsent(
+                            job.topic(), topic -> new WantedAnalytics(topic, List.of(job), true)));
+        }
+    }
+
+    /** A job whose topic is not there may be one of a replay on another Kafka. */
+    private boolean hasTopic(AnalyticsJob job) {
+        try {
+            return known.containsKey(job.topic()) || progress.of(job) != null;
+        } catch (AnalyticsException e) {
+            LOG.debug("It is not known whose {} is", job.name(), e);
+            return false;
+        }
+    }
+
+    private void end(WantedAnalytics replay, Set<String> running) throws AnalyticsException {
+        for (AnalyticsJob job : replay.jobs()) {
+            String name = job.name();
+            if (!replay.over()) {
+                endings.remove(name);
+                done.remove(name);
+            } else if (running.contains(name)) {
+                JobEnding ending = endings.computeIfAbsent(name, none -> new JobEnding());
+                if (ending.mayEnd(progress.of(job), millis.getAsLong())) {
+                    executor.cancel(name);
+                    done.add(name);
+                    if (ending.isCaughtUp()) {
+                        LOG.info("Ended {}", name);
+                    } else {
+                        LOG.warn(
+                                "Ended {}, which had not read all of {}, or not said so: results may be missing",
+                                name,
+                                job.topic());
+                    }
+                }
+            }
+        }
+    }
+
+    private void start(WantedAnalytics replay, Set<String> running) throws AnalyticsException {
+        List<AnalyticsJob> missing = new ArrayList<>();
+        for (AnalyticsJob job : replay.jobs()) {
+            if (!running.contains(job.name()) && !done.contains(job.name()) && isNeeded(job, replay.over())) {
+                missing.add(job);
+            }
+        }
+        int free = missing.isEmpty() ? 0 : executor.free();
+        if (missing.size() > free) {
+            wait(replay, missing.size(), free);
+            return;
+        }
+        waiting.remove(replay.topic());
+        for (AnalyticsJob job : missing) {
+            start(job);
+        }
+    }
+
+    /** Of a replay that is over a job is needed only where it has not read all. */
+    private boolean isNeeded(AnalyticsJob job, boolean over) throws AnalyticsException {
+        JobProgress now = progress.of(job);
+        return now != null && !(over && now.isCaughtUp());
+    }
+
+    private void start(AnalyticsJob job) {
+        long now = millis.getAsLong();
+        if (now < nextAttempts.getOrDefault(job.name(), Long.MIN_VALUE)) {
+            return;
+        }
+        nextAttempts.put(job.name(), now + BETWEEN_ATTEMPTS.toMillis());
+        try {
+            executor.start(job);
+            LOG.info("Started {} on {}", job.name(), job.topic());
+        } catch (AnalyticsException e) {
+            LOG.warn("{} was not started; tried again in {} s", job.name(), BETWEEN_ATTEMPTS.toSeconds(), e);
+        }
+    }
+
+    private void wait(WantedAnalytics replay, int missing, int free) {
+        String why =
+                "No analytics on %s yet: it wants %d jobs, %d fit. It begins when others end; stop a replay that is not needed."
+                        .formatted(replay.topic(), missing, free);
+        if (waiting.put(replay.topic(), why) == null) {
+            LOG.warn(why);
+        }
+    }
+
+    private boolean isForgotten(WantedAnalytics replay, Collection<WantedAnalytics> wanted, Set<String> running) {
+        boolean gone = wanted.stream().noneMatch(one -> one.topic().equals(replay.topic()));
+        boolean idle = replay.jobs().stream()
+                .allMatch(job -> done.contains(job.name()) || !running.contains(job.name()) && !isStarting(job));
+        if (!gone || !idle || waiting.containsKey(replay.topic())) {
+            return false;
+        }
+        replay.jobs().forEach(job -> {
+            endings.remove(job.name());
+            done.remove(job.name());
+            nextAttempts.remove(job.name());
+        });
+        return true;
+    }
+
+    /** Started, and not running yet. */
+    private boolean isStarting(AnalyticsJob job) {
+        Long next = nextAttempts.get(job.name());
+        return next != null && millis.getAsLong() < next;
+    }
+}

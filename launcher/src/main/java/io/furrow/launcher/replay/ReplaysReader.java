@@ -1,0 +1,73 @@
+package io.furrow.launcher.replay;
+
+import java.time.Duration;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Follows {@code service.replays} and {@code service.replays.status} from their beginning. */
+final class ReplaysReader implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(ReplaysReader.class);
+    private static final List<String> TOPICS = List.of(Topics.REPLAYS, Topics.REPLAYS_STATUS);
+
+    private final CommittedReader<String> reader;
+    private final Map<String, WantedReplay> wanted = new HashMap<>();
+    private final Map<String, ReplayStatus> statuses = new HashMap<>();
+    private boolean assigned;
+
+    /** @param client of Kafka, with {@code bootstrap.servers} */
+    ReplaysReader(Properties client) {
+        reader = CommittedReader.unassigned(client);
+    }
+
+    /** Reads what has arrived, or waits for it. @return whether everything is known that existed at the first poll */
+    boolean poll(Duration timeout) {
+        assigned = assigned || reader.assign(TOPICS);
+        if (!assigned) {
+            return false;
+        }
+        reader.poll(timeout).forEach(this::read);
+        return reader.isCaughtUp();
+    }
+
+    private void read(ConsumerRecord<String, byte[]> record) {
+        boolean status = record.topic().equals(Topics.REPLAYS_STATUS);
+        if (record.value() == null) {
+            (status ? statuses : wanted).remove(record.key());
+            return;
+        }
+        try {
+            if (status) {
+                statuses.put(record.key(), ReplayStatus.read(record.value()));
+            } else {
+                wanted.put(record.key(), WantedReplay.read(record.key(), record.value()));
+            }
+        } catch (UnreadableException e) {
+            LOG.warn("{}-{}@{} is passed over", record.topic(), record.partition(), record.offset(), e);
+        }
+    }
+
+    /** What each replay wants. */
+    Collection<WantedAnalytics> wanted() {
+        return wanted.values().stream()
+                .map(replay -> WantedAnalytics.of(replay, statuses.get(replay.replay())))
+                .toList();
+    }
+
+    @Override
+    public void close() {
+        reader.close();
+    }
+}

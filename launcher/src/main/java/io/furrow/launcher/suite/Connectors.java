@@ -1,0 +1,151 @@
+package io.furrow.launcher.suite;
+
+import java.io.UncheckedIOException;
+import java.net.ConnectException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.cli.CommandException;
+import io.furrow.http.AllowedNames;
+import io.furrow.launcher.RestClient;
+import io.furrow.launcher.Sleep;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** Puts the two NGSI connectors into a Connect cluster through its REST API. */
+public final class Connectors {
+    private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
+
+    private final RestClient rest = new RestClient();
+    private final URI connect;
+
+    public Connectors(URI connect) {
+        this.connect = connect;
+    }
+
+    /**
+     * How the source listens.
+     *
+     * @param journal folder for what Kafka does not have yet
+     * @param allowed hosts and origins beside its own
+     */
+    record Source(int port, Path journal, AllowedNames allowed) {}
+
+    /**
+     * Creates or changes the source; returns when it listens for notifications and has subscribed to every change.
+     *
+     * @throws CommandException if the context broker is unavailable or refuses
+     */
+    void source(Source source, URI contextBroker, String service) {
+        put(
+                "ngsi-source",
+                Map.of(
+                        "connector.class",
+                        "io.furrow.connect.source.NgsiSourceConnector",
+                        "tasks.max",
+                        "1",
+                        "listen.port",
+                        Integer.toString(source.port()),
+                        "journal.dir",
+                        source.journal().toAbsolutePath().toString(),
+                        "allowed.hosts",
+                        String.join(",", source.allowed().hosts()),
+                        "allowed.origins",
+                        String.join(",", source.allowed().origins()),
+                        "context.broker.url",
+                        contextBroker.toString(),
+                        "subscription.tenants",
+                        service.isEmpty() ? "-" : service));
+        awaitSubscribed(URI.create("http://127.0.0.1:" + source.port() + "/health"), contextBroker);
+    }
+
+    private void awaitSubscribed(URI health, URI contextBroker) {
+        Instant end = Instant.now().plus(TIMEOUT);
+        while (Instant.now().isBefore(end)) {
+            JsonNode seen = lookAt(health);
+            if (seen.path("subscriptionsKept").asInt() > 0) {
+                return;
+            }
+            if (seen.path("subscriptionsUnkept").asInt() > 0) {
+                throw new CommandException("The context broker at %s cannot be subscribed to: %s"
+                        .formatted(
+                                contextBroker,
+                                seen.at("/subscriptions/0/problem").asText()));
+            }
+            Sleep.of(POLL_INTERVAL);
+        }
+        throw new CommandException("The source did not subscribe at %s within %d s; see furrow.log"
+                .formatted(contextBroker, TIMEOUT.toSeconds()));
+    }
+
+    /** Nothing while nobody listens: of a kept suite the worker still shows the task of before as running. */
+    private JsonNode lookAt(URI health) {
+        try {
+            return rest.get(health, Map.of()).body();
+        } catch (UncheckedIOException e) {
+            if (e.getCause() instanceof ConnectException) {
+                return NgsiJson.mapper().missingNode();
+            }
+            throw e;
+        }
+    }
+
+    /** Creates or changes the sink that writes results into the context broker. */
+    void sink(URI contextBroker, List<String> topics) {
+        put(
+                "ngsi-sink",
+                Map.of(
+                        "connector.class",
+                        "io.furrow.connect.sink.NgsiSinkConnector",
+                        "tasks.max",
+                        "1",
+                        "topics",
+                        String.join(",", topics),
+                        "context.broker.url",
+                        contextBroker.toString()));
+    }
+
+    /** Creates or changes a connector and returns when its first task runs. */
+    public void put(String name, Map<String, String> settings) {
+        ObjectNode body = NgsiJson.mapper().createObjectNode();
+        settings.forEach(body::put);
+        body.put("key.converter", "org.apache.kafka.connect.storage.StringConverter");
+        body.put("value.converter", "org.apache.kafka.connect.converters.ByteArrayConverter");
+        body.put("header.converter", "org.apache.kafka.connect.storage.StringConverter");
+        RestClient.Answer answer = rest.send("PUT", connect.resolve("/connectors/" + name + "/config"), Map.of(), body);
+        if (!answer.isSuccess()) {
+            throw new CommandException("Connect refused the connector %s: %s"
+                    .formatted(name, answer.body().path("message").asText()));
+        }
+        awaitRunning(name);
+    }
+
+    private void awaitRunning(String name) {
+        Instant end = Instant.now().plus(TIMEOUT);
+        JsonNode status = NgsiJson.mapper().missingNode();
+        while (Instant.now().isBefore(end)) {
+            status = rest.get(connect.resolve("/connectors/" + name + "/status"), Map.of())
+                    .body();
+            String state = status.path("tasks").path(0).path("state").asText();
+            if (state.equals("RUNNING")) {
+                return;
+            }
+            if (state.equals("FAILED")) {
+                String trace = status.path("tasks").path(0).path("trace").asText();
+                throw new CommandException("The connector %s failed: %s"
+                        .formatted(name, trace.lines().findFirst().orElse("")));
+            }
+            Sleep.of(POLL_INTERVAL);
+        }
+        throw new CommandException("The connector %s did not run within %d s; its status is %s"
+                .formatted(name, TIMEOUT.toSeconds(), status));
+    }
+}

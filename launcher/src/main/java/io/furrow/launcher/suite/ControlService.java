@@ -1,0 +1,131 @@
+package io.furrow.launcher.suite;
+
+import java.io.IOException;
+import java.net.URI;
+import java.time.Clock;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.function.Supplier;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.control.ControlPlane;
+import io.furrow.control.ControlSettings;
+import io.furrow.control.FarmWatch;
+import io.furrow.control.WatchOptions;
+import io.furrow.control.readiness.HealthServer;
+import io.furrow.control.readiness.Probe;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.replay.RecordingWatch;
+import io.furrow.control.replay.ReplayCleanup;
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.kafka.PartStatus;
+import io.furrow.launcher.Sleep;
+import io.furrow.provisioner.Provisioner;
+import io.furrow.provisioner.ProvisioningSettings;
+
+/** The control plane in this JVM: managers, REST API, watch over the farm, and who provisions the devices of missions. */
+public final class ControlService implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(ControlService.class);
+    private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(50);
+
+    private final ControlSettings settings;
+    private final Closeables parts = new Closeables();
+    private final Readiness readiness = new Readiness(Clock.systemUTC());
+    private ControlPlane managers;
+    private URI health;
+
+    public ControlService(ControlSettings settings) {
+        this.settings = settings;
+    }
+
+    /**
+     * Starts the managers and waits until they answer, but no longer than a minute: after a crash of the brokers they can take longer
+     * to agree who does what, and a process that ended for that would be one more that the others wait for. Who needs to know asks
+     * {@code /ready}.
+     *
+     * @return the state in which they are then
+     */
+    public String startManagers() throws IOException {
+        Probe kafka = parts.add("Kafka probe", Probe.kafka(settings.client()));
+        readiness.require(kafka::status);
+        managers = parts.add("managers", ControlPlane.start(settings));
+        readiness.require(managers::status);
+        Instant end = Instant.now().plus(START_TIMEOUT);
+        while (!managers.isHealthy() && Instant.now().isBefore(end)) {
+            Sleep.of(POLL_INTERVAL);
+        }
+        if (!managers.isHealthy()) {
+            LOG.warn(
+                    "the managers are {} after {} s; they are waited for", managers.state(), START_TIMEOUT.toSeconds());
+        }
+        return managers.state();
+    }
+
+    /**
+     * Begins to take commands, and to act.
+     *
+     * @param healthPort of the pages for probes, 0 for a free one
+     * @param provisioning null if no devices are provisioned
+     * @return base of the REST API
+     */
+    public URI serve(RestSettings rest, int healthPort, WatchOptions watch, ProvisioningSettings provisioning)
+            throws IOException {
+        FarmWatch farmWatch = parts.add("farm watch", FarmWatch.start(settings, watch));
+        readiness.require(farmWatch::status);
+        readiness.requireAll(farmWatch::followers);
+        startReplays(settings.replays());
+        RestApi api = parts.add("REST API", RestApi.start(settings, rest, readiness));
+        show("contextBroker", rest.contextBroker(), "/version");
+        if (provisioning != null) {
+            Provisioner provisioner = parts.add("provisioner", Provisioner.start(provisioning));
+            readiness.require(provisioner::status);
+            show("iotAgent", provisioning.agent().base(), "/iot/about");
+        }
+        HealthServer pages = parts.add(
+                "health pages",
+                HealthServer.start(
+                        rest.host(), healthPort, rest.allowed(), new HealthServer.Pages(readiness, api::metrics)));
+        health = pages.uri();
+        return api.uri();
+    }
+
+    private void startReplays(ReplaySettings replays) throws IOException {
+        if (replays.knowsRecordings()) {
+            RecordingWatch recordings =
+                    parts.add("recording watch", RecordingWatch.start(settings.client(), replays, Clock.systemUTC()));
+            readiness.require(recordings::status);
+        }
+        ReplayCleanup cleanup =
+                parts.add("replay cleanup", ReplayCleanup.start(settings.client(), replays, Clock.systemUTC()));
+        readiness.require(cleanup::status);
+    }
+
+    /** Adds a part of this process that is started elsewhere. */
+    void require(Supplier<PartStatus> status) {
+        readiness.require(status);
+    }
+
+    /** @param base null if there is none */
+    private void show(String name, URI base, String path) {
+        if (base != null) {
+            Probe probe = parts.add(
+                    name + " probe", Probe.http(name, URI.create(base.toString().replaceAll("/+$", "") + path)));
+            readiness.show(probe::status);
+        }
+    }
+
+    /** Base of the pages for probes. */
+    public URI health() {
+        return health;
+    }
+
+    @Override
+    public void close() {
+        parts.close();
+    }
+}

@@ -1,0 +1,119 @@
+package io.furrow.launcher.suite;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.flink.api.common.JobID;
+import org.apache.flink.core.execution.RecoveryClaimMode;
+import org.apache.flink.core.execution.SavepointFormatType;
+import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
+import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
+import org.apache.flink.streaming.api.graph.StreamGraph;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.launcher.Sleep;
+
+/** The jobs of the suite on its Flink: each continues from its newest state below a directory, if there is any. */
+final class Jobs {
+    private static final Logger LOG = LoggerFactory.getLogger(Jobs.class);
+    private static final long SAVEPOINT_SECONDS = 4;
+    private static final Duration CHECKPOINT = Duration.ofSeconds(1);
+    private static final Duration BETWEEN_CHECKS = Duration.ofMillis(10);
+
+    private final EmbeddedFlink flink;
+    private final Path directory;
+    private final Map<String, JobID> running = new LinkedHashMap<>();
+
+    /** @param directory holds a folder per job, with its checkpoints and savepoints */
+    Jobs(EmbeddedFlink flink, Path directory) {
+        this.flink = flink;
+        this.directory = directory;
+    }
+
+    synchronized void submit(String name, StreamExecutionEnvironment env) {
+        StreamGraph graph = env.getStreamGraph();
+        graph.setJobName(name);
+        NewestState.below(directory.resolve(name))
+                .ifPresent(state -> graph.setSavepointRestoreSettings(
+                        SavepointRestoreSettings.forPath(state.toUri().toString(), false, RecoveryClaimMode.CLAIM)));
+        running.put(name, flink.submit(graph));
+    }
+
+    /** Name and id of each job, in the order in which they were submitted. */
+    synchronized Map<String, JobID> running() {
+        return Map.copyOf(running);
+    }
+
+    /** Ends a job, if it runs, and forgets its state: one of the same name begins again. */
+    synchronized void cancel(String name) {
+        JobID job = running.remove(name);
+        if (job != null && !flink.status(job).isGloballyTerminalState()) {
+            flink.cluster().cancelJob(job).join();
+            awaitEnd(job);
+        }
+        JobFolder.delete(directory.resolve(name));
+    }
+
+    /** Checkpoints may be under way until the job is over. */
+    private void awaitEnd(JobID job) {
+        long end = System.nanoTime() + TimeUnit.SECONDS.toNanos(SAVEPOINT_SECONDS);
+        while (System.nanoTime() < end && !flink.status(job).isGloballyTerminalState()) {
+            Sleep.of(BETWEEN_CHECKS);
+        }
+    }
+
+    /** Stops each job with a savepoint, so that nothing is done twice after the next start. */
+    synchronized void stop() {
+        Map<String, CompletableFuture<String>> savepoints = new LinkedHashMap<>();
+        long end = System.nanoTime() + CHECKPOINT.toNanos();
+        running.forEach((name, job) -> {
+            awaitCheckpoint(job, end);
+            savepoints.put(name, stopWithSavepoint(name, job));
+        });
+        savepoints.forEach(Jobs::await);
+    }
+
+    private CompletableFuture<String> stopWithSavepoint(String name, JobID job) {
+        String savepoints = directory.resolve(name).toUri().toString();
+        return flink.cluster().stopWithSavepoint(job, savepoints, false, SavepointFormatType.NATIVE);
+    }
+
+    /** Waits for a checkpoint that is under way: a stop would abort it, which Flink reports as a failure. */
+    private void awaitCheckpoint(JobID job, long end) {
+        while (System.nanoTime() < end && isTakingCheckpoint(job)) {
+            Sleep.of(BETWEEN_CHECKS);
+        }
+    }
+
+    private boolean isTakingCheckpoint(JobID job) {
+        return flink.cluster()
+                        .getExecutionGraph(job)
+                        .thenApply(graph ->
+                                graph.getCheckpointStatsSnapshot().getCounts().getNumberOfInProgressCheckpoints())
+                        .completeOnTimeout(0, CHECKPOINT.toMillis(), TimeUnit.MILLISECONDS)
+                        .exceptionally(failure -> 0) // of a job that is gone; its stop says so
+                        .join()
+                > 0;
+    }
+
+    private static void await(String name, CompletableFuture<String> savepoint) {
+        try {
+            savepoint.get(SAVEPOINT_SECONDS, TimeUnit.SECONDS);
+        } catch (ExecutionException | TimeoutException e) {
+            LOG.warn(
+                    "No savepoint of job {}: it will go on from its last checkpoint and repeat what came after it",
+                    name,
+                    e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+}

@@ -1,0 +1,118 @@
+package io.furrow.launcher.suite;
+
+import java.nio.file.Path;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.common.errors.TopicExistsException;
+
+import io.furrow.cli.CommandException;
+import io.furrow.cli.KafkaClient;
+import io.furrow.model.topic.Topics;
+
+/** The Kafka cluster of a suite, ours or another's, and how each kind of client reaches it. */
+public final class KafkaAccess implements AutoCloseable {
+    private static final int PARTITIONS = 4;
+    private static final long SECONDS = 20;
+    private static final List<String> TOPICS = List.of(
+            Topics.RAW,
+            Topics.dead(Topics.RAW),
+            Topics.NOTIFICATIONS,
+            Topics.TEMPERATURE,
+            Topics.TEMPERATURE_LATE,
+            Topics.COLLISION,
+            Topics.COLLISION_LATE,
+            Topics.PRESENCE,
+            Topics.PRESENCE_LATE,
+            Topics.CLOCKS,
+            Topics.CONTEXT);
+
+    private final String bootstrapServers;
+    private final Path propertiesFile;
+    private final Properties properties;
+    private final Admin admin;
+
+    private KafkaAccess(String bootstrapServers, Path propertiesFile, Properties properties) {
+        this.bootstrapServers = bootstrapServers;
+        this.propertiesFile = propertiesFile;
+        this.properties = properties;
+        this.admin = Admin.create(clientProperties());
+    }
+
+    /** @param propertiesFile for every client; null for none */
+    public static KafkaAccess to(String bootstrapServers, Path propertiesFile) {
+        return new KafkaAccess(bootstrapServers, propertiesFile, KafkaClient.read(propertiesFile));
+    }
+
+    public String bootstrapServers() {
+        return bootstrapServers;
+    }
+
+    /** For any Kafka client. */
+    public Properties clientProperties() {
+        Properties all = new Properties();
+        all.putAll(properties);
+        all.setProperty("bootstrap.servers", bootstrapServers);
+        return all;
+    }
+
+    public Admin admin() {
+        return admin;
+    }
+
+    Optional<Path> propertiesFile() {
+        return Optional.ofNullable(propertiesFile);
+    }
+
+    /** For the Connect worker, which keeps the settings of its own clients and of those of connectors apart. */
+    Map<String, String> connectSettings() {
+        Map<String, String> settings = new HashMap<>();
+        for (String name : properties.stringPropertyNames()) {
+            for (String prefix : List.of("", "producer.", "consumer.", "admin.")) {
+                settings.put(prefix + name, properties.getProperty(name));
+            }
+        }
+        return settings;
+    }
+
+    /** Makes the topics that are read before anybody writes to them; those that exist stay as they are. */
+    void ensureTopics() throws InterruptedException {
+        for (String topic : TOPICS) {
+            NewTopic wanted = new NewTopic(topic, Optional.of(PARTITIONS), Optional.empty());
+            if (Topics.ofDeadLetters(topic).isPresent()) { // a letter is larger than the record that it was
+                wanted.configs(Map.of("max.message.bytes", Integer.toString(16 * 1024 * 1024)));
+            }
+            try {
+                admin.createTopics(List.of(wanted)).all().get(SECONDS, TimeUnit.SECONDS);
+            } catch (ExecutionException e) {
+                if (!(e.getCause() instanceof TopicExistsException)) {
+                    throw new CommandException(
+                            "Kafka at %s does not make topic %s: %s"
+                                    .formatted(
+                                            bootstrapServers,
+                                            topic,
+                                            e.getCause().getMessage()),
+                            e);
+                }
+            } catch (TimeoutException e) {
+                throw new CommandException(
+                        "Kafka at %s does not answer. Check the address given with --kafka and that the broker runs."
+                                .formatted(bootstrapServers),
+                        e);
+            }
+        }
+    }
+
+    @Override
+    public void close() {
+        admin.close(java.time.Duration.ofSeconds(1));
+    }
+}

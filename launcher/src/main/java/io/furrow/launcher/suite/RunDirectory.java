@@ -1,0 +1,180 @@
+package io.furrow.launcher.suite;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.nio.channels.FileChannel;
+import java.nio.channels.FileLock;
+import java.nio.channels.OverlappingFileLockException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+import java.time.Duration;
+import java.util.Comparator;
+import java.util.Deque;
+import java.util.List;
+import java.util.Set;
+import java.util.concurrent.ConcurrentLinkedDeque;
+import java.util.stream.Stream;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.cli.CommandException;
+import io.furrow.launcher.Sleep;
+
+/**
+ * The directory of one running suite, locked against a second one. A temporary one is deleted when it is closed, and also when the
+ * JVM is asked to end (SIGINT, SIGTERM, SIGHUP) before that.
+ */
+public final class RunDirectory implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(RunDirectory.class);
+    private static final int DELETIONS = 100;
+    private static final Duration BETWEEN_DELETIONS = Duration.ofMillis(20);
+    private static final String LOCK = "lock";
+    /** What a start that was refused leaves. */
+    private static final Set<String> WITHOUT_DATA = Set.of(LOCK, "furrow.log");
+
+    private final Path path;
+    private final boolean temporary;
+    private final boolean fresh;
+    private final FileChannel lock;
+    private final Deque<AutoCloseable> writers = new ConcurrentLinkedDeque<>();
+    private final Thread atShutdown = new Thread(this::closeAtShutdown, "delete");
+
+    private RunDirectory(Path path, boolean temporary, boolean fresh, FileChannel lock) {
+        this.path = path;
+        this.temporary = temporary;
+        this.fresh = fresh;
+        this.lock = lock;
+        if (temporary) {
+            Runtime.getRuntime().addShutdownHook(atShutdown);
+        }
+    }
+
+    /**
+     * @param kept null for a temporary directory
+     * @throws CommandException if it cannot be written or another suite uses it
+     */
+    public static RunDirectory open(Path kept) {
+        try {
+            Path path = kept == null
+                    ? Files.createTempDirectory("furrow-")
+                    : Files.createDirectories(kept.toAbsolutePath());
+            FileChannel lock = lock(path);
+            return new RunDirectory(path, kept == null, isFresh(path), lock);
+        } catch (IOException e) {
+            throw new CommandException(
+                    "Cannot write in %s (%s). Name a directory that you may write with --data."
+                            .formatted(kept == null ? System.getProperty("java.io.tmpdir") : kept, e.getMessage()),
+                    e);
+        }
+    }
+
+    public Path path() {
+        return path;
+    }
+
+    public Path resolve(String name) {
+        return path.resolve(name);
+    }
+
+    boolean isTemporary() {
+        return temporary;
+    }
+
+    /** Closes a part that writes here before the directory is deleted in the JVM's shutdown, the newest part first. */
+    public <T extends AutoCloseable> T closingFirst(T part) {
+        writers.push(part);
+        return part;
+    }
+
+    /** For an owner who has a shutdown hook and closes this directory in it. */
+    public void leaveToItsOwner() {
+        forgetShutdown();
+    }
+
+    private void closeAtShutdown() {
+        while (!writers.isEmpty()) {
+            try {
+                writers.pop().close();
+            } catch (Exception e) { // AutoCloseable declares no narrower type
+                LOG.warn("what writes to {} did not stop cleanly", path, e);
+            }
+        }
+        close();
+    }
+
+    private void forgetShutdown() {
+        try {
+            Runtime.getRuntime().removeShutdownHook(atShutdown);
+        } catch (IllegalStateException e) {
+            LOG.debug("the JVM shuts down already", e);
+        }
+    }
+
+    /** Whether no suite has kept anything in it before this one. */
+    boolean isFresh() {
+        return fresh;
+    }
+
+    private static boolean isFresh(Path directory) throws IOException {
+        try (Stream<Path> files = Files.list(directory)) {
+            return files.allMatch(
+                    file -> WITHOUT_DATA.contains(file.getFileName().toString()));
+        }
+    }
+
+    @Override
+    public void close() {
+        forgetShutdown();
+        try {
+            lock.close();
+            if (temporary) {
+                delete();
+            }
+        } catch (IOException e) {
+            throw new UncheckedIOException("cannot delete " + path, e);
+        }
+    }
+
+    private static FileChannel lock(Path directory) throws IOException {
+        FileChannel channel =
+                FileChannel.open(directory.resolve(LOCK), StandardOpenOption.CREATE, StandardOpenOption.WRITE);
+        FileLock lock;
+        try {
+            lock = channel.tryLock();
+        } catch (OverlappingFileLockException e) {
+            lock = null; // held by this very process
+        }
+        if (lock == null) {
+            channel.close();
+            throw new CommandException(
+                    "Another Furrow uses " + directory + ". Stop it, or name another directory with --data.");
+        }
+        return channel;
+    }
+
+    /** Again and again while something that has not stopped yet still writes or deletes here. */
+    private void delete() throws IOException {
+        for (int attempt = 1; Files.exists(path); attempt++) {
+            try {
+                deleteWhatIsThere();
+            } catch (IOException | UncheckedIOException e) {
+                if (attempt == DELETIONS) {
+                    throw e;
+                }
+                Sleep.of(BETWEEN_DELETIONS);
+            }
+        }
+    }
+
+    private void deleteWhatIsThere() throws IOException {
+        List<Path> deepestFirst;
+        try (Stream<Path> all = Files.walk(path)) {
+            deepestFirst = all.sorted(Comparator.reverseOrder()).toList();
+        }
+        for (Path one : deepestFirst) {
+            Files.deleteIfExists(one);
+        }
+    }
+}

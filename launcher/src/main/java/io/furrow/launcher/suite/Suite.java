@@ -1,0 +1,337 @@
+package io.furrow.launcher.suite;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.Collection;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.CompletionException;
+
+import io.furrow.cli.CommandException;
+import io.furrow.dashboard.Dashboard;
+import io.furrow.dashboard.DashboardSettings;
+import io.furrow.dashboard.page.PageSettings;
+import io.furrow.embedded.EmbeddedConnect;
+import io.furrow.embedded.EmbeddedFlink;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.embedded.FreePort;
+import io.furrow.fields.FieldsTopic;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.launcher.LogFile;
+import io.furrow.launcher.Progress;
+import io.furrow.launcher.replay.ReplayAnalytics;
+import io.furrow.model.topic.Topics;
+import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.simulators.device.FleetSettings;
+
+/**
+ * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, unless
+ * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
+ */
+public final class Suite implements AutoCloseable {
+    /** The MQTT user of the IoT Agent, and of devices that no mission has. */
+    public static final String MQTT_USER = "device";
+    /** Its password; good enough for a broker that only this machine reaches. */
+    public static final String MQTT_PASSWORD = "furrow";
+
+    /** One for each of our jobs, and those of replays. */
+    private static final int SLOTS = 9 + EmbeddedAnalytics.SLOTS;
+
+    private final SuiteSettings settings;
+    private final RunDirectory directory;
+    private final Progress progress;
+    private final Closeables parts = new Closeables();
+    private final Closeables farm = new Closeables();
+    private final Closeables workers = new Closeables();
+    private final Closeables analysis = new Closeables();
+    private KafkaAccess kafka;
+    private EmbeddedConnect connect;
+    private EmbeddedFlink flink;
+    private Jobs jobs;
+    private EmbeddedMqtt mqtt;
+    private FiwareStandIn fiware;
+    private String mongo;
+    private URI contextBroker;
+    private SuiteControl control;
+    private ReplayAnalytics replays;
+    private final LiveAccounts accounts = new LiveAccounts();
+    private URI listener;
+    private URI dashboard;
+
+    private Suite(SuiteSettings settings, RunDirectory directory, Progress progress) {
+        this.settings = settings;
+        this.directory = directory;
+        this.progress = progress;
+    }
+
+    /**
+     * Starts everything and returns when notifications are taken and all jobs run.
+     *
+     * @param directory for all files; outlives the suite
+     * @throws CommandException if something cannot be had; nothing is left running then
+     */
+    public static Suite start(SuiteSettings settings, RunDirectory directory, Progress progress) throws Exception {
+        Suite suite = directory.closingFirst(new Suite(settings, directory, progress));
+        boolean started = false;
+        try {
+            suite.start();
+            started = true;
+            return suite;
+        } catch (CompletionException e) {
+            throw e.getCause() instanceof CommandException refused ? refused : e;
+        } finally {
+            if (!started) {
+                suite.close();
+            }
+        }
+    }
+
+    private void start() throws Exception {
+        SuiteFields.requireUsable(settings);
+        FarmSecretFile.requireLasting(directory, settings);
+        PortCheck.free(settings);
+        LogFile.writeTo(directory.resolve("furrow.log"));
+        // Before anything is kept, so that a directory with data has its secret.
+        Path secret = FarmSecretFile.of(directory, settings.farm().secret().file());
+        startKafka();
+        // Stopped the other way round: devices, jobs, connectors, and then what these write to.
+        parts.add("MQTT and FIWARE", farm);
+        parts.add("Connect", workers);
+        parts.add("Flink and MongoDB", analysis);
+        startMongo(); // the control plane looks there which missions are stored
+        control = parts.add("control plane", new SuiteControl(settings, kafka, directory, secret, mongo));
+        ParallelStart.run(
+                this::startFiwareAndConnect,
+                this::startFlink,
+                () -> progress.step("control plane", control::startManagers));
+        connectThem();
+        progress.step("devices of missions", this::joinControl);
+        startDashboard();
+        replays = ReplayAnalytics.start(
+                kafka.clientProperties(),
+                new EmbeddedAnalytics(flink, jobs, new JobPlans(settings, kafka, mongo, directory)));
+    }
+
+    private URI joinControl() {
+        try {
+            return control.join(ends());
+        } catch (IOException e) { // says what is unavailable or refused, and what to do
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    private void startDashboard() throws Exception {
+        DashboardSettings page = DashboardSettings.of(
+                        settings.ports().dashboard(), kafka.clientProperties(), control.api())
+                .withAllowed(settings.allowed())
+                .withPage(new PageSettings(null, null, null, List.of(directory.resolve(JobPlans.IMAGES))));
+        dashboard = parts.add("dashboard", progress.step("dashboard", () -> Dashboard.start(page)))
+                .uri();
+    }
+
+    private void startKafka() throws Exception {
+        String servers = settings.kafka();
+        if (servers == null) {
+            Path log = directory.resolve("kafka");
+            servers = parts.add(
+                            "Kafka",
+                            progress.step(
+                                    "Kafka",
+                                    () -> EmbeddedKafka.start(
+                                            log, settings.ports().kafka())))
+                    .bootstrapServers();
+        }
+        kafka = parts.add("Kafka client", KafkaAccess.to(servers, settings.kafkaProperties()));
+        kafka.ensureTopics();
+    }
+
+    private void startConnect() throws Exception {
+        connect = workers.add(
+                "Connect",
+                progress.step(
+                        "Kafka Connect",
+                        () -> EmbeddedConnect.start(
+                                kafka.bootstrapServers(),
+                                Path.of(System.getProperty("furrow.plugins")),
+                                settings.ports().connect(),
+                                kafka.connectSettings(),
+                                settings.allowed())));
+    }
+
+    private void startMongo() throws Exception {
+        mongo = settings.mongo();
+        if (mongo == null) {
+            Path documents = directory.resolve("mongo");
+            mongo = analysis.add(
+                            "MongoDB",
+                            progress.step(
+                                    "the server for missions",
+                                    () -> EmbeddedMongo.start(
+                                            documents, settings.ports().mongo())))
+                    .uri();
+        }
+    }
+
+    private void startFlink() throws Exception {
+        flink = analysis.add(
+                "Flink",
+                progress.step(
+                        "Flink",
+                        () -> EmbeddedFlink.start(SLOTS, settings.ports().flink(), settings.allowed())));
+        SuiteFields fields = new SuiteFields(new FieldsTopic(kafka.clientProperties()));
+        progress.step("fields", () -> {
+            fields.write(settings, directory);
+            return fields.zones(directory);
+        });
+        jobs = new Jobs(flink, directory.resolve("jobs"));
+        progress.step("jobs", () -> {
+            new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);
+            return jobs.running();
+        });
+    }
+
+    /** In this order: kept connectors run as soon as their worker does. */
+    private void startFiwareAndConnect() throws Exception {
+        startFiware();
+        startConnect();
+    }
+
+    private void startFiware() throws Exception {
+        if (settings.orion() != null) {
+            contextBroker = settings.orion();
+            return;
+        }
+        mqtt = farm.add(
+                "MQTT",
+                EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD), new LiveUsers(accounts)));
+        fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
+        contextBroker = fiware.contextBroker();
+    }
+
+    private SuiteControl.Endpoints ends() {
+        return fiware == null
+                ? SuiteControl.Endpoints.of(contextBroker, settings.farm())
+                : SuiteControl.Endpoints.of(fiware, mqtt, accounts);
+    }
+
+    private FiwareStandIn startStandIn() {
+        try {
+            return FiwareStandIn.start(standIn());
+        } catch (IllegalStateException e) { // says what is wrong with its state or its broker, and what to do
+            throw new CommandException(e.getMessage(), e);
+        }
+    }
+
+    private FiwareSettings standIn() {
+        FiwareSettings here = new FiwareSettings(
+                        settings.ports().orion(), settings.ports().iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD)
+                .withAllowed(settings.allowed());
+        return directory.isTemporary() ? here : here.withState(directory.resolve("fiware.json.gz"));
+    }
+
+    private void connectThem() throws Exception {
+        int port = FreePort.orFree(settings.ports().listener());
+        listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
+        Connectors connectors = new Connectors(connect.uri());
+        progress.step("NGSI source and sink", () -> {
+            connectors.source(
+                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()),
+                    contextBroker,
+                    settings.fiwareService());
+            connectors.sink(
+                    contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
+            return listener;
+        });
+    }
+
+    public KafkaAccess kafka() {
+        return kafka;
+    }
+
+    public URI contextBroker() {
+        return contextBroker;
+    }
+
+    /** The MongoDB of missions. */
+    public String mongo() {
+        return mongo;
+    }
+
+    public URI connect() {
+        return connect.uri();
+    }
+
+    public URI flink() {
+        return flink.webUi();
+    }
+
+    /** Where the page is. */
+    public URI dashboard() {
+        return dashboard;
+    }
+
+    /** Where notifications are taken. */
+    public URI listener() {
+        return listener;
+    }
+
+    /** The files of this suite. */
+    public Path directory() {
+        return directory.path();
+    }
+
+    /** Job ids by name. */
+    public Map<String, String> jobs() {
+        return jobs.running().entrySet().stream()
+                .collect(java.util.stream.Collectors.toMap(
+                        Map.Entry::getKey, job -> job.getValue().toHexString()));
+    }
+
+    /** A sentence for each replay whose analytics waits for room. */
+    public Collection<String> waitingAnalytics() {
+        return replays.waiting();
+    }
+
+    /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */
+    public FleetSettings devices() {
+        return new FleetSettings(
+                contextBroker, fiware.iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD, settings.fiwareService(), "/");
+    }
+
+    /** Base of the control plane's REST API. */
+    public URI control() {
+        return control.api();
+    }
+
+    /** Base of the pages {@code /health}, {@code /ready} and {@code /metrics}. */
+    public URI health() {
+        return control.health();
+    }
+
+    public String fiwareService() {
+        return settings.fiwareService();
+    }
+
+    /** Whether the MQTT broker and the stand-in are ours. */
+    public boolean hasStandIn() {
+        return fiware != null;
+    }
+
+    /** Stops everything in the opposite order; of a kept suite the jobs with a savepoint. Idempotent. */
+    @Override
+    public void close() {
+        if (replays != null) {
+            replays.close();
+        }
+        replays = null;
+        if (jobs != null && !directory.isTemporary()) {
+            jobs.stop();
+        }
+        jobs = null;
+        parts.close();
+    }
+}

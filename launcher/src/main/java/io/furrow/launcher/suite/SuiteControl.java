@@ -1,0 +1,135 @@
+package io.furrow.launcher.suite;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Properties;
+
+import io.furrow.control.ControlSettings;
+import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.replay.ReplaySettings;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.kafka.PartStatus;
+import io.furrow.kafka.secret.SecretFile;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.provisioner.AgentSettings;
+import io.furrow.provisioner.ProvisioningSettings;
+import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.MqttAccounts;
+import io.furrow.simulators.host.DeviceHost;
+import io.furrow.simulators.host.HostSettings;
+import io.furrow.simulators.mqtt.MqttAccess;
+
+/** The control plane of a suite, and who simulates the devices of its missions. */
+final class SuiteControl implements AutoCloseable {
+    private final SuiteSettings suite;
+    private final Path secret;
+    private final Properties client;
+    private final ControlSettings settings;
+    private final ControlService service;
+    private DeviceHost devices;
+    private URI api;
+
+    /**
+     * What devices of missions meet.
+     *
+     * @param iotAgent null if none are provisioned
+     * @param mqtt null if none are simulated
+     * @param accounts of the MQTT broker
+     */
+    record Endpoints(URI contextBroker, AgentSettings iotAgent, MqttAccess mqtt, List<MqttAccounts> accounts) {
+        /** Those of this suite. */
+        static Endpoints of(FiwareStandIn fiware, EmbeddedMqtt mqtt, LiveAccounts accounts) {
+            return new Endpoints(
+                    fiware.contextBroker(),
+                    AgentSettings.at(fiware.iotAgent()),
+                    new MqttAccess(mqtt.uri(), null, 1),
+                    List.of(accounts));
+        }
+
+        /** Those that were there before. */
+        static Endpoints of(URI contextBroker, SuiteSettings.Farm farm) {
+            return new Endpoints(
+                    contextBroker,
+                    farm.iotAgent(),
+                    farm.mqtt() == null ? null : new MqttAccess(farm.mqtt(), farm.mqttTrusted(), 1),
+                    farm.accounts().accounts());
+        }
+    }
+
+    /**
+     * @param secret file of the farm's secret
+     * @param mongo connection string of the MongoDB that keeps the missions
+     */
+    SuiteControl(SuiteSettings suite, KafkaAccess kafka, RunDirectory directory, Path secret, String mongo) {
+        this.suite = suite;
+        this.secret = secret;
+        this.client = kafka.clientProperties();
+        Properties streams = kafka.clientProperties();
+        streams.setProperty("state.dir", directory.resolve("control-plane").toString());
+        this.settings = ControlSettings.of(streams)
+                .withTenant(suite.fiwareService())
+                .with(ReplaySettings.DEFAULT.withMongo(mongo));
+        this.service = new ControlService(settings);
+    }
+
+    /** @return the state in which they are then: they answer */
+    String startManagers() throws IOException {
+        return service.startManagers();
+    }
+
+    /** Begins to take commands, and to run the devices of missions. */
+    URI join(Endpoints ends) throws IOException {
+        SuiteSettings.Farm farm = suite.farm();
+        SecretFile source = FarmSecretFile.open(secret, client, farm.secret().replaced());
+        boolean simulates = ends.mqtt() != null && farm.simulates();
+        FiwareScope scope = settings.missions().scope();
+        api = service.serve(
+                RestSettings.on(suite.ports().control())
+                        .withContextBroker(ends.contextBroker())
+                        .withSecret(source)
+                        .withTokens(farm.tokens())
+                        .withAllowed(suite.allowed()),
+                suite.ports().health(),
+                suite.watch().options(new DeviceCommands(ends.contextBroker(), scope)),
+                ends.iotAgent() == null
+                        ? null
+                        : new ProvisioningSettings(
+                                client,
+                                scope,
+                                source,
+                                ends.iotAgent(),
+                                ends.accounts(),
+                                simulates || farm.accounts().gateways()));
+        if (simulates) {
+            devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), source));
+            service.require(this::deviceHost);
+        }
+        return api;
+    }
+
+    private PartStatus deviceHost() {
+        PartStatus.State state = devices.isAlive() ? PartStatus.State.UP : PartStatus.State.DEAD;
+        return new PartStatus("deviceHost", state, devices.lastPoll(), devices.lastFailure());
+    }
+
+    /** Base of the pages for probes. */
+    URI health() {
+        return service.health();
+    }
+
+    URI api() {
+        return api;
+    }
+
+    @Override
+    public void close() {
+        if (devices != null) {
+            devices.close();
+        }
+        service.close();
+    }
+}

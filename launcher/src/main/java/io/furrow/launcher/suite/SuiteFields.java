@@ -1,0 +1,126 @@
+package io.furrow.launcher.suite;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.time.Instant;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.cli.CommandException;
+import io.furrow.fields.FieldChange;
+import io.furrow.fields.FieldsTopic;
+import io.furrow.fields.ImportOptions;
+import io.furrow.fields.ImportedField;
+import io.furrow.fields.RefusedFeature;
+import io.furrow.fields.file.FieldFile;
+import io.furrow.fields.file.UnusableFileException;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * The fields with which a suite starts, on {@code service.fields} as {@code ./furrow fields import} would put them there, valid from
+ * the beginning of time: what is imported while the suite runs comes after them.
+ */
+final class SuiteFields {
+    /** In the run directory. */
+    static final String ZONES = "zones.geojson";
+
+    private static final String DEMO = "/io/furrow/simulators/demo/fields.geojson";
+
+    private final FieldsTopic topic;
+
+    SuiteFields(FieldsTopic topic) {
+        this.topic = topic;
+    }
+
+    /**
+     * Reads the settings' file before anything is started for it.
+     *
+     * @throws CommandException if the file cannot be used wholly
+     */
+    static void requireUsable(SuiteSettings settings) {
+        if (settings.fields() != null) {
+            read(settings.fields());
+        }
+    }
+
+    /**
+     * Writes the fields of the settings' file; without one those of the demonstration farm, if the broker is the suite's own and
+     * has no fields yet.
+     *
+     * @throws CommandException if the file cannot be used wholly
+     */
+    List<FieldVersion> write(SuiteSettings settings, RunDirectory directory) throws IOException {
+        Path file = settings.fields();
+        List<FieldVersion> known = topic.read();
+        boolean isOwnBroker = settings.kafka() == null;
+        if (file == null && !(isOwnBroker && known.isEmpty())) {
+            return List.of();
+        }
+        List<FieldVersion> wanted = file == null ? read(demo(directory)) : read(file);
+        List<FieldVersion> changed = FieldChange.of(wanted, known, false, Instant.EPOCH.toEpochMilli()).stream()
+                .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
+                .map(FieldChange::version)
+                .toList();
+        topic.write(changed);
+        return changed;
+    }
+
+    /**
+     * Writes the exclusion zones among the fields that hold now as a GeoJSON file of the job {@code collision}.
+     *
+     * @return empty if there are none
+     */
+    Optional<Path> zones(RunDirectory directory) throws IOException {
+        Path file = directory.resolve(ZONES);
+        Map<String, FieldVersion> newest = new TreeMap<>();
+        long now = System.currentTimeMillis();
+        topic.read().stream()
+                .filter(version -> version.validFrom() <= now)
+                .sorted(Comparator.comparingLong(FieldVersion::validFrom))
+                .forEach(version -> newest.put(version.id(), version));
+        ObjectNode zones = JsonNodeFactory.instance.objectNode().put("type", "FeatureCollection");
+        ArrayNode features = zones.putArray("features");
+        newest.values().stream()
+                .filter(version -> version.isExclusion() && !version.isEnd())
+                .forEach(version -> features.addObject().put("type", "Feature").set("geometry", version.geometry()));
+        if (features.isEmpty()) {
+            Files.deleteIfExists(file);
+            return Optional.empty();
+        }
+        return Optional.of(Files.write(file, NgsiJson.write(zones)));
+    }
+
+    private static List<FieldVersion> read(Path file) {
+        try {
+            FieldFile read = FieldFile.read(file, new ImportOptions(null, null, null, null, null, Instant.EPOCH));
+            if (!read.refused().isEmpty()) {
+                RefusedFeature first = read.refused().get(0);
+                throw new CommandException(
+                        "--fields %s: feature %d %s".formatted(file, first.number(), first.reason()));
+            }
+            return read.fields().stream().map(ImportedField::version).toList();
+        } catch (UnusableFileException e) {
+            throw new CommandException("--fields " + e.getMessage(), e);
+        }
+    }
+
+    private static Path demo(RunDirectory directory) throws IOException {
+        Path file = directory.resolve("fields.geojson");
+        try (InputStream demo = FiwareStandIn.class.getResourceAsStream(DEMO)) {
+            Files.copy(demo, file, StandardCopyOption.REPLACE_EXISTING);
+        }
+        return file;
+    }
+}

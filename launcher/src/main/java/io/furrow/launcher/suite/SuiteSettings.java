@@ -1,0 +1,155 @@
+package io.furrow.launcher.suite;
+
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.List;
+
+import io.furrow.cli.CommandException;
+import io.furrow.control.WatchOptions;
+import io.furrow.control.alarm.action.StopRobots;
+import io.furrow.control.alarm.action.Webhook;
+import io.furrow.control.device.CommandSender;
+import io.furrow.control.health.HealthOptions;
+import io.furrow.http.AllowedNames;
+import io.furrow.provisioner.AgentSettings;
+import io.furrow.provisioner.account.MosquittoFiles;
+import io.furrow.provisioner.account.MqttAccounts;
+
+/**
+ * How a suite is to be started.
+ *
+ * @param kafkaProperties for every Kafka client; null for none
+ * @param fiwareService tenant
+ * @param window of the temperature job, for instance {@code 10s}
+ * @param fields a file; null for what is on the topic, or on an own broker without fields for the demonstration farm's
+ * @param orion a context broker that already runs; null to start the stand-in
+ * @param kafka bootstrap servers that already run; null to start a broker
+ * @param mongo URI of a MongoDB that already runs; null to start a server
+ * @param farm how devices of missions are provisioned and hosted
+ * @param watch what is done about alarms
+ * @param allowed hosts and origins of every HTTP server beside their own
+ */
+public record SuiteSettings(
+        Path kafkaProperties,
+        String fiwareService,
+        String window,
+        Path fields,
+        Ports ports,
+        URI orion,
+        String kafka,
+        String mongo,
+        Farm farm,
+        Watch watch,
+        AllowedNames allowed) {
+
+    /** Ports on 127.0.0.1, each 0 for a free one. */
+    public record Ports(
+            int kafka,
+            int connect,
+            int flink,
+            int listener,
+            int mqtt,
+            int orion,
+            int iotAgent,
+            int mongo,
+            int control,
+            int health,
+            int dashboard) {
+        /** All free ones. */
+        public static Ports free() {
+            return new Ports(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
+        }
+    }
+
+    /**
+     * Devices of missions.
+     *
+     * @param iotAgent one that already runs, beside a context broker that does; null for none, or for the stand-in
+     * @param mqtt MQTT broker that already runs, likewise
+     * @param mqttTrusted PEM file with the certificates to trust there; null for those that Java trusts
+     * @param accounts files in which that broker finds the accounts of devices
+     * @param secret of the farm
+     * @param tokens file of those who may command; null for all who reach the API
+     * @param simulates whether the devices are simulated here
+     */
+    public record Farm(
+            AgentSettings iotAgent,
+            URI mqtt,
+            Path mqttTrusted,
+            AccountFiles accounts,
+            Secret secret,
+            Path tokens,
+            boolean simulates) {
+        /** Simulated devices on the stand-in and the suite's own MQTT broker. */
+        public static final Farm SIMULATED = new Farm(
+                null, null, null, new AccountFiles(null, null, null, false), new Secret(null, null), null, true);
+    }
+
+    /**
+     * The farm's secret.
+     *
+     * @param file null for one in the suite's directory
+     * @param replaced fingerprint of the secret that it takes the place of; null for none
+     */
+    public record Secret(Path file, String replaced) {}
+
+    /**
+     * Mosquitto's files of users and their rights.
+     *
+     * @param passwords null for none
+     * @param rules null for none
+     * @param reload run after a change; null for nothing
+     * @param gateways whether each mission has an account that speaks for all its devices
+     */
+    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways) {
+        /** The accounts of an MQTT broker that has these files; none where none are named. */
+        public List<MqttAccounts> accounts() {
+            if (passwords == null && rules == null) {
+                return List.of();
+            }
+            if (passwords == null || rules == null) {
+                throw new CommandException(
+                        "Name both or none of --mqtt-password-file and --mqtt-acl-file: a password without rules lets nothing"
+                                + " through, and rules without passwords let nobody in.");
+            }
+            return List.of(new MosquittoFiles(passwords, rules, reload));
+        }
+    }
+
+    /**
+     * When there are alarms, and what is done about them.
+     *
+     * @param webhook where alarms are posted; null for nowhere
+     * @param health when a device counts as silent
+     * @param horizon how far ahead encounters are predicted, as the job {@code collision} takes it
+     * @param stops whether robots that are predicted to meet are stopped
+     */
+    public record Watch(Webhook.Settings webhook, HealthOptions health, String horizon, boolean stops) {
+        public static final Watch DEFAULT = new Watch(null, HealthOptions.DEFAULT, "0s", false);
+
+        /** @param robots how Stop reaches robots */
+        public WatchOptions options(CommandSender robots) {
+            WatchOptions options = WatchOptions.DEFAULT.with(health);
+            if (webhook != null) {
+                options = options.with(webhook);
+            }
+            return stops ? options.with(StopRobots.Settings.of(robots)) : options;
+        }
+    }
+
+    /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
+    public static SuiteSettings onFreePorts(String window) {
+        return new SuiteSettings(
+                null,
+                "farm",
+                window,
+                null,
+                Ports.free(),
+                null,
+                null,
+                null,
+                Farm.SIMULATED,
+                Watch.DEFAULT,
+                AllowedNames.NONE);
+    }
+}

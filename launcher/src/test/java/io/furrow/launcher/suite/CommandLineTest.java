@@ -1,0 +1,238 @@
+package io.furrow.launcher.suite;
+
+import java.io.PrintWriter;
+import java.io.StringWriter;
+import java.net.InetAddress;
+import java.net.ServerSocket;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
+import picocli.CommandLine;
+
+import io.furrow.launcher.Furrow;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class CommandLineTest {
+    private final StringWriter out = new StringWriter();
+    private final StringWriter err = new StringWriter();
+    private final CommandLine furrow =
+            Furrow.commandLine().setOut(new PrintWriter(out)).setErr(new PrintWriter(err));
+
+    @TempDir
+    Path directory;
+
+    @ParameterizedTest
+    @CsvSource({
+        "--help, demo",
+        "demo --help, --kafka-port",
+        "up --help, --orion",
+        "bench --help, load",
+        "bench load --help, --devices",
+        "bench notifications --help, --new-connections",
+        "bench sink --help, --stand-in",
+        "bench control --help, --outstanding",
+        "dead-letters redrive --help, --dry-run",
+        "control-plane --help, --standby-replicas",
+        "scenario --help, --qos",
+        "device-host --help, --farm-secret",
+        "secret rotate --help, --keep-old",
+        "device rotate --help, DEVICE",
+        "control-plane --help, --api-certificate",
+        "domain create --help, --area",
+        "mission --help, watch",
+        "mission start --help, --duration",
+        "mission export --help, --mongo",
+        "template import --help, FILE",
+        "device list --help, --mission",
+        "alarm mute --help, --for",
+        "replay start --help, --speed",
+        "replay compare --help, Exit code",
+        "replay analytics --help, --flink-url",
+        "replay watch --help, space",
+        "replay loop --help, --off",
+        "mission marker add --help, NOTE"
+    })
+    void explainsItself(String words, String mentioned) {
+        assertThat(furrow.execute(words.split(" "))).isZero();
+        assertThat(out.toString()).contains(mentioned);
+    }
+
+    @Test
+    void namesThePortInUseAndTheOptionThatChoosesAnother() throws Exception {
+        try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
+            String port = Integer.toString(taken.getLocalPort());
+
+            assertThat(furrow.execute("up", "--kafka-port", "0", "--connect-port", "0", "--flink-port", port))
+                    .isNotZero();
+
+            assertThat(err.toString().trim())
+                    .isEqualTo("Port " + port
+                            + " of 127.0.0.1, meant for Flink's web UI, is in use. Stop what listens there, "
+                            + "or choose another with --flink-port.");
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "--iot-agent-resource|/iot/d|--iot-agent-interval need --iot-agent",
+                "--iot-agent=http://127.0.0.1:4041|--iot-agent-resource=json|must be empty or begin with '/'",
+                "--iot-agent=http://127.0.0.1:4041|--iot-agent-interval=0s|at least a second",
+                "--iot-agent=http://127.0.0.1:4041|--fiware-service=|name one with --fiware-service",
+            })
+    void refusesSettingsOfAnIotAgentThatCannotBeRight(String first, String second, String sentence) {
+        for (String command : List.of("up", "control-plane --farm-secret x --log " + directory.resolve("log"))) {
+            List<String> words = new ArrayList<>(List.of(command.split(" ")));
+            words.addAll(List.of(first, second));
+
+            assertThat(furrow.execute(words.toArray(String[]::new))).isNotZero();
+
+            assertThat(err.toString()).contains(sentence).hasLineCount(1);
+            err.getBuffer().setLength(0);
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "up --allowed-hosts farm.example.org:8085, --allowed-hosts, farm.example.org:8085' is no host",
+        "demo --allowed-origins map.example.org, --allowed-origins, map.example.org' is no origin",
+        "control-plane --allowed-hosts http://farm, --allowed-hosts, http://farm' is no host"
+    })
+    void refusesNamesOfItsServersThatAreNone(String words, String option, String why) {
+        assertThat(furrow.execute(words.split(" "))).isNotZero();
+
+        assertThat(err.toString()).contains(option, why);
+    }
+
+    @Test
+    void saysThatADirectoryCannotBeWritten() throws Exception {
+        Path file = Files.createFile(directory.resolve("file"));
+
+        assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
+
+        assertThat(err.toString().trim())
+                .startsWith("Cannot write in " + file.resolve("below"))
+                .endsWith("Name a directory that you may write with --data.")
+                .hasLineCount(1);
+    }
+
+    @Test
+    void refusesASecondSuiteInTheSameDirectory() {
+        try (RunDirectory held = RunDirectory.open(directory)) {
+            assertThat(furrow.execute(upOnFreePorts(held.path()))).isNotZero();
+        }
+        assertThat(err.toString()).contains("Another Furrow uses " + directory);
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "control-plane --iot-agent localhost:4041 --farm-secret x, --iot-agent",
+        "control-plane --orion localhost:1026, --orion",
+        "up --orion 127.0.0.1, --orion",
+        "up --orion http://127.0.0.1:1026 --iot-agent ftp://127.0.0.1:4041, --iot-agent",
+        "domain list --api localhost:8085, --api"
+    })
+    void refusesAnAddressThatIsNoHttpUrl(String words, String option) {
+        assertThat(furrow.execute(words.split(" "))).isEqualTo(2);
+        assertThat(err.toString()).contains(option, "cannot be used, because");
+    }
+
+    @Test
+    void doesNotStartOnTheDataOfAFarmWithoutItsSecret() throws Exception {
+        Path data = Files.createDirectories(directory.resolve("data/kafka")).getParent();
+
+        assertThat(furrow.execute(upOnFreePorts(data))).isNotZero();
+
+        assertThat(err.toString().trim())
+                .startsWith(data + " has the data of a farm but not its secret")
+                .hasLineCount(1);
+        assertThat(data.resolve("kafka")).isEmptyDirectory();
+    }
+
+    @ParameterizedTest
+    @ValueSource(
+            strings = {
+                "--kafka 127.0.0.1:1",
+                "--orion http://127.0.0.1:1 --iot-agent http://127.0.0.1:1",
+                "--orion http://127.0.0.1:1 --mqtt-password-file passwords --mqtt-acl-file rules"
+            })
+    void makesNoSecretThatEndsBeforeWhatIsMadeWithIt(String words) {
+        List<String> up = new ArrayList<>(List.of(upOnFreePorts(directory)));
+        int data = up.indexOf("--data");
+        up.remove(data);
+        up.remove(data);
+        up.addAll(List.of(words.split(" ")));
+
+        assertThat(furrow.execute(up.toArray(String[]::new))).isNotZero();
+
+        assertThat(err.toString().trim())
+                .startsWith("Without --data the farm's secret would be deleted at the end")
+                .endsWith("./furrow secret new FILE makes one.")
+                .hasLineCount(1);
+    }
+
+    @Test
+    void refusesAnUnknownOptionInOneSentence() {
+        assertThat(furrow.execute("demo", "--orin", "x")).isNotZero();
+        assertThat(err.toString()).contains("Unknown options: '--orin', 'x'").contains("furrow demo --help");
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "hooks.example.com/x, no scheme",
+        "localhost:8080/x, http",
+        "ftp://hooks.example.com/x, http",
+        "http:///x, host",
+        "https://, not a URI",
+        "http://a b/x, not a URI"
+    })
+    void refusesToStartWithAWebhookThatCannotBeReached(String webhook, String reason) {
+        for (String command : new String[] {"up", "control-plane"}) {
+            err.getBuffer().setLength(0);
+            assertThat(furrow.execute(command, "--kafka", "127.0.0.1:1", "--webhook", webhook))
+                    .isEqualTo(2);
+            assertThat(err.toString()).contains("--webhook", webhook, reason);
+        }
+    }
+
+    @Test
+    void refusesToStartWithAWebhookSecretThatIsNone() throws Exception {
+        Path tooShort = Files.writeString(directory.resolve("short"), "short\n");
+        String[] common = {"control-plane", "--kafka", "127.0.0.1:1"};
+        assertThat(furrow.execute(with(common, "--webhook-secret", tooShort.toString())))
+                .isNotZero();
+        assertThat(err.toString()).contains("name that too");
+        err.getBuffer().setLength(0);
+        assertThat(furrow.execute(
+                        with(common, "--webhook", "https://example.com/x", "--webhook-secret", tooShort.toString())))
+                .isNotZero();
+        assertThat(err.toString()).contains("--webhook-secret: " + tooShort, "holds no secret", "openssl rand");
+    }
+
+    @Test
+    void refusesShareOfSilentDevicesThatIsNone() {
+        assertThat(furrow.execute("control-plane", "--kafka", "127.0.0.1:1", "--silent-share", "0"))
+                .isNotZero();
+        assertThat(err.toString()).contains("--silent-share", "0.0");
+    }
+
+    private static String[] with(String[] some, String... more) {
+        return Stream.of(some, more).flatMap(Stream::of).toArray(String[]::new);
+    }
+
+    private static String[] upOnFreePorts(Path data) {
+        return ("up --kafka-port 0 --connect-port 0 --flink-port 0 --notify-port 0 --mqtt-port 0 --orion-port 0 "
+                        + "--iot-agent-port 0 --mongo-port 0 --control-port 0 --health-port 0 --data " + data)
+                .split(" ");
+    }
+}

@@ -1,0 +1,78 @@
+package io.furrow.launcher.suite;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.attribute.PosixFilePermissions;
+import java.util.Properties;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.cli.CommandException;
+import io.furrow.model.device.FarmSecret;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class FarmSecretFileTest {
+    @TempDir
+    Path directory;
+
+    @Test
+    void makesASecretWhereADirectoryIsFreshAndFindsItThereLater() throws Exception {
+        Path kept = directory.resolve("data");
+        Path made;
+        try (RunDirectory first = RunDirectory.open(kept)) {
+            made = FarmSecretFile.of(first, null);
+        }
+        FarmSecret secret = FarmSecret.read(made);
+        Files.createDirectory(kept.resolve("kafka"));
+
+        try (RunDirectory second = RunDirectory.open(kept)) {
+            assertThat(FarmSecretFile.of(second, null)).isEqualTo(made);
+        }
+
+        assertThat(FarmSecret.read(made)).isEqualTo(secret);
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(made)))
+                .isEqualTo("rw-------");
+    }
+
+    @Test
+    void makesNoSecretWhereThereIsDataOfAFarm() throws Exception {
+        Path kept = Files.createDirectories(directory.resolve("data/kafka")).getParent();
+
+        try (RunDirectory directory = RunDirectory.open(kept)) {
+            assertThatThrownBy(() -> FarmSecretFile.of(directory, null))
+                    .isInstanceOf(CommandException.class)
+                    .hasMessageContainingAll(
+                            kept + " has the data of a farm but not its secret",
+                            "--farm-secret",
+                            "./furrow secret new");
+        }
+        assertThat(kept.resolve("farm-secret")).doesNotExist();
+    }
+
+    @Test
+    void makesNoSecretWhereThePathIsWrong() {
+        Path missing = directory.resolve("not-mounted");
+
+        try (RunDirectory fresh = RunDirectory.open(null)) {
+            assertThatThrownBy(() -> FarmSecretFile.of(fresh, missing))
+                    .isInstanceOf(CommandException.class)
+                    .hasMessageContainingAll(missing.toString(), "./furrow secret new");
+        }
+        assertThatThrownBy(() -> FarmSecretFile.open(missing, new Properties(), null))
+                .isInstanceOf(CommandException.class)
+                .hasMessageContainingAll(missing.toString(), "./furrow secret new");
+        assertThat(missing).doesNotExist();
+    }
+
+    @Test
+    void refusesASecretThatIsTooShort() throws Exception {
+        Path tooShort = Files.writeString(directory.resolve("short"), "secret\n");
+
+        assertThatThrownBy(() -> FarmSecretFile.open(tooShort, new Properties(), null))
+                .isInstanceOf(CommandException.class)
+                .hasMessageContainingAll(tooShort.toString(), "at least 16 bytes, this one 6");
+    }
+}

@@ -1,0 +1,157 @@
+package io.furrow.mission.file;
+
+import java.io.EOFException;
+import java.io.FileNotFoundException;
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.NoSuchFileException;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+import java.util.zip.ZipException;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingInterruptedException;
+import io.furrow.mission.Skipped;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** A mission in files. Pages that follow on one another read on; any other begins at the start of the file, or of its day's. */
+final class FileRecording implements Recording {
+    private final String mission;
+    private final RecordingFiles files;
+    private final List<List<String>> groups;
+    /** What the next page may continue with; null if it begins again. */
+    private ArchiveFiles lines;
+
+    private Cursor position = Cursor.START;
+    private Optional<Span> span;
+
+    FileRecording(String mission, RecordingFiles files, List<List<String>> groups) {
+        this.mission = mission;
+        this.files = files;
+        this.groups = groups;
+    }
+
+    /** Reads all of it at the first call. */
+    @Override
+    public Optional<Span> span() throws RecordingException {
+        if (span == null) {
+            span = answer(this::measured);
+        }
+        return span;
+    }
+
+    private Optional<Span> measured() throws IOException {
+        Span found = null;
+        try (ArchiveFiles all = new ArchiveFiles(files, groups)) {
+            for (ArchiveFile.Line line = all.peek(); line != null; line = all.peek()) {
+                if (line.broken() == null) {
+                    long time = line.at().time();
+                    found = new Span(found == null ? time : found.first(), time);
+                }
+                all.remove();
+                RecordingInterruptedException.check();
+            }
+        }
+        return Optional.ofNullable(found);
+    }
+
+    @Override
+    public Page read(Cursor after, PageLimits limits) throws RecordingException {
+        Page page = answer(() -> {
+            if (lines == null || !after.equals(position)) {
+                begin();
+                lines = new ArchiveFiles(files, groups);
+                lines.skipTo(after);
+            }
+            return page(after, limits);
+        });
+        position = page.next();
+        return page;
+    }
+
+    private Page page(Cursor after, PageLimits limits) throws IOException {
+        List<StoredEvent> events = new ArrayList<>();
+        List<Skipped> skipped = new ArrayList<>();
+        Cursor next = after;
+        int read = 0;
+        long bytes = 0;
+        ArchiveFile.Line head = lines.peek();
+        while (head != null && read < limits.events() && (read == 0 || bytes + head.json().length <= limits.bytes())) {
+            read(head, head.at().equals(next), events, skipped);
+            read++;
+            bytes += head.json().length;
+            next = head.at();
+            lines.remove();
+            head = lines.peek();
+        }
+        return new Page(events, skipped, next, head == null);
+    }
+
+    /** @param again whether an event of this time and id was read just before, from another file */
+    private static void read(ArchiveFile.Line line, boolean again, List<StoredEvent> events, List<Skipped> skipped) {
+        String reason = again && line.broken() == null ? "the event is in another file, too" : line.broken();
+        if (reason == null) {
+            try {
+                events.add(ArchiveLine.read(new String(line.json(), StandardCharsets.UTF_8)));
+            } catch (UnreadableException e) {
+                reason = e.getMessage();
+            }
+        }
+        if (reason != null) {
+            skipped.add(new Skipped(line.where(), reason, 1));
+        }
+    }
+
+    /** Something that is asked of the files. */
+    private interface Question<T> {
+        T ask() throws IOException;
+    }
+
+    private <T> T answer(Question<T> question) throws RecordingException {
+        try {
+            RecordingInterruptedException.check();
+            return question.ask();
+        } catch (RecordingException e) {
+            begin();
+            throw e;
+        } catch (NoSuchFileException | FileNotFoundException e) {
+            begin();
+            throw new RecordingGoneException(
+                    "A file of mission %s has been deleted: %s".formatted(mission, e.getMessage()));
+        } catch (EOFException | ZipException e) {
+            begin();
+            throw new RecordingGoneException("A file of mission %s is damaged or not whole (%s): %s. Export it again."
+                    .formatted(mission, groups, e.getMessage()));
+        } catch (IOException e) {
+            begin();
+            throw new RecordingException(
+                    "Mission %s cannot be read from %s: %s".formatted(mission, groups, e.getMessage()), e);
+        }
+    }
+
+    /** Forgets what is open, so that the next page begins again. */
+    private void begin() {
+        ArchiveFiles open = lines;
+        lines = null;
+        try {
+            if (open != null) {
+                open.close();
+            }
+        } catch (IOException e) {
+            // It was only read.
+        }
+    }
+
+    @Override
+    public void close() {
+        begin();
+    }
+}

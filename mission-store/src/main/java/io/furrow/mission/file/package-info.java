@@ -1,0 +1,2 @@
+/** Missions in files of lines, and their reader. */
+package io.furrow.mission.file;

@@ -1,0 +1,35 @@
+package io.furrow.mission.marker;
+
+import java.util.UUID;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/**
+ * A moment of a mission with a note. What may be stored is said by {@link Markers#add}.
+ *
+ * @param id unique among all markers
+ * @param mission its name
+ * @param time event time of the moment, epoch ms
+ * @param note for people
+ * @param author who wrote it; empty if that is not known
+ * @param created when it was written, epoch ms
+ */
+public record Marker(String id, String mission, long time, String note, String author, long created) {
+    /** Of a random id. */
+    public static Marker of(String mission, long time, String note, String author, long created) {
+        return new Marker(UUID.randomUUID().toString(), mission, time, note, author, created);
+    }
+
+    /** {@code {"id", "mission", "time", "note", "author", "created"}}, with times in epoch ms. */
+    public ObjectNode toJson() {
+        return JsonNodeFactory.instance
+                .objectNode()
+                .put("id", id)
+                .put("mission", mission)
+                .put("time", time)
+                .put("note", note)
+                .put("author", author)
+                .put("created", created);
+    }
+}

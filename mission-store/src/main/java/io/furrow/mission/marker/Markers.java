@@ -1,0 +1,218 @@
+package io.furrow.mission.marker;
+
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.Date;
+import java.util.List;
+import java.util.Optional;
+import java.util.function.Supplier;
+
+import com.mongodb.ErrorCategory;
+import com.mongodb.MongoException;
+import com.mongodb.MongoWriteException;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.client.MongoDatabase;
+import com.mongodb.client.model.CountOptions;
+import com.mongodb.client.model.Filters;
+import com.mongodb.client.model.IndexOptions;
+import com.mongodb.client.model.Indexes;
+import com.mongodb.client.model.Sorts;
+import org.bson.BsonType;
+import org.bson.Document;
+
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.MongoRecordings;
+import io.furrow.mission.mongo.SharedClient;
+
+/**
+ * The markers of all missions, in the collection {@code markers} beside these: {@code _id}, {@code mission} (as its collection has it), {@code
+ * time} (a date), {@code note}, {@code author}, {@code created} (a date), with an index on mission and time. Not thread-safe.
+ */
+public final class Markers implements AutoCloseable {
+    /** At most so many are stored of a mission. */
+    public static final int MAX = 10_000;
+
+    private static final String COLLECTION = "markers";
+    private static final String ID = "_id";
+    private static final String MISSION = "mission";
+    private static final String TIME = "time";
+    private static final String NOTE = "note";
+    private static final String AUTHOR = "author";
+    private static final String CREATED = "created";
+    private static final Comparator<Marker> BY_TIME =
+            Comparator.comparingLong(Marker::time).thenComparing(Marker::id);
+
+    private final SharedClient client;
+    private final MongoDatabase database;
+    private final MongoCollection<Document> collection;
+    private final String where;
+    private final int most;
+    private boolean indexed;
+
+    private Markers(SharedClient client, MongoDatabase database, String where, int most) {
+        this.client = client;
+        this.database = database;
+        this.collection = database.getCollection(COLLECTION);
+        this.where = where;
+        this.most = most;
+    }
+
+    /**
+     * Does not wait for the server.
+     *
+     * @param database {@link MongoAccess#DATABASE} unless missions were moved
+     * @throws IllegalArgumentException if the URI is none
+     */
+    public static Markers open(String uri, String database) {
+        return open(new MongoRecordings(uri, database), MAX);
+    }
+
+    static Markers open(MongoRecordings at, int most) {
+        SharedClient client = SharedClient.of(at.uri(), at.selectionTimeout());
+        return new Markers(client, client.client().getDatabase(at.database()), at.toString(), most);
+    }
+
+    /**
+     * Stores a marker. One that is stored already stays once, so that this can be tried again. Whether there is such a mission, or
+     * such a moment in it, is not asked.
+     *
+     * @throws RefusedMarkerException if the mission or the id is missing or longer than 100 characters, the note is blank or longer than 1,000, the author longer
+     *     than 200, a time is not between 1970 and 9999, another marker has the id, or the mission has {@value #MAX}
+     * @throws RecordingException if MongoDB cannot be asked now
+     */
+    public void add(Marker marker) throws RefusedMarkerException, RecordingException {
+        MarkerRules.check(marker);
+        Optional<String> refusal = answer(marker.mission(), () -> {
+            if (!indexed) {
+                collection.createIndex(Indexes.ascending(MISSION, TIME), new IndexOptions().name("mission-and-time"));
+                indexed = true;
+            }
+            return insert(marker, missionOf(marker.mission()));
+        });
+        if (refusal.isPresent()) {
+            throw new RefusedMarkerException(refusal.get());
+        }
+    }
+
+    /** Empty if it is stored. */
+    private Optional<String> insert(Marker marker, String mission) {
+        try {
+            collection.insertOne(new Document(ID, marker.id())
+                    .append(MISSION, mission)
+                    .append(TIME, new Date(marker.time()))
+                    .append(NOTE, marker.note())
+                    .append(AUTHOR, marker.author())
+                    .append(CREATED, new Date(marker.created())));
+        } catch (MongoWriteException e) {
+            if (e.getError().getCategory() != ErrorCategory.DUPLICATE_KEY) {
+                throw e;
+            }
+            Document stored = collection.find(Filters.eq(ID, marker.id())).first();
+            return stored == null || read(stored, marker.mission(), mission).equals(marker)
+                    ? Optional.empty()
+                    : Optional.of("There is another marker of id %s; write a new id, or remove that marker first"
+                            .formatted(marker.id()));
+        }
+        // Counted afterwards, as another may be added at the same time.
+        CountOptions few = new CountOptions().limit(most + 1);
+        if (collection.countDocuments(Filters.eq(MISSION, mission), few) <= most) {
+            return Optional.empty();
+        }
+        collection.deleteOne(Filters.eq(ID, marker.id()));
+        return Optional.of("Mission %s has %,d markers, and no more are stored; remove some first"
+                .formatted(marker.mission(), most));
+    }
+
+    /**
+     * All of a mission, in the order of their times and, of one time, of their ids.
+     *
+     * @throws RecordingException if MongoDB cannot be asked now
+     */
+    public List<Marker> list(String mission) throws RecordingException {
+        return list(mission, 0, Long.MAX_VALUE);
+    }
+
+    /**
+     * Those of a part of a mission.
+     *
+     * @param from epoch ms
+     * @param to epoch ms, exclusive
+     * @throws RecordingException if MongoDB cannot be asked now
+     */
+    public List<Marker> list(String mission, long from, long to) throws RecordingException {
+        return answer(mission, () -> {
+            String key = missionOf(mission);
+            List<Marker> markers = new ArrayList<>();
+            collection
+                    .find(Filters.and(
+                            Filters.eq(MISSION, key),
+                            Filters.gte(TIME, new Date(from)),
+                            Filters.lt(TIME, new Date(to)),
+                            Filters.not(Filters.type(TIME, BsonType.ARRAY))))
+                    .sort(Sorts.ascending(TIME))
+                    .limit(most)
+                    .forEach(found -> markers.add(read(found, mission, key)));
+            markers.sort(BY_TIME);
+            return markers;
+        });
+    }
+
+    /**
+     * Whether there was such a marker of the mission.
+     *
+     * @throws RecordingException if MongoDB cannot be asked now
+     */
+    public boolean remove(String mission, String id) throws RecordingException {
+        return answer(
+                mission,
+                () -> collection
+                                .deleteOne(Filters.and(Filters.eq(ID, id), Filters.eq(MISSION, missionOf(mission))))
+                                .getDeletedCount()
+                        > 0);
+    }
+
+    /** @param asked the mission's name, where the document is of that mission */
+    private static Marker read(Document found, String asked, String key) {
+        String mission = text(found, MISSION);
+        return new Marker(
+                text(found, ID),
+                mission.equals(key) ? asked : mission,
+                time(found, TIME),
+                text(found, NOTE),
+                text(found, AUTHOR),
+                time(found, CREATED));
+    }
+
+    private static String text(Document found, String field) {
+        return found.get(field) instanceof String text ? text : String.valueOf(found.get(field));
+    }
+
+    private static long time(Document found, String field) {
+        return found.get(field) instanceof Date date ? date.getTime() : 0;
+    }
+
+    /** The mission's collection without its prefix: that which recordings of this name are read from. */
+    private String missionOf(String mission) {
+        boolean isPlain = MissionCollections.candidates(mission).size() == 1;
+        Optional<String> known = isPlain ? Optional.empty() : MongoRecordings.collectionOf(database, mission);
+        return known.orElse(MissionCollections.nameOf(mission)).substring(MissionCollections.PREFIX.length());
+    }
+
+    private <T> T answer(String mission, Supplier<T> question) throws RecordingException {
+        try {
+            return question.get();
+        } catch (MongoException e) {
+            throw new RecordingException(
+                    "The markers of mission %s cannot be reached at %s: %s. Check that MongoDB runs there and answers."
+                            .formatted(mission, where, e.getMessage()),
+                    e);
+        }
+    }
+
+    @Override
+    public void close() {
+        client.close();
+    }
+}

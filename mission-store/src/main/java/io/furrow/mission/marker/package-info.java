@@ -1,0 +1,2 @@
+/** Markers: moments of a mission with a note. */
+package io.furrow.mission.marker;

@@ -1,0 +1,46 @@
+package io.furrow.mission.mongo;
+
+import java.util.ArrayDeque;
+import java.util.Deque;
+
+import io.furrow.mission.Cursor;
+
+/** Finds the wanted event before the last wanted ones of those that are added in their order. Holds one cursor for each of these. */
+public final class CursorsBack {
+    /** More events than anybody steps back, at 100 bytes each. */
+    static final int MAX = 100_000;
+
+    private final Cursor first;
+    private final long count;
+    private final Deque<Cursor> beforeWanted = new ArrayDeque<>();
+    private Cursor last;
+
+    /** @param first the answer where fewer events are requested */
+    public CursorsBack(Cursor first, long count) {
+        this.first = first;
+        this.count = count;
+        this.last = first;
+    }
+
+    public static void check(long count) {
+        if (count < 1 || count > MAX) {
+            throw new IllegalArgumentException(
+                    "Between 1 and %,d events can be gone back, not %,d".formatted(MAX, count));
+        }
+    }
+
+    /** The next event. */
+    public void add(Cursor event, boolean wanted) {
+        if (wanted) {
+            if (beforeWanted.size() == count) {
+                beforeWanted.remove();
+            }
+            beforeWanted.add(last);
+            last = event;
+        }
+    }
+
+    public Cursor oldest() {
+        return beforeWanted.size() == count ? beforeWanted.element() : first;
+    }
+}

@@ -1,0 +1,106 @@
+package io.furrow.mission.mongo;
+
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.TimeUnit;
+
+import com.mongodb.MongoException;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.client.MongoDatabase;
+import com.mongodb.client.model.Accumulators;
+import com.mongodb.client.model.Aggregates;
+import com.mongodb.client.model.Filters;
+import org.bson.BsonDateTime;
+import org.bson.Document;
+import org.bson.conversions.Bson;
+
+import io.furrow.mission.RecordingException;
+
+/**
+ * Counts the events of stored missions by event time. MongoDB counts, by its index on event time alone, where it keeps that; no
+ * document comes here.
+ */
+public final class EventDensity implements AutoCloseable {
+    private static final int COUNT_SECONDS = 30;
+    private static final String COUNT = "count";
+    private static final String TIME = "$" + EventDocumentCodec.TIME;
+    /** The bucket of an array of dates, which a comparison with a date finds too. */
+    private static final int NONE = -1;
+
+    private final SharedClient client;
+    private final MongoDatabase database;
+    private final String where;
+
+    private EventDensity(MongoRecordings at) {
+        this.client = SharedClient.of(at.uri(), at.selectionTimeout());
+        this.database = client.client().getDatabase(at.database());
+        this.where = at.toString();
+    }
+
+    /**
+     * Does not wait for the server.
+     *
+     * @param database {@link MongoAccess#DATABASE} unless missions were moved
+     * @throws IllegalArgumentException if the URI is none
+     */
+    public static EventDensity open(String uri, String database) {
+        return new EventDensity(new MongoRecordings(uri, database));
+    }
+
+    static EventDensity of(MongoRecordings recordings) {
+        return new EventDensity(recordings);
+    }
+
+    /**
+     * How many events lie in each of the buckets {@code [from, from + width)}, {@code [from + width, from + 2 width)} and so on; empty if
+     * nothing is stored of the mission.
+     *
+     * @param mission its name, or what stands for it in topics and collections
+     * @param from epoch ms
+     * @param width ms
+     * @throws RecordingException if MongoDB cannot be asked now, or does not answer within 30 s
+     */
+    public Optional<long[]> count(String mission, long from, long width, int buckets) throws RecordingException {
+        if (width < 1 || buckets < 1) {
+            throw new IllegalArgumentException("%d buckets of %d ms are none".formatted(buckets, width));
+        }
+        try {
+            return MongoRecordings.collectionOf(database, mission)
+                    .map(name -> count(database.getCollection(name), from, width, buckets));
+        } catch (MongoException e) {
+            throw new RecordingException(
+                    "The events of mission %s cannot be counted at %s: %s. Check that MongoDB runs there and answers."
+                            .formatted(mission, where, e.getMessage()),
+                    e);
+        }
+    }
+
+    private static long[] count(MongoCollection<Document> collection, long from, long width, int buckets) {
+        Document number = new Document(
+                "$floor",
+                new Document(
+                        "$divide", List.of(new Document("$subtract", List.of(TIME, new BsonDateTime(from))), width)));
+        Document bucket = new Document("$cond", List.of(new Document("$isArray", TIME), NONE, number));
+        Bson range = Filters.and(
+                Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(from)),
+                Filters.lt(
+                        EventDocumentCodec.TIME,
+                        new BsonDateTime(Math.addExact(from, Math.multiplyExact(width, buckets)))));
+        long[] counts = new long[buckets];
+        collection
+                .aggregate(List.of(Aggregates.match(range), Aggregates.group(bucket, Accumulators.sum(COUNT, 1))))
+                .maxTime(COUNT_SECONDS, TimeUnit.SECONDS)
+                .forEach(group -> {
+                    int index = ((Number) group.get("_id")).intValue();
+                    if (index >= 0 && index < buckets) {
+                        counts[index] = ((Number) group.get(COUNT)).longValue();
+                    }
+                });
+        return counts;
+    }
+
+    @Override
+    public void close() {
+        client.close();
+    }
+}

@@ -1,0 +1,209 @@
+package io.furrow.mission.mongo;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Optional;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Predicate;
+import java.util.function.Supplier;
+
+import com.mongodb.MongoException;
+import com.mongodb.MongoExecutionTimeoutException;
+import com.mongodb.MongoNamespace;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.client.model.CountOptions;
+import com.mongodb.client.model.Filters;
+import com.mongodb.client.model.Projections;
+import com.mongodb.client.model.Sorts;
+import org.bson.BsonDateTime;
+import org.bson.BsonType;
+import org.bson.RawBsonDocument;
+import org.bson.conversions.Bson;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.Skipped;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.ngsi.UnreadableException;
+
+/** A mission in MongoDB. Pages that follow on one another share a query; any other begins one by event time. */
+final class MongoRecording implements Recording {
+    /** Dates alone: MongoDB compares a date with no value of another type. */
+    private static final Bson TIMED = Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(Long.MIN_VALUE));
+
+    private static final Bson UNTIMED = Filters.or(
+            Filters.not(Filters.type(EventDocumentCodec.TIME, BsonType.DATE_TIME)),
+            Filters.type(EventDocumentCodec.TIME, BsonType.ARRAY));
+
+    private static final Logger LOG = LoggerFactory.getLogger(MongoRecording.class);
+    private static final int COUNT_SECONDS = 3;
+
+    private final String mission;
+    private final SharedClient client;
+    private final MongoCollection<RawBsonDocument> collection;
+    private final String where;
+    private final OrderedDocuments.Sizes sizes;
+    /** What the next page may continue with; null if it begins again. */
+    private OrderedDocuments documents;
+
+    private Cursor position = Cursor.START;
+    /** Counted once, as no index helps; null until then. */
+    private Long untimed;
+
+    /** @param where for messages */
+    MongoRecording(
+            String mission,
+            SharedClient client,
+            MongoCollection<RawBsonDocument> collection,
+            String where,
+            OrderedDocuments.Sizes sizes) {
+        this.mission = mission;
+        this.client = client;
+        this.collection = collection;
+        this.where = where;
+        this.sizes = sizes;
+    }
+
+    @Override
+    public Optional<Span> span() throws RecordingException {
+        return answer(() -> span(collection));
+    }
+
+    static Optional<Span> span(MongoCollection<RawBsonDocument> collection) {
+        RawBsonDocument first = outermost(collection, Sorts.ascending(EventDocumentCodec.TIME));
+        RawBsonDocument last = outermost(collection, Sorts.descending(EventDocumentCodec.TIME));
+        return first == null || last == null
+                ? Optional.empty()
+                : Optional.of(new Span(OrderedDocuments.time(first), OrderedDocuments.time(last)));
+    }
+
+    private static RawBsonDocument outermost(MongoCollection<RawBsonDocument> collection, Bson order) {
+        return collection
+                .find(Filters.and(TIMED, OrderedDocuments.ONE_TIME))
+                .sort(order)
+                .projection(Projections.include(EventDocumentCodec.TIME))
+                .first();
+    }
+
+    @Override
+    public Page read(Cursor after, PageLimits limits) throws RecordingException {
+        boolean goesOn = documents != null && after.equals(position);
+        Page page = goesOn ? retried(after, limits) : begun(after, limits);
+        position = page.next();
+        if (page.last()) {
+            begin(); // what comes later is asked for again
+            if (!answer(this::exists)) {
+                throw new RecordingGoneException(
+                        "Mission %s has been deleted from %s while it was read".formatted(mission, where));
+            }
+        }
+        return page;
+    }
+
+    /** A query that rests for long is forgotten by the server, and lost with its connection: then it begins once more. */
+    private Page retried(Cursor after, PageLimits limits) throws RecordingException {
+        try {
+            return page(after, limits);
+        } catch (MongoException e) {
+            return begun(after, limits);
+        }
+    }
+
+    private Page begun(Cursor after, PageLimits limits) throws RecordingException {
+        begin();
+        return answer(() -> {
+            documents = new OrderedDocuments(collection, after, sizes);
+            return page(after, limits);
+        });
+    }
+
+    private Page page(Cursor after, PageLimits limits) {
+        List<StoredEvent> events = new ArrayList<>();
+        List<Skipped> skipped = new ArrayList<>();
+        if (after.equals(Cursor.START)) {
+            untimed = untimed == null ? countUntimed() : untimed;
+            if (untimed > 0) {
+                skipped.add(new Skipped("documents", "no event time: _time is missing or no date", untimed));
+            }
+        }
+        Cursor next = after;
+        int read = 0;
+        long bytes = 0;
+        OrderedDocuments.Ordered head = documents.peek();
+        while (head != null && read < limits.events() && (read == 0 || bytes + head.bytes() <= limits.bytes())) {
+            read(head, events, skipped);
+            read++;
+            bytes += head.bytes();
+            next = head.cursor();
+            documents.remove();
+            head = documents.peek();
+        }
+        return new Page(events, skipped, next, head == null);
+    }
+
+    /** Zero where that is not known within a few seconds: a mission begins though it is long. */
+    private long countUntimed() {
+        try {
+            return collection.countDocuments(UNTIMED, new CountOptions().maxTime(COUNT_SECONDS, TimeUnit.SECONDS));
+        } catch (MongoExecutionTimeoutException e) {
+            LOG.info("Mission {} is too long to count its documents without an event time", mission);
+            return 0;
+        }
+    }
+
+    private static void read(OrderedDocuments.Ordered head, List<StoredEvent> events, List<Skipped> skipped) {
+        try {
+            events.add(head.event());
+        } catch (UnreadableException e) {
+            skipped.add(new Skipped("document " + head.id(), e.getMessage(), 1));
+        }
+    }
+
+    /** By a query that reads backwards; the pages are not disturbed. */
+    @Override
+    public Cursor back(Cursor from, Cursor first, long count, Predicate<StoredEvent> wanted, PageLimits limits)
+            throws RecordingException {
+        CursorsBack.check(count);
+        DocumentsBack documents = new DocumentsBack(collection, first, wanted, sizes);
+        try {
+            return documents.cursor(from, count);
+        } catch (MongoException e) {
+            throw MongoRecordings.unreadable(mission, where, e);
+        }
+    }
+
+    private boolean exists() {
+        MongoNamespace name = collection.getNamespace();
+        return MongoRecordings.exists(client.client().getDatabase(name.getDatabaseName()), name.getCollectionName());
+    }
+
+    private <T> T answer(Supplier<T> question) throws RecordingException {
+        try {
+            return question.get();
+        } catch (MongoException e) {
+            begin();
+            throw MongoRecordings.unreadable(mission, where, e);
+        }
+    }
+
+    private void begin() {
+        if (documents != null) {
+            OrderedDocuments open = documents;
+            documents = null;
+            open.close();
+        }
+    }
+
+    @Override
+    public void close() {
+        begin();
+        client.close();
+    }
+}

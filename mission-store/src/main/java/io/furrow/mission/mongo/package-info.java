@@ -1,0 +1,2 @@
+/** Missions in MongoDB: documents, queries and collections. */
+package io.furrow.mission.mongo;

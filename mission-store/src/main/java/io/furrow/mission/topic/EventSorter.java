@@ -1,0 +1,139 @@
+package io.furrow.mission.topic;
+
+import java.io.BufferedOutputStream;
+import java.io.DataOutputStream;
+import java.io.IOException;
+import java.io.OutputStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.Deque;
+import java.util.List;
+import java.util.PriorityQueue;
+
+import io.furrow.mission.RecordingInterruptedException;
+
+/**
+ * Sorts events on disk: sorts as many as memory may hold into a file, then merges the files. Of duplicates, events of
+ * one time and id, the first by partition and offset stands.
+ */
+final class EventSorter {
+    private static final int MERGED_AT_ONCE = 64;
+
+    private final Path folder;
+    private final long mostBytes;
+    private final List<SortedEvent> events = new ArrayList<>();
+    private long bytes;
+    private final Deque<Path> runs = new ArrayDeque<>();
+    private int files;
+
+    /** Takes events in their order. */
+    private interface Output {
+        void write(SortedEvent event) throws IOException;
+    }
+
+    /**
+     * @param folder for its files, which stay
+     * @param mostBytes of events that are held in memory, about
+     */
+    EventSorter(Path folder, long mostBytes) {
+        this.folder = folder;
+        this.mostBytes = mostBytes;
+    }
+
+    void add(SortedEvent event) throws IOException {
+        events.add(event);
+        bytes += event.bytes();
+        if (bytes >= mostBytes) {
+            writeRun();
+        }
+    }
+
+    private void writeRun() throws IOException {
+        events.sort(SortedEvent.ORDER);
+        Path run = nextFile();
+        try (DataOutputStream out = SortedRun.create(run)) {
+            for (SortedEvent event : events) {
+                SortedRun.write(event, out);
+            }
+            SortedRun.end(out);
+        }
+        runs.add(run);
+        events.clear();
+        bytes = 0;
+    }
+
+    private Path nextFile() {
+        return folder.resolve("run-" + files++);
+    }
+
+    /** Writes the lines of all events. */
+    void writeLines(Path file) throws IOException {
+        writeRun();
+        while (runs.size() > MERGED_AT_ONCE) {
+            mergeSome();
+        }
+        try (OutputStream lines = new BufferedOutputStream(Files.newOutputStream(file))) {
+            merge(List.copyOf(runs), event -> {
+                lines.write(event.line());
+                lines.write('\n');
+            });
+        }
+        runs.clear();
+    }
+
+    private void mergeSome() throws IOException {
+        List<Path> some = new ArrayList<>();
+        while (some.size() < MERGED_AT_ONCE) {
+            some.add(runs.remove());
+        }
+        Path merged = nextFile();
+        try (DataOutputStream out = SortedRun.create(merged)) {
+            merge(some, event -> SortedRun.write(event, out));
+            SortedRun.end(out);
+        }
+        runs.add(merged);
+    }
+
+    /** Deletes what it has merged. */
+    private static void merge(List<Path> some, Output output) throws IOException {
+        PriorityQueue<SortedRun> heads = new PriorityQueue<>(Comparator.comparing(SortedRun::peek, SortedEvent.ORDER));
+        List<SortedRun> open = new ArrayList<>();
+        try {
+            for (Path file : some) {
+                SortedRun run = new SortedRun(file);
+                open.add(run);
+                if (run.peek() != null) {
+                    heads.add(run);
+                }
+            }
+            merge(heads, output);
+        } finally {
+            for (SortedRun run : open) {
+                run.close();
+            }
+        }
+        for (Path file : some) {
+            Files.delete(file);
+        }
+    }
+
+    private static void merge(PriorityQueue<SortedRun> heads, Output output) throws IOException {
+        SortedEvent last = null;
+        while (!heads.isEmpty()) {
+            RecordingInterruptedException.check();
+            SortedRun run = heads.remove();
+            SortedEvent next = run.peek();
+            if (last == null || !next.at().equals(last.at())) {
+                output.write(next);
+                last = next;
+            }
+            run.remove();
+            if (run.peek() != null) {
+                heads.add(run);
+            }
+        }
+    }
+}

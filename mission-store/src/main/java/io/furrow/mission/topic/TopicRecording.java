@@ -1,0 +1,77 @@
+package io.furrow.mission.topic;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.Comparator;
+import java.util.List;
+import java.util.Optional;
+import java.util.stream.Stream;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.Skipped;
+import io.furrow.mission.Span;
+
+/** The events of a topic in a file of this recording's own, which goes with it. */
+final class TopicRecording implements Recording {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicRecording.class);
+
+    private final Recording lines;
+    private final Path folder;
+    private final List<Skipped> skipped;
+
+    /**
+     * @param lines of the file
+     * @param folder of the file
+     * @param skipped records of the topic that hold no event
+     */
+    TopicRecording(Recording lines, Path folder, List<Skipped> skipped) {
+        this.lines = lines;
+        this.folder = folder;
+        this.skipped = skipped;
+    }
+
+    @Override
+    public Optional<Span> span() throws RecordingException {
+        return lines.span();
+    }
+
+    @Override
+    public Page read(Cursor after, PageLimits limits) throws RecordingException {
+        Page page = lines.read(after, limits);
+        if (!after.equals(Cursor.START) || skipped.isEmpty()) {
+            return page;
+        }
+        List<Skipped> all = new ArrayList<>(skipped);
+        all.addAll(page.skipped());
+        return new Page(page.events(), all, page.next(), page.last());
+    }
+
+    @Override
+    public void close() {
+        lines.close();
+        delete(folder);
+    }
+
+    /** Deletes a folder and the files in it, if they are there. */
+    static void delete(Path folder) {
+        if (!Files.exists(folder)) {
+            return;
+        }
+        try (Stream<Path> found = Files.walk(folder)) {
+            for (Path path : found.sorted(Comparator.reverseOrder()).toList()) {
+                Files.deleteIfExists(path);
+            }
+        } catch (IOException e) {
+            LOG.warn("The temporary folder {} cannot be deleted; delete it", folder, e);
+        }
+    }
+}

@@ -1,0 +1,134 @@
+package io.furrow.mission.topic;
+
+import java.io.IOException;
+import java.nio.channels.ClosedByInterruptException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.TreeMap;
+
+import org.apache.kafka.clients.consumer.ConsumerConfig;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.InterruptException;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.RecordingInterruptedException;
+import io.furrow.mission.Recordings;
+import io.furrow.mission.Skipped;
+import io.furrow.mission.file.FileRecordings;
+
+/**
+ * Topics of events, {@code data.*}, as recordings: the committed records between the beginning and the end that the topic has when
+ * it is opened. Event time is the record's timestamp, the event id its header {@code ce_id}, or topic, partition and offset
+ * if there is none; the value is an entity in normalized form, or null for a deletion. A record that holds none is skipped and
+ * counted. Opening reads the whole topic and sorts it on disk, which has to hold it twice; the file is deleted when the recording is closed.
+ *
+ * @param kafka settings of a consumer: {@code bootstrap.servers}, what security needs, and {@code default.api.timeout.ms}, how long an
+ *     answer is waited for, 30 s unless said
+ * @param until event time, epoch ms, from which on events are left out: a topic that continues is the same recording when it is opened
+ *     again, but for what comes late and what retention deletes
+ * @param folder for temporary files, made where it is missing
+ */
+public record TopicRecordings(TreeMap<String, String> kafka, long until, String folder) implements Recordings {
+    private static final String EVENTS = "data.";
+    private static final String TIMEOUT_MILLIS = "30000";
+    private static final long SORTED_BYTES = 32L * 1024 * 1024;
+    private static final int FETCH_BYTES = 8 * 1024 * 1024;
+
+    /** In the folder that Java has for temporary files. */
+    public TopicRecordings(Map<String, String> kafka, long until) {
+        this(new TreeMap<>(kafka), until, System.getProperty("java.io.tmpdir"));
+    }
+
+    /**
+     * Opens a topic; empty if there is none.
+     *
+     * @throws RecordingGoneException if it is no topic of events
+     * @throws RecordingInterruptedException if the thread is interrupted
+     * @throws RecordingException if Kafka or the disk cannot be used now
+     */
+    @Override
+    public Optional<Recording> open(String topic) throws RecordingException {
+        if (!topic.startsWith(EVENTS)) {
+            throw new RecordingGoneException(
+                    "Topic %s holds no events; name one that begins with %s".formatted(topic, EVENTS));
+        }
+        Path own = null;
+        Recording opened = null;
+        try (KafkaConsumer<byte[], byte[]> consumer = new KafkaConsumer<>(settings())) {
+            List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+                    .map(partition -> new TopicPartition(topic, partition.partition()))
+                    .toList();
+            if (partitions.isEmpty()) {
+                return Optional.empty();
+            }
+            own = Files.createTempDirectory(Files.createDirectories(Path.of(folder)), "furrow-topic-");
+            opened = sorted(topic, new Sorted(consumer, partitions, own));
+            return Optional.of(opened);
+        } catch (RecordingException e) {
+            throw e;
+        } catch (InterruptException | ClosedByInterruptException e) {
+            throw RecordingInterruptedException.of(e);
+        } catch (KafkaException e) {
+            throw new RecordingException(
+                    "Topic %s cannot be read from %s: %s. Check that Kafka runs there and answers."
+                            .formatted(topic, this, e.getMessage()),
+                    e);
+        } catch (IOException e) {
+            throw new RecordingException(
+                    "Topic %s cannot be sorted in %s: %s. Check that the folder can be written and has room."
+                            .formatted(topic, folder, e.getMessage()),
+                    e);
+        } finally {
+            if (own != null && opened == null) {
+                TopicRecording.delete(own);
+            }
+        }
+    }
+
+    /** What the records of a topic are sorted with. */
+    private record Sorted(KafkaConsumer<byte[], byte[]> consumer, List<TopicPartition> partitions, Path own) {}
+
+    private Recording sorted(String topic, Sorted sorted) throws IOException {
+        EventSorter sorter = new EventSorter(sorted.own(), SORTED_BYTES);
+        TopicReader reader = new TopicReader(sorted.consumer(), sorted.partitions(), until, sorter);
+        String timeout = kafka.getOrDefault(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MILLIS);
+        reader.read(Duration.ofMillis(Long.parseLong(timeout)));
+        Path lines = sorted.own().resolve("events.ndjson");
+        sorter.writeLines(lines);
+        List<Skipped> skipped = reader.skipped() == 0
+                ? List.of()
+                : List.of(new Skipped("records of " + topic, "the first is " + reader.example(), reader.skipped()));
+        Recording events = new FileRecordings(lines.toString()).open(topic).orElseThrow();
+        return new TopicRecording(events, sorted.own(), skipped);
+    }
+
+    private Properties settings() {
+        Properties settings = new Properties();
+        settings.setProperty(ConsumerConfig.DEFAULT_API_TIMEOUT_MS_CONFIG, TIMEOUT_MILLIS);
+        settings.putAll(kafka);
+        settings.setProperty(ConsumerConfig.KEY_DESERIALIZER_CLASS_CONFIG, ByteArrayDeserializer.class.getName());
+        settings.setProperty(ConsumerConfig.VALUE_DESERIALIZER_CLASS_CONFIG, ByteArrayDeserializer.class.getName());
+        settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_committed");
+        settings.setProperty(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, "false");
+        settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
+        settings.setProperty(ConsumerConfig.AUTO_OFFSET_RESET_CONFIG, "earliest"); // retention deletes while it is read
+        settings.setProperty(ConsumerConfig.FETCH_MAX_BYTES_CONFIG, String.valueOf(FETCH_BYTES));
+        return settings;
+    }
+
+    /** Holds no password. */
+    @Override
+    public String toString() {
+        return "Kafka at " + kafka.get(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG);
+    }
+}

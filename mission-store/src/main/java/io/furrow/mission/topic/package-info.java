@@ -1,0 +1,2 @@
+/** Kafka topics that are read as recordings. */
+package io.furrow.mission.topic;

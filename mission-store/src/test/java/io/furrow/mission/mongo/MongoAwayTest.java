@@ -1,0 +1,144 @@
+package io.furrow.mission.mongo;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.mongodb.ConnectionString;
+import com.mongodb.MongoClientSettings;
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.event.CommandListener;
+import com.mongodb.event.CommandStartedEvent;
+import org.bson.BsonDocument;
+import org.bson.RawBsonDocument;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.embedded.FreePort;
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.RandomEvents;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingGoneException;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+class MongoAwayTest {
+    private static final PageLimits TWO = new PageLimits(2, 10_000);
+
+    @TempDir
+    Path directory;
+
+    @Test
+    void saysThatMongoIsAwayAndGoesOnWhenItIsBack() throws Exception {
+        int port = FreePort.orFree(0);
+        MongoRecordings recordings = new MongoRecordings(
+                "mongodb://u:secret@127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
+        MongoRecordings reachable = new MongoRecordings("mongodb://127.0.0.1:" + port, MongoAccess.DATABASE);
+        MongoRecordings impatient =
+                new MongoRecordings("mongodb://127.0.0.1:" + port, MongoAccess.DATABASE, Duration.ofMillis(300));
+        assertThatThrownBy(() -> impatient.open("hoeing"))
+                .isInstanceOf(RecordingException.class)
+                .hasMessageStartingWith("Mission hoeing cannot be read from MongoDB at 127.0.0.1:" + port)
+                .hasMessageEndingWith("Check that MongoDB runs there and answers.");
+        assertThat(recordings.toString()).doesNotContain("secret");
+
+        EmbeddedMongo first = EmbeddedMongo.start(directory, port);
+        store("mongodb://127.0.0.1:" + port);
+        try (Recording recording = reachable.open("hoeing").orElseThrow()) {
+            Page page = recording.read(Cursor.START, TWO);
+            first.close();
+
+            assertThatThrownBy(() -> readTwice(recording, page.next()))
+                    .isInstanceOf(RecordingException.class)
+                    .isNotInstanceOf(RecordingGoneException.class);
+
+            try (EmbeddedMongo second = EmbeddedMongo.start(directory, port)) {
+                await().ignoreExceptionsInstanceOf(RecordingException.class)
+                        .until(() -> recording.read(page.next(), TWO).events().size() == 2);
+                List<String> rest = new ArrayList<>();
+                Page next = page;
+                do {
+                    next = recording.read(next.next(), TWO);
+                    next.events().forEach(event -> rest.add(event.id()));
+                } while (!next.last());
+                assertThat(rest).containsExactly("c", "d", "e");
+                assertThat(second.uri()).endsWith(":" + port);
+            }
+        }
+    }
+
+    /** A page from the query that is open may still come. */
+    private static void readTwice(Recording recording, Cursor next) throws RecordingException {
+        recording.read(next, TWO);
+        recording.read(Cursor.before(0), TWO);
+    }
+
+    /** What an index serves is a matter of the query's form: this is that of the index that missions are made with. */
+    @Test
+    void asksByTheKeyOfAnIndexThatIngestMakes() throws Exception {
+        List<BsonDocument> commands = new ArrayList<>();
+        try (EmbeddedMongo mongo = EmbeddedMongo.inMemory();
+                MongoClient client = listening(mongo.uri(), commands)) {
+            MissionCollections made = new MissionCollections(client, Retention.FOR_EVER, java.time.Clock.systemUTC());
+            MongoCollection<RawBsonDocument> collection = made.prepared("mission_hoeing");
+            collection.insertOne(new RawBsonDocument(EventDocumentCodec.write(RandomEvents.event("a", 1, 0))));
+            BsonDocument key = commands.stream()
+                    .filter(command -> command.containsKey("createIndexes"))
+                    .map(command ->
+                            command.getArray("indexes").get(0).asDocument().getDocument("key"))
+                    .findFirst()
+                    .orElseThrow();
+            Page page;
+            try (MongoRecording recording = new MongoRecording(
+                    "hoeing",
+                    SharedClient.of(mongo.uri(), MongoAccess.SELECTION_TIMEOUT),
+                    collection,
+                    "here",
+                    OrderedDocuments.Sizes.DEFAULT)) {
+                page = recording.read(Cursor.before(0), TWO);
+            }
+
+            BsonDocument find = commands.get(commands.size() - 1);
+            assertThat(page.events()).hasSize(1);
+            assertThat(key).isEqualTo(BsonDocument.parse("{_time: 1}"));
+            assertThat(find.getDocument("sort")).isEqualTo(key);
+            assertThat(find.getDocument("filter"))
+                    .isEqualTo(BsonDocument.parse(
+                            "{$and: [{_time: {$gte: {$date: {$numberLong: '0'}}}}, {_time: {$not: {$type: 4}}}]}"));
+            assertThat(find.getNumber("limit").intValue()).isEqualTo(2_000);
+            assertThat(find.getNumber("batchSize").intValue()).isEqualTo(500);
+        }
+    }
+
+    private static MongoClient listening(String uri, List<BsonDocument> commands) {
+        return MongoClients.create(MongoClientSettings.builder()
+                .applyConnectionString(new ConnectionString(uri))
+                .addCommandListener(new CommandListener() {
+                    @Override
+                    public void commandStarted(CommandStartedEvent event) {
+                        commands.add(event.getCommand().clone());
+                    }
+                })
+                .build());
+    }
+
+    private static void store(String uri) throws Exception {
+        try (MongoClient client = MongoClients.create(uri)) {
+            MongoCollection<RawBsonDocument> collection =
+                    client.getDatabase(MongoAccess.DATABASE).getCollection("mission_hoeing", RawBsonDocument.class);
+            for (String id : List.of("e", "d", "c", "b", "a")) {
+                collection.insertOne(
+                        new RawBsonDocument(EventDocumentCodec.write(RandomEvents.event(id, id.charAt(0), 0))));
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+package io.furrow.mission.mongo;
+
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** How much one query may return, in MiB. */
+class QuerySizesTest {
+    @ParameterizedTest
+    @CsvSource({"256, 2", "1024, 4", "6144, 24", "65536, 64"})
+    void growsWithTheHeapThatTheEmbeddedServerShares(long heap, long most) {
+        assertThat(OrderedDocuments.Sizes.queryBytes(heap << 20)).isEqualTo(most << 20);
+    }
+}

@@ -1,0 +1,86 @@
+package io.furrow.model.control;
+
+import java.util.List;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * What a manager answers: {@code type=response}, {@code status}, and what the command says beside it.
+ *
+ * @param json the whole message; owned by the response, not to be changed by readers
+ */
+public record CommandResult(ObjectNode json) {
+    /** The status of whatever is refused. */
+    public static final String ERROR = "error";
+
+    private static final String REQUEST_ID = "requestId";
+
+    /** An answer of a status, for instance {@code created}. */
+    public static CommandResult of(String status) {
+        ObjectNode json = JsonNodeFactory.instance.objectNode();
+        return new CommandResult(json.put("type", "response").put("status", status));
+    }
+
+    public static CommandResult refused(RefusedException refusal) {
+        return of(ERROR).with("error", refusal.code().code()).with("reason", refusal.getMessage());
+    }
+
+    /** With one more member; of null the same. */
+    public CommandResult with(String member, String value) {
+        return value == null ? this : new CommandResult(json.deepCopy().put(member, value));
+    }
+
+    public CommandResult with(String member, long value) {
+        return new CommandResult(json.deepCopy().put(member, value));
+    }
+
+    public CommandResult with(String member, List<String> values) {
+        ObjectNode members = json.deepCopy();
+        values.forEach(members.putArray(member)::add);
+        return new CommandResult(members);
+    }
+
+    /** To a request; the id may be null. */
+    public CommandResult to(String requestId) {
+        return with(REQUEST_ID, requestId);
+    }
+
+    public String status() {
+        return json.path("status").asText();
+    }
+
+    /** The code of an error, else empty. */
+    public Optional<String> error() {
+        return Optional.ofNullable(json.path("error").textValue());
+    }
+
+    public Optional<String> requestId() {
+        return Optional.ofNullable(json.path(REQUEST_ID).textValue());
+    }
+
+    /**
+     * Reads a message; members of other names are kept.
+     *
+     * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no response
+     */
+    public static CommandResult read(byte[] value) throws UnreadableException {
+        JsonNode json = NgsiJson.read(value);
+        if (!(json instanceof ObjectNode object)
+                || !"response".equals(json.path("type").textValue())
+                || !json.path("status").isTextual()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "it is no object with type=response and a status");
+        }
+        return new CommandResult(object);
+    }
+
+    public byte[] toBytes() {
+        return NgsiJson.write(json);
+    }
+}

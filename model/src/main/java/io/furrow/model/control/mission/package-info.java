@@ -1,0 +1,2 @@
+/** Commands, templates and devices of missions. */
+package io.furrow.model.control.mission;

@@ -1,0 +1,2 @@
+/** Commands and state of replays. */
+package io.furrow.model.control.replay;

@@ -1,9 +1,0 @@
-package io.furrow.model.ngsi;
-
-/**
- * A place on Earth in WGS 84.
- *
- * @param latitude degrees, −90 to 90
- * @param longitude degrees, −180 to 180
- */
-public record Position(double latitude, double longitude) {}

@@ -1,0 +1,74 @@
+package io.furrow.model.position;
+
+import java.io.IOException;
+
+import com.fasterxml.jackson.core.JsonParser;
+import com.fasterxml.jackson.core.JsonToken;
+
+import io.furrow.model.ngsi.AttributeValue;
+import io.furrow.model.ngsi.StrictTokens;
+
+/** The value of {@code location}: a geo:point's text, or an object that may be a GeoJSON Point. */
+public final class LocationValue extends AttributeValue {
+    private boolean typeIsPoint;
+    private int coordinates;
+    private double longitude;
+    private double latitude;
+
+    @Override
+    public void clear() {
+        super.clear();
+        typeIsPoint = false;
+        coordinates = 0;
+    }
+
+    @Override
+    public boolean takeOther(StrictTokens tokens, JsonParser parser) throws IOException {
+        if (parser.currentToken() != JsonToken.START_OBJECT) {
+            return tokens.skipWithinLimits();
+        }
+        while (tokens.next() == JsonToken.FIELD_NAME) {
+            String name = parser.currentName();
+            boolean taken = tokens.isPlainText() && takeMember(name, tokens, parser);
+            if (!taken) {
+                return false;
+            }
+        }
+        return parser.currentToken() == JsonToken.END_OBJECT;
+    }
+
+    private boolean takeMember(String name, StrictTokens tokens, JsonParser parser) throws IOException {
+        JsonToken value = tokens.next();
+        if (name.equals("coordinates") && value == JsonToken.START_ARRAY) {
+            while (tokens.next() != JsonToken.END_ARRAY) {
+                if (!takeCoordinate(tokens, parser)) {
+                    return false;
+                }
+            }
+            return true;
+        }
+        if (name.equals("type")) {
+            typeIsPoint = value == JsonToken.VALUE_STRING && tokens.isText("Point");
+        }
+        return tokens.skipWithinLimits();
+    }
+
+    private boolean takeCoordinate(StrictTokens tokens, JsonParser parser) throws IOException {
+        double coordinate = numberOrNaN(parser);
+        if (coordinates == 0) {
+            longitude = coordinate;
+        } else if (coordinates == 1) {
+            latitude = coordinate;
+        }
+        coordinates++;
+        return tokens.skipWithinLimits();
+    }
+
+    public PositionReading position() {
+        String text = textOrNull();
+        if (text != null) {
+            return PositionRules.ofGeoPoint(text);
+        }
+        return typeIsPoint && coordinates >= 2 ? PositionRules.of(latitude, longitude) : PositionRules.NO_POINT;
+    }
+}

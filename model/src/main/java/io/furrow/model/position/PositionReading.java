@@ -1,0 +1,46 @@
+package io.furrow.model.position;
+
+import java.util.Optional;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * The position of an entity: {@code location} (geo:json Point in lon/lat order, or geo:point text "lat, lon"), else
+ * {@code Latitude} and {@code Longitude}, else FIROS' {@code gnss} or {@code pose} text (JSON with quotes escaped as
+ * {@code %27}). The first of these that is present decides. Out of range, not a number, or exactly 0,0 is no position.
+ */
+public sealed interface PositionReading {
+    /** The attributes that can hold a position. */
+    Set<String> ATTRIBUTES = Set.of("location", "Latitude", "Longitude", "gnss", "pose");
+
+    /** A position that can be used. */
+    record Located(Position position) implements PositionReading {}
+
+    /** The entity says nothing of its position. */
+    record Absent() implements PositionReading {}
+
+    /** The entity has a position that cannot be right; {@code fault} says why. */
+    record Faulty(String fault) implements PositionReading {}
+
+    static PositionReading of(Entity entity) {
+        Optional<JsonNode> location = entity.value("location");
+        if (location.isPresent()) {
+            return PositionRules.ofLocation(location.get());
+        }
+        if (entity.value("Latitude").isPresent() || entity.value("Longitude").isPresent()) {
+            return PositionRules.of(
+                    entity.number("Latitude").orElse(Double.NaN),
+                    entity.number("Longitude").orElse(Double.NaN));
+        }
+        Optional<String> firos = entity.text("gnss").or(() -> entity.text("pose"));
+        return firos.map(PositionRules::ofFiros).orElseGet(Absent::new);
+    }
+
+    /** The position, if there is one that can be used. */
+    default Optional<Position> usable() {
+        return this instanceof Located located ? Optional.of(located.position()) : Optional.empty();
+    }
+}

@@ -1,0 +1,2 @@
+/** Positions in entities. */
+package io.furrow.model.position;

@@ -1,0 +1,16 @@
+package io.furrow.model.result;
+
+/** Entities about the clocks of devices. */
+public final class ClockResult {
+    /** A device whose clock is behind. */
+    public static final String BEHIND_TYPE = ResultTypes.PREFIX + "ClockBehind";
+    /** How far the clock of a device is off. */
+    public static final String OFFSET_TYPE = ResultTypes.PREFIX + "ClockOffset";
+
+    /** Id of the device. */
+    public static final String DEVICE = "device";
+    /** Milliseconds that positions of {@link #BEHIND_TYPE} arrived too late. */
+    public static final String LATE = "late";
+
+    private ClockResult() {}
+}

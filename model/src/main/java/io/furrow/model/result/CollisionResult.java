@@ -1,0 +1,81 @@
+package io.furrow.model.result;
+
+/** Entities on {@code data.collision}: encounters of two devices, predictions and crossings. */
+public final class CollisionResult {
+    public static final String TYPE = ResultTypes.PREFIX + "Collision";
+    /** A grid cell with more devices than are compared. */
+    public static final String OVERFLOW_TYPE = ResultTypes.PREFIX + "CollisionOverflow";
+
+    /** Id of the encounter, the same in all its records. */
+    public static final String ENCOUNTER = "encounter";
+
+    /** {@link #STARTED}, {@link #ONGOING}, {@link #ENDED}, {@code predicted} and so on. */
+    public static final String PHASE = "phase";
+
+    public static final String STARTED = "started";
+    public static final String ONGOING = "ongoing";
+    public static final String ENDED = "ended";
+
+    /** Meters, at {@link #TIME}. */
+    public static final String DISTANCE = "distance";
+    /** Meters, the minimum so far. */
+    public static final String MIN_DISTANCE = "minDistance";
+    /** Epoch ms. */
+    public static final String TIME = "time";
+    /** Epoch ms. */
+    public static final String START_TIME = "startTime";
+    /** Seconds to the closest point of approach. */
+    public static final String TCPA = "tcpa";
+    /** Meters at the closest point of approach. */
+    public static final String DCPA = "dcpa";
+    /** Id of the prediction that an encounter confirms. */
+    public static final String CONFIRMS = "confirms";
+
+    /** Attributes of the device whose id is the lesser. */
+    public static final Member FIRST = new Member("Device1");
+    /** Attributes of the other device. */
+    public static final Member SECOND = new Member("Device2");
+
+    private CollisionResult() {}
+
+    /** Names of the attributes of one device of the pair. */
+    public static final class Member {
+        private final String id;
+        private final String latitude;
+        private final String longitude;
+        private final String timestamp;
+        private final String mission;
+
+        private Member(String prefix) {
+            id = prefix + "_ID";
+            latitude = prefix + "_latitude";
+            longitude = prefix + "_longitude";
+            timestamp = prefix + "_timestamp";
+            mission = prefix + "_Mission";
+        }
+
+        public String id() {
+            return id;
+        }
+
+        /** Degrees. */
+        public String latitude() {
+            return latitude;
+        }
+
+        /** Degrees. */
+        public String longitude() {
+            return longitude;
+        }
+
+        /** Of the position, epoch ms. */
+        public String timestamp() {
+            return timestamp;
+        }
+
+        /** Empty text where the device is on no mission. */
+        public String mission() {
+            return mission;
+        }
+    }
+}

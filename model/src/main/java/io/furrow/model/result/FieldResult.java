@@ -1,0 +1,47 @@
+package io.furrow.model.result;
+
+import java.util.Locale;
+
+/**
+ * Entities on {@code data.temperature}: the robust average of an attribute per field and window, and devices whose values are suspect. The
+ * average of {@code temperature} has the type {@code Analytics:FieldTemperature} and the attribute {@code averageTemperature}.
+ */
+public final class FieldResult {
+    /** Followed by the attribute's name, its first letter in upper case. */
+    public static final String TYPE_PREFIX = ResultTypes.PREFIX + "Field";
+
+    public static final String TEMPERATURE_TYPE = TYPE_PREFIX + "Temperature";
+    /** A device that was suspect in too many windows of its last ones. */
+    public static final String SUSPECT_TYPE = ResultTypes.PREFIX + "SuspectDevice";
+
+    /** Id of the field. */
+    public static final String FIELD = "field";
+    /** Number of devices that reported in the window. */
+    public static final String DEVICES = "devices";
+    /** Ids of the devices whose values were left out. */
+    public static final String SUSPECTS = "suspects";
+    /** Epoch ms, inclusive. */
+    public static final String WINDOW_START = "windowStart";
+    /** Epoch ms, exclusive. */
+    public static final String WINDOW_END = "windowEnd";
+    /** {@link #ROBUST} or {@link #UNVERIFIED}. */
+    public static final String QUALITY = "quality";
+
+    public static final String ROBUST = "robust";
+    /** Too few devices to determine which are suspect. */
+    public static final String UNVERIFIED = "unverified";
+
+    public static final String AVERAGE_TEMPERATURE = average("Temperature");
+
+    private FieldResult() {}
+
+    /** @param attribute as devices report it, for instance {@code temperature} */
+    public static String title(String attribute) {
+        return attribute.substring(0, 1).toUpperCase(Locale.ROOT) + attribute.substring(1);
+    }
+
+    /** @param title of {@link #title(String)} */
+    public static String average(String title) {
+        return "average" + title;
+    }
+}

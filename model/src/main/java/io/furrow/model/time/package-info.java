@@ -1,0 +1,2 @@
+/** Times in entities. */
+package io.furrow.model.time;

@@ -1,0 +1,88 @@
+package io.furrow.model.event;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.regex.Pattern;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.Notification;
+import io.furrow.model.ngsi.UnreadableException;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class NotificationRulesTest {
+    private static final Instant NOW = Instant.parse("2026-11-21T02:00:00Z");
+    private static final FiwareScope SCOPE = FiwareScope.of("farm", "/");
+    private static final NotificationRules RULES = new NotificationRules(
+            "fallback",
+            List.of(Pattern.compile("Analytics:.*"), Pattern.compile("Domain")),
+            EventTimeRule.within(Duration.ofMinutes(5)),
+            Origin.NOTIFICATION);
+
+    @Test
+    void createsARecordOfAChange() {
+        EntityRecord record = record(reported(-60));
+
+        assertThat(record.key()).isEqualTo("a");
+        assertThat(record.value()).isNotEmpty();
+        assertThat(record.time()).isEqualTo(NOW.minusSeconds(60));
+        assertThat(record.headers())
+                .containsEntry(HeaderNames.CE_SOURCE, "/ngsi/5f1")
+                .containsKey(HeaderNames.CE_ID);
+        assertThat(record.clockAhead()).isFalse();
+    }
+
+    @Test
+    void createsARecordWithoutValueOfADeletion() throws UnreadableException {
+        Notification notification = notification("""
+                {"subscriptionId": "5f1", "data": [{"id": "a", "type": "T", "alterationType": {"type": "Text", "value": "entityDelete"}}]}""");
+
+        EntityRecord record = record(notification.entities().get(0));
+
+        assertThat(record.value()).isNull();
+        assertThat(record.clockAhead()).isFalse();
+    }
+
+    @Test
+    void saysWhoseClockIsTooFarAhead() {
+        assertThat(record(reported(10)).clockAhead()).isFalse();
+        assertThat(record(reported(600)).clockAhead()).isTrue();
+        assertThat(record(reported(600)).time()).isEqualTo(NOW);
+    }
+
+    @Test
+    void excludesTypesThatMatchAsAWhole() {
+        assertThat(RULES.excludes(Entity.builder("a", "Analytics:Collision").build()))
+                .isTrue();
+        assertThat(RULES.excludes(Entity.builder("a", "Domain").build())).isTrue();
+        assertThat(RULES.excludes(Entity.builder("a", "DomainOfSomebody").build()))
+                .isFalse();
+    }
+
+    @Test
+    void namesTheSubscriptionOrItself() throws UnreadableException {
+        assertThat(RULES.source(notification("{\"subscriptionId\": \"5f1\", \"data\": []}")))
+                .isEqualTo("/ngsi/5f1");
+        assertThat(RULES.source(notification("{\"subscriptionId\": \"a b\", \"data\": []}")))
+                .isEqualTo("/ngsi/fallback");
+        assertThat(RULES.source(notification("{\"data\": []}"))).isEqualTo("/ngsi/fallback");
+    }
+
+    private static EntityRecord record(Entity entity) {
+        return RULES.record(entity, SCOPE, NOW, "/ngsi/5f1");
+    }
+
+    private static Entity reported(long secondsAhead) {
+        return Entity.builder("a", "T")
+                .integer("Time", NOW.plusSeconds(secondsAhead).toEpochMilli())
+                .build();
+    }
+
+    private static Notification notification(String json) throws UnreadableException {
+        return Notification.read(json.getBytes(StandardCharsets.UTF_8), null);
+    }
+}

@@ -1,0 +1,58 @@
+package io.furrow.connect.repair;
+
+import java.time.Instant;
+import java.util.Optional;
+
+import io.furrow.connect.repair.entity.EntityRecord;
+import io.furrow.connect.repair.entity.EntityState;
+import io.furrow.model.event.EntityDeletion;
+import io.furrow.model.event.EntityEvent;
+
+/** A change of which the source may have missed the notification. */
+public sealed interface MissedChange {
+    /** The current state of an entity. */
+    record Changed(EntityEvent event, EntityRecord record) implements MissedChange {
+        /** @param modified when the context broker stored it */
+        static Changed of(EntityEvent event, Instant modified) {
+            String identity = event.scope().identity(event.entity().id());
+            Optional<String> type = Optional.of(event.entity().type());
+            return new Changed(event, new EntityRecord(identity, type, event.id(), Optional.of(modified), false));
+        }
+    }
+
+    /** A deleted entity. */
+    record Deleted(EntityDeletion deletion) implements MissedChange {
+        @Override
+        public EntityRecord record() {
+            String identity = deletion.scope().identity(deletion.entityId());
+            return new EntityRecord(identity, Optional.empty(), deletion.id(), Optional.empty(), true);
+        }
+    }
+
+    /** An entity in the context broker that cannot be read. */
+    record Unreadable(EntityState state, Instant received) implements MissedChange {
+        @Override
+        public EntityRecord record() {
+            String eventId = "unreadable " + state.time().toEpochMilli();
+            return new EntityRecord(
+                    state.identity(), Optional.of(state.entity().type()), eventId, Optional.of(state.time()), false);
+        }
+
+        public String entityId() {
+            return state.entity().id();
+        }
+
+        /** The reason, for messages. */
+        public String problem() {
+            return state.problem().orElse("");
+        }
+    }
+
+    /** The properties of the resulting record. */
+    EntityRecord record();
+
+    /** Tenant, service path and id. */
+    default String identity() {
+        return record().identity();
+    }
+}

@@ -1,0 +1,18 @@
+package io.furrow.connect.repair.entity;
+
+import java.time.Instant;
+import java.util.Optional;
+
+import io.furrow.connect.repair.LastRecords;
+
+/**
+ * The properties of a record that {@link LastRecords} tracks.
+ *
+ * @param identity tenant, service path and id of the entity
+ * @param type of the entity; empty for any
+ * @param eventId {@code ce_id}
+ * @param modified when the context broker stored the state of the record; empty if unknown
+ * @param gone whether the record reports a deletion
+ */
+public record EntityRecord(
+        String identity, Optional<String> type, String eventId, Optional<Instant> modified, boolean gone) {}

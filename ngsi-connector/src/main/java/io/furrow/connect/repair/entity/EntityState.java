@@ -1,0 +1,35 @@
+package io.furrow.connect.repair.entity;
+
+import java.time.Instant;
+import java.util.Optional;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.Entity;
+
+/**
+ * An entity as stored in the context broker.
+ *
+ * @param entity only its id and type if it cannot be read
+ * @param time of modification or creation by which it was requested, whole milliseconds
+ * @param problem why it cannot be read, for messages; empty if it can
+ */
+public record EntityState(Entity entity, FiwareScope scope, Instant time, Optional<String> problem) {
+    EntityState(Entity entity, FiwareScope scope, Instant time) {
+        this(entity, scope, time, Optional.empty());
+    }
+
+    /** The identity of the entity without its type. */
+    public String identity() {
+        return scope.identity(entity.id());
+    }
+
+    /** The identity of the entity with its type. */
+    String key() {
+        return identity() + "|" + entity.type();
+    }
+
+    /** The identity of this state: the entity may change twice in a millisecond. */
+    String version() {
+        return key() + "|" + entity.json().hashCode();
+    }
+}

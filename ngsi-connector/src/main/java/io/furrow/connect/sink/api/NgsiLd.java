@@ -1,0 +1,184 @@
+package io.furrow.connect.sink.api;
+
+import java.time.Instant;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+
+import io.furrow.connect.LogText;
+import io.furrow.connect.broker.BrokerRequest;
+import io.furrow.connect.broker.Outcome;
+import io.furrow.connect.sink.Change;
+import io.furrow.connect.sink.EntityKey;
+import io.furrow.connect.sink.Update;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.time.Instants;
+
+/**
+ * NGSI-LD: {@code POST /ngsi-ld/v1/entityOperations/upsert?options=update}, and {@code …/delete}. Each attribute carries its event time as
+ * {@code observedAt}; one that has none counts as old as its {@code modifiedAt}.
+ *
+ * @param context URL of the {@code @context} that names the types and attributes; empty for the core context alone
+ */
+public record NgsiLd(String context) implements ContextBrokerApi {
+    private static final byte[] START = {'['};
+    private static final byte[] END = {']'};
+    /** The ids are part of the URL. */
+    private static final int IDS_PER_READ = 40;
+
+    private static final int MULTI_STATUS = 207;
+
+    private static final Set<String> NO_ATTRIBUTES =
+            Set.of("id", "type", "@context", "scope", "createdAt", "modifiedAt", "deletedAt", "expiresAt");
+    private static final String LINK_FORM =
+            "<%s>; rel=\"http://www.w3.org/ns/json-ld#context\"; type=\"application/ld+json\"";
+
+    @Override
+    public String name() {
+        return "ngsi-ld";
+    }
+
+    @Override
+    public String idOf(Update update) {
+        return NgsiLdForm.id(update.key().id(), update.type());
+    }
+
+    @Override
+    public byte[] render(Update update) {
+        return NgsiJson.write(NgsiLdForm.of(update));
+    }
+
+    @Override
+    public BrokerRequest write(FiwareScope scope, List<byte[]> elements) {
+        byte[] body = NgsiV2.joined(START, elements, END);
+        return scoped(BrokerRequest.post(scope, "/ngsi-ld/v1/entityOperations/upsert?options=update", body));
+    }
+
+    /**
+     * An answer 207 names each entity that was not written, and the reason; some context brokers also name the written
+     * ones.
+     */
+    @Override
+    public Map<String, String> refused(Outcome.Done answer, Collection<String> ids) throws UnreadableException {
+        if (answer.status() != MULTI_STATUS) {
+            return Map.of();
+        }
+        JsonNode body = answer.json();
+        Map<String, String> refused = new HashMap<>();
+        for (JsonNode error : body.path("errors")) {
+            JsonNode id = error.path("entityId");
+            String words = error.has("error") ? error.get("error").toString() : error.toString();
+            refused.put(id.isArray() ? id.path(0).asText() : id.asText(), LogText.beginning(words));
+        }
+        Set<String> told = new HashSet<>(refused.keySet());
+        body.path("success").forEach(success -> told.add(success.asText()));
+        boolean areAllErrorsOurs = !refused.isEmpty() && ids.containsAll(refused.keySet());
+        if (!areAllErrorsOurs && !told.containsAll(ids)) {
+            throw new UnreadableException(Reason.NOT_AN_ENTITY, "it does not tell which entities were refused");
+        }
+        return refused;
+    }
+
+    @Override
+    public BrokerRequest delete(EntityKey key) {
+        return scoped(BrokerRequest.delete(key.scope(), "/ngsi-ld/v1/entities/" + NgsiV2.encoded(key.id())));
+    }
+
+    @Override
+    public byte[] renderDeletion(EntityKey key) {
+        return NgsiJson.write(JsonNodeFactory.instance.textNode(key.id()));
+    }
+
+    @Override
+    public BrokerRequest delete(FiwareScope scope, List<byte[]> elements) {
+        byte[] body = NgsiV2.joined(START, elements, END);
+        return scoped(BrokerRequest.post(scope, "/ngsi-ld/v1/entityOperations/delete", body));
+    }
+
+    @Override
+    public BrokerRequest delete(EntityKey key, EntityTimes.Name attribute) {
+        String id = NgsiLdForm.id(key.id(), attribute.type());
+        String path =
+                "/ngsi-ld/v1/entities/%s/attrs/%s".formatted(NgsiV2.encoded(id), NgsiV2.encoded(attribute.attribute()));
+        return scoped(BrokerRequest.delete(key.scope(), path));
+    }
+
+    @Override
+    public int idsPerRead() {
+        return IDS_PER_READ;
+    }
+
+    /** With the types, because a query needs a type, an attribute or a query expression. */
+    @Override
+    public BrokerRequest read(FiwareScope scope, Map<String, ? extends Collection<String>> ids) {
+        Set<String> names = new HashSet<>();
+        Set<String> types = new HashSet<>();
+        ids.forEach((id, of) -> {
+            of.forEach(type -> names.add(NgsiLdForm.id(id, type)));
+            types.addAll(of);
+            if (of.isEmpty()) {
+                names.add(id);
+            }
+        });
+        String wanted = "&options=sysAttrs&limit=1000&id=" + list(names);
+        String query = types.isEmpty() ? "local=true" : "type=" + list(types);
+        return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + wanted));
+    }
+
+    private static String list(Set<String> names) {
+        return names.stream().sorted().map(NgsiV2::encoded).collect(Collectors.joining(","));
+    }
+
+    @Override
+    public Map<String, EntityTimes> times(Collection<String> asked, Outcome.Done answer) throws UnreadableException {
+        Map<String, EntityTimes> found = new HashMap<>();
+        for (JsonNode entity : answer.list()) {
+            String type = entity.path("type").asText();
+            String id = entity.path("id").asText();
+            for (String key : asked) {
+                if (id.equals(NgsiLdForm.id(key, type)) || id.equals(key)) {
+                    addTimes(entity, type, found.computeIfAbsent(key, any -> new EntityTimes()));
+                }
+            }
+        }
+        return found;
+    }
+
+    private static void addTimes(JsonNode entity, String type, EntityTimes times) {
+        for (Map.Entry<String, JsonNode> attribute : entity.properties()) {
+            if (!NO_ATTRIBUTES.contains(attribute.getKey())) {
+                JsonNode value = attribute.getValue();
+                long newest = Change.NO_TIME;
+                for (JsonNode instance : value.isArray()
+                        ? value
+                        : JsonNodeFactory.instance.arrayNode().add(value)) {
+                    newest = Math.max(newest, time(instance));
+                }
+                times.put(type, attribute.getKey(), newest);
+            }
+        }
+    }
+
+    private static long time(JsonNode instance) {
+        return Instants.of(instance.path("observedAt"))
+                .or(() -> Instants.of(instance.path("modifiedAt")))
+                .map(Instant::toEpochMilli)
+                .orElse(Change.NO_TIME);
+    }
+
+    private BrokerRequest scoped(BrokerRequest request) {
+        String service = request.scope().service();
+        BrokerRequest named = service.isEmpty() ? request : request.withHeader("NGSILD-Tenant", service);
+        return context.isEmpty() ? named : named.withHeader("Link", LINK_FORM.formatted(context));
+    }
+}

@@ -1,0 +1,76 @@
+package io.furrow.connect.source.journal;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.CompletableFuture;
+
+import io.furrow.connect.repair.LiveEvents;
+import io.furrow.connect.repair.entity.EntityRecord;
+import io.furrow.connect.source.OutgoingRecord;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.event.HeaderNames;
+
+/** Notifies the repair about records that arrive by notification. */
+public final class TrackedRecordLog implements RecordLog {
+    /** The entities that the repair tracks; thread-safe. */
+    public interface Entities {
+        boolean covers(FiwareScope scope);
+
+        /** A record of an entity was appended to the topic. */
+        void note(FiwareScope scope, String id, boolean gone);
+    }
+
+    private final JournalRecordLog intake;
+    private final LiveEvents live;
+    private final Entities entities;
+
+    public TrackedRecordLog(JournalRecordLog intake, LiveEvents live, Entities entities) {
+        this.intake = intake;
+        this.live = live;
+        this.entities = entities;
+    }
+
+    @Override
+    public Optional<CompletableFuture<Void>> take(List<OutgoingRecord> records) {
+        String subscription = "";
+        List<OutgoingRecord> events = new ArrayList<>(records.size());
+        List<EntityRecord> covered = new ArrayList<>(records.size());
+        for (OutgoingRecord record : records) {
+            if (record.version() != null) {
+                FiwareScope scope = scope(record.headers());
+                subscription = subscription(record.headers());
+                if (entities.covers(scope)) {
+                    events.add(record);
+                    covered.add(entity(record, scope));
+                }
+            }
+        }
+        List<byte[]> payloads = records.stream().map(JournalRecordCodec::write).toList();
+        return live.append(subscription, covered, () -> intake.append(payloads))
+                .map(durable -> durable.thenRun(() -> events.forEach(this::note)));
+    }
+
+    private void note(OutgoingRecord record) {
+        entities.note(scope(record.headers()), record.key(), record.value() == null);
+    }
+
+    private static EntityRecord entity(OutgoingRecord record, FiwareScope scope) {
+        return new EntityRecord(
+                scope.identity(record.key()),
+                Optional.of(record.version().type()),
+                record.headers().get(HeaderNames.CE_ID),
+                record.version().modified(),
+                record.value() == null);
+    }
+
+    private static String subscription(Map<String, String> headers) {
+        String source = headers.get(HeaderNames.CE_SOURCE);
+        return source.substring(source.lastIndexOf('/') + 1);
+    }
+
+    private static FiwareScope scope(Map<String, String> headers) {
+        return new FiwareScope(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH));
+    }
+}

@@ -1,0 +1,90 @@
+package io.furrow.connect.source.option;
+
+import java.util.List;
+import java.util.Set;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
+
+import org.apache.kafka.common.config.AbstractConfig;
+import org.apache.kafka.common.config.ConfigDef;
+import org.apache.kafka.common.config.ConfigException;
+import org.apache.kafka.common.config.types.Password;
+
+import io.furrow.connect.OptionGroup;
+import io.furrow.connect.Validators;
+
+import static java.util.regex.Pattern.compile;
+
+/** Options for the authentication of senders. */
+public record SecurityOptions(AbstractConfig config) {
+    static final String SECRET_HEADER = "secret.header";
+    static final String SECRET = "secret";
+    static final String SECRET_PREVIOUS = "secret.previous";
+    static final String ALLOWED_TENANTS = "allowed.tenants";
+
+    /** Stands for a notification without a tenant; no tenant can have this name. */
+    static final String NO_TENANT = "-";
+
+    public SecurityOptions {
+        if (config.getPassword(SECRET).value().isEmpty()
+                && !config.getPassword(SECRET_PREVIOUS).value().isEmpty()) {
+            throw new ConfigException(SECRET_PREVIOUS, Password.HIDDEN, "needs " + SECRET + " beside it");
+        }
+    }
+
+    public static void define(ConfigDef options) {
+        OptionGroup group = new OptionGroup(options, "Security");
+        group.text(
+                SECRET_HEADER,
+                "X-Furrow-Secret",
+                Validators.matching(compile("[A-Za-z0-9-]{1,64}"), "the name of an HTTP header"),
+                "Header",
+                "Header whose value must be the secret. With Authorization the secret is the whole value, Bearer"
+                        + " included.");
+        secret(group, SECRET, "Secret that each notification must carry, else it is answered 401. Empty for none.");
+        secret(group, SECRET_PREVIOUS, "Second secret that is accepted while senders change to the first.");
+        group.list(
+                ALLOWED_TENANTS,
+                "",
+                ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "names separated by commas"),
+                "Tenants",
+                "Tenants (fiware-service) whose notifications are accepted, " + NO_TENANT
+                        + " for those without one; others are answered 403, counted and not stored. Empty for all.");
+    }
+
+    private static void secret(OptionGroup group, String name, String documentation) {
+        group.high()
+                .secret(
+                        name,
+                        "",
+                        ConfigDef.LambdaValidator.with(SecurityOptions::requireHeaderValue, () -> "printable ASCII"),
+                        name.equals(SECRET) ? "Secret" : "Previous secret",
+                        documentation);
+    }
+
+    private static void requireHeaderValue(String name, Object value) {
+        String text = ((Password) value).value();
+        if (!text.chars().allMatch(sign -> sign >= ' ' && sign <= '~') || !text.equals(text.strip())) {
+            throw new ConfigException(name, Password.HIDDEN, "printable ASCII without spaces around it is expected");
+        }
+    }
+
+    public String secretHeader() {
+        return config.getString(SECRET_HEADER);
+    }
+
+    /** The accepted secrets; empty if none is required. */
+    public List<Password> secrets() {
+        return Stream.of(SECRET, SECRET_PREVIOUS)
+                .map(config::getPassword)
+                .filter(secret -> !secret.value().isEmpty())
+                .toList();
+    }
+
+    /** In lower case, the empty text for no tenant; empty if all are allowed. */
+    public Set<String> allowedTenants() {
+        return config.getList(ALLOWED_TENANTS).stream()
+                .map(tenant -> tenant.equals(NO_TENANT) ? "" : tenant.toLowerCase(java.util.Locale.ROOT))
+                .collect(Collectors.toUnmodifiableSet());
+    }
+}

@@ -1,0 +1,198 @@
+package io.furrow.connect.repair.entity;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardOpenOption;
+import java.time.Instant;
+import java.util.Set;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.connect.repair.Watermark;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class KnownEntitiesTest {
+    /** Of an identity of four signs. */
+    private static final int BYTES = 104 + 2 * 4;
+
+    @TempDir
+    private Path folder;
+
+    private KnownEntities open() throws IOException {
+        return KnownEntities.open(folder.resolve("known"), 3 * BYTES);
+    }
+
+    @Test
+    void knowsAfterARestartWhatCameAndWasNotDeleted() throws IOException {
+        try (KnownEntities known = open()) {
+            known.add("|/|a");
+            known.add("|/|b");
+            known.add("|/|a");
+            known.remove("|/|a");
+        }
+
+        try (KnownEntities known = open()) {
+            assertThat(known.copy()).isEqualTo(Set.of("|/|b"));
+        }
+        assertThat(folder.resolve("known")).hasContent("+|/|b");
+    }
+
+    @Test
+    void leavesOutALineThatWasNotFinished() throws IOException {
+        try (KnownEntities known = open()) {
+            known.add("|/|w");
+        }
+        Files.writeString(folder.resolve("known"), "+|/|hal", StandardOpenOption.APPEND);
+
+        try (KnownEntities known = open()) {
+            assertThat(known.copy()).isEqualTo(Set.of("|/|w"));
+        }
+    }
+
+    @Test
+    void keepsLineBreaksAndBackslashesOfAnId() throws IOException {
+        Set<String> strange = Set.of("|/|one\n+|/|two", "|/|a\r\nb", "|/|\\n", "|/|100%0A\r");
+        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
+            for (String identity : strange) {
+                known.add(identity);
+            }
+            known.add("|/|gone\n+x");
+            known.remove("|/|gone\n+x");
+        }
+
+        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
+            assertThat(known.copy()).isEqualTo(strange);
+        }
+    }
+
+    @Test
+    void leavesOutLinesThatAreNoIdentity() throws IOException {
+        Files.writeString(folder.resolve("known"), "+x\n+|/|a\n+\n-x\n");
+
+        try (KnownEntities known = open()) {
+            assertThat(known.copy()).isEqualTo(Set.of("|/|a"));
+        }
+    }
+
+    @Test
+    void beginsAnewWithAFileThatIsNotItsOwn() throws IOException {
+        Files.write(folder.resolve("known"), new byte[] {(byte) 0xff, '\n', (byte) 0xfe, '\n'});
+
+        try (KnownEntities known = open()) {
+            assertThat(known.copy()).isEmpty();
+        }
+    }
+
+    @Test
+    void knowsNoneOfMoreThanItCanKnow() throws IOException {
+        try (KnownEntities known = open()) {
+            for (int i = 0; i < 4; i++) {
+                known.add("|/|" + i);
+            }
+            assertThat(known.isOverfull()).isTrue();
+            assertThat(known.copy()).isEmpty();
+        }
+
+        try (KnownEntities known = open()) {
+            known.add("|/|0");
+            assertThat(known.isOverfull()).isTrue();
+            assertThat(known.size()).isZero();
+        }
+    }
+
+    @Test
+    void takesNoMoreOfTheDiskThanItsEntitiesNeedHoweverManyComeAndGo() throws IOException {
+        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
+            known.add("|/|stays");
+            for (int i = 0; i < 200_000; i++) {
+                known.add("|/|urn:" + i);
+                known.remove("|/|urn:" + i);
+                if (i % 10_000 == 0) {
+                    known.flush();
+                }
+            }
+            known.flush();
+
+            assertThat(Files.size(folder.resolve("known"))).isLessThan(2 << 20);
+        }
+        try (KnownEntities known = KnownEntities.open(folder.resolve("known"), 1 << 20)) {
+            assertThat(known.copy()).containsExactly("|/|stays");
+        }
+    }
+
+    @Test
+    void isWrittenAnewWhileEntitiesComeAndGo() throws Exception {
+        Path file = folder.resolve("known");
+        try (KnownEntities known = KnownEntities.open(file, 1 << 26)) {
+            Thread writer = new Thread(() -> {
+                for (int i = 0; i < 100_000; i++) {
+                    try {
+                        known.add("|/|urn:" + i);
+                        if (i % 10 > 0) {
+                            known.remove("|/|urn:" + i);
+                        }
+                    } catch (IOException e) {
+                        throw new java.io.UncheckedIOException(e);
+                    }
+                }
+            });
+            writer.start();
+            while (writer.isAlive()) {
+                known.flush();
+            }
+            writer.join();
+        }
+
+        try (KnownEntities known = KnownEntities.open(file, 1 << 26)) {
+            assertThat(known.copy()).hasSize(10_000).allMatch(identity -> identity.endsWith("0"));
+        }
+    }
+
+    @Test
+    void keepsWhatHasToBeReadAgainUntilAllOfItWas() throws IOException {
+        try (KnownEntities known = open()) {
+            known.markStale("|/|a");
+        }
+        try (KnownEntities known = open()) {
+            assertThat(known.stale()).containsExactly("|/|a");
+            Set<String> read = known.stale();
+            known.markStale("|/|b");
+            known.settle(read);
+        }
+        try (KnownEntities known = open()) {
+            assertThat(known.stale()).containsExactlyInAnyOrder("|/|a", "|/|b");
+            known.settle(known.stale());
+        }
+        try (KnownEntities known = open()) {
+            assertThat(known.stale()).isEmpty();
+        }
+    }
+
+    @Test
+    void keepsAWatermarkThatNeverMovesBack() throws IOException {
+        Instant time = Instant.parse("2026-11-21T12:00:00Z");
+        Path file = folder.resolve("watermark");
+        assertThat(Watermark.open(file).time()).isEmpty();
+
+        Watermark watermark = Watermark.open(file);
+        watermark.advanceTo(time);
+        watermark.advanceTo(time.minusSeconds(1));
+
+        assertThat(Watermark.open(file).time()).contains(time);
+        Files.write(file, "no time".getBytes(StandardCharsets.UTF_8));
+        assertThat(Watermark.open(file).time()).isEmpty();
+    }
+
+    @Test
+    void takesAnIdentityApart() {
+        var scope = new io.furrow.model.event.FiwareScope("agri", "/a%|b");
+        String identity = scope.identity("urn:x|y");
+
+        assertThat(Identities.scope(identity)).isEqualTo(scope);
+        assertThat(Identities.id(identity)).isEqualTo("urn:x|y");
+    }
+}

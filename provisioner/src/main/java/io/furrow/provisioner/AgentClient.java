@@ -1,0 +1,241 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.URLEncoder;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.LinkedHashSet;
+import java.util.List;
+import java.util.Optional;
+import java.util.Set;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
+
+/**
+ * The provisioning interface of an IoT Agent JSON. Each call is one attempt of at most ten seconds. {@link IOException} means that
+ * the agent is unavailable: no answer, 429, what it cannot have answered, or, as {@link AgentFaultException}, 5xx;
+ * {@link RefusedByAgentException} any other refusal. The scopes name a tenant: the agent has no default one.
+ */
+final class AgentClient {
+    private static final Duration TIMEOUT = Duration.ofSeconds(10);
+    private static final int PAGE = 500;
+    private static final int MAX_QUOTE_LENGTH = 300;
+    private static final String DEVICES = "/iot/devices";
+    private static final String GROUPS = "/iot/services";
+    private static final int CONFLICT = 409;
+    private static final int NOT_FOUND = 404;
+    private static final int TOO_MANY = 429;
+    private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
+
+    private final HttpClient http = HttpClient.newBuilder()
+            .version(HttpClient.Version.HTTP_1_1)
+            .connectTimeout(TIMEOUT)
+            .build();
+    private final String base;
+    private final String resource;
+
+    AgentClient(AgentSettings agent) {
+        this.base = agent.base().toString().replaceAll("/+$", "");
+        this.resource = agent.resource();
+    }
+
+    /**
+     * A service group.
+     *
+     * @param domain static attribute; null if it has none
+     * @param mission static attribute; null if it has none
+     */
+    record Group(String apiKey, String resource, String domain, String mission) {}
+
+    /** The group that a device needs. */
+    Group groupOf(Registration device) {
+        return new Group(device.apiKey(), resource, device.domain(), device.mission());
+    }
+
+    boolean isOfItsResource(Group group) {
+        return group.resource().equals(resource);
+    }
+
+    List<Registration> devices(FiwareScope scope) throws IOException, RefusedByAgentException, InterruptedException {
+        return all(scope, DEVICES, "devices").stream().map(Registration::read).toList();
+    }
+
+    /** Empty if there is no device of this id. */
+    Optional<Registration> device(FiwareScope scope, String id)
+            throws IOException, RefusedByAgentException, InterruptedException {
+        Answer answer = send(scope, "GET", DEVICES + "/" + encoded(id), null);
+        if (answer.says("DEVICE_NOT_FOUND")) {
+            return Optional.empty();
+        }
+        answer.check();
+        return Optional.of(Registration.read(answer.json()));
+    }
+
+    List<Group> groups(FiwareScope scope) throws IOException, RefusedByAgentException, InterruptedException {
+        return all(scope, GROUPS, "services").stream()
+                .map(json -> new Group(
+                        json.path("apikey").asText(),
+                        json.path("resource").asText(""),
+                        null,
+                        Registration.mission(json)))
+                .toList();
+    }
+
+    /** Page by page, until one brings nothing new: the list of groups comes as a whole whichever page is asked for. */
+    private Set<JsonNode> all(FiwareScope scope, String path, String list)
+            throws IOException, RefusedByAgentException, InterruptedException {
+        Set<JsonNode> all = new LinkedHashSet<>();
+        boolean more = true;
+        while (more) {
+            Answer answer = send(scope, "GET", "%s?limit=%d&offset=%d".formatted(path, PAGE, all.size()), null);
+            if (answer.says("DEVICE_GROUP_NOT_FOUND")) { // so the agent says that a tenant has no groups
+                return all;
+            }
+            answer.check();
+            List<JsonNode> page = answer.members(list);
+            more = all.addAll(page) && page.size() >= PAGE;
+        }
+        return all;
+    }
+
+    /**
+     * Makes a service group whose devices are those only that are provisioned.
+     *
+     * @return false if the agent has a group of this resource and API key, in this scope or in another
+     */
+    boolean add(FiwareScope scope, Group group) throws IOException, RefusedByAgentException, InterruptedException {
+        ObjectNode json = NODES.objectNode()
+                .put("apikey", group.apiKey())
+                .put("resource", group.resource())
+                .put("entity_type", "Thing")
+                .put("autoprovision", false);
+        Registration.fix(json, group.domain(), group.mission());
+        Answer answer = send(scope, "POST", GROUPS, list("services", List.of(json)));
+        if (answer.status() == CONFLICT) {
+            return false;
+        }
+        answer.check();
+        return true;
+    }
+
+    /** Makes devices. Where the agent refuses, fails or does not answer, it may have made some, and may be making others still. */
+    void add(FiwareScope scope, List<Registration> devices)
+            throws IOException, RefusedByAgentException, InterruptedException {
+        List<ObjectNode> bodies = devices.stream().map(Registration::toJson).toList();
+        send(scope, "POST", DEVICES, list("devices", bodies)).check();
+    }
+
+    /** Removes a device; one that is gone already is as good. */
+    void removeDevice(FiwareScope scope, String device)
+            throws IOException, RefusedByAgentException, InterruptedException {
+        removed(send(scope, "DELETE", DEVICES + "/" + encoded(device), null));
+    }
+
+    /** Removes a service group; one that is gone already is as good. */
+    void remove(FiwareScope scope, Group group) throws IOException, RefusedByAgentException, InterruptedException {
+        removed(send(
+                scope,
+                "DELETE",
+                "%s?resource=%s&apikey=%s".formatted(GROUPS, encoded(group.resource()), encoded(group.apiKey())),
+                null));
+    }
+
+    private static void removed(Answer answer) throws RefusedByAgentException {
+        if (answer.status() != NOT_FOUND) {
+            answer.check();
+        }
+    }
+
+    private static ObjectNode list(String name, List<ObjectNode> members) {
+        ArrayNode array = NODES.arrayNode().addAll(members);
+        return NODES.objectNode().set(name, array);
+    }
+
+    private static String encoded(String text) {
+        return URLEncoder.encode(text, StandardCharsets.UTF_8).replace("+", "%20");
+    }
+
+    private record Answer(String request, int status, byte[] body) {
+        void check() throws RefusedByAgentException {
+            if (status / 100 != 2) {
+                throw new RefusedByAgentException(toString());
+            }
+        }
+
+        /** Whether it is the refusal of this name. */
+        boolean says(String name) {
+            try {
+                return status == NOT_FOUND
+                        && NgsiJson.read(body).path("name").asText().equals(name);
+            } catch (UnreadableException e) { // a page of another server
+                return false;
+            }
+        }
+
+        List<JsonNode> members(String list) throws IOException {
+            if (json().path(list) instanceof ArrayNode array) {
+                List<JsonNode> members = new ArrayList<>();
+                array.forEach(members::add);
+                return members;
+            }
+            throw new IOException("%s, without a list '%s'; is it an IoT Agent?".formatted(this, list));
+        }
+
+        JsonNode json() throws IOException {
+            try {
+                return NgsiJson.read(body);
+            } catch (UnreadableException e) {
+                throw new IOException(this + ", which is not JSON; is it an IoT Agent?", e);
+            }
+        }
+
+        @Override
+        public String toString() {
+            String text = new String(body, StandardCharsets.UTF_8);
+            text = text.substring(0, Math.min(text.length(), MAX_QUOTE_LENGTH));
+            return "the IoT Agent answers %d to %s: %s".formatted(status, request, text);
+        }
+    }
+
+    private Answer send(FiwareScope scope, String method, String path, JsonNode body)
+            throws IOException, InterruptedException {
+        HttpRequest.Builder request = HttpRequest.newBuilder(URI.create(base + path))
+                .timeout(TIMEOUT)
+                .header("fiware-service", scope.service())
+                .header("fiware-servicepath", scope.servicePath());
+        if (body != null) {
+            request.header("Content-Type", "application/json");
+        }
+        request.method(
+                method,
+                body == null
+                        ? HttpRequest.BodyPublishers.noBody()
+                        : HttpRequest.BodyPublishers.ofByteArray(NgsiJson.write(body)));
+        HttpResponse<byte[]> response;
+        try {
+            response = http.send(request.build(), HttpResponse.BodyHandlers.ofByteArray());
+        } catch (IOException e) {
+            throw new IOException("the IoT Agent does not answer at %s; is it running?".formatted(base), e);
+        }
+        Answer answer = new Answer(method + " " + base + path, response.statusCode(), response.body());
+        if (answer.status() / 100 == 5) {
+            throw new AgentFaultException(answer.toString());
+        }
+        if (answer.status() == TOO_MANY) {
+            throw new IOException(answer.toString());
+        }
+        return answer;
+    }
+}

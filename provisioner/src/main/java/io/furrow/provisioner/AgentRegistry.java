@@ -1,0 +1,236 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+
+import io.furrow.model.event.FiwareScope;
+import io.furrow.provisioner.AgentClient.Group;
+
+/**
+ * The groups and devices that the IoT Agent has in one scope: read once, then updated with what is changed. Changes only what was made
+ * with one of our API keys; what others have provisioned stays.
+ */
+final class AgentRegistry {
+    private final AgentClient agent;
+    private final FiwareScope scope;
+    private final Registrations registrations;
+    private final Map<String, Registration> devices = new HashMap<>();
+    /** Resource and API key of each group. */
+    private final Set<GroupKey> groups = new HashSet<>();
+
+    private final Map<GroupKey, Group> ownGroups = new LinkedHashMap<>();
+
+    private record GroupKey(String resource, String apiKey) {
+        static GroupKey of(Group group) {
+            return new GroupKey(group.resource(), group.apiKey());
+        }
+    }
+
+    private AgentRegistry(AgentClient agent, FiwareScope scope, Registrations registrations) {
+        this.agent = agent;
+        this.scope = scope;
+        this.registrations = registrations;
+    }
+
+    /** Reads what the agent has. */
+    static AgentRegistry read(AgentClient agent, FiwareScope scope, Registrations registrations)
+            throws IOException, RefusedByAgentException, InterruptedException {
+        AgentRegistry registry = new AgentRegistry(agent, scope, registrations);
+        registry.readDevices();
+        registry.readGroups();
+        return registry;
+    }
+
+    private void readDevices() throws IOException, RefusedByAgentException, InterruptedException {
+        List<Registration> all = agent.devices(scope);
+        devices.clear();
+        all.forEach(device -> devices.put(device.device(), device));
+    }
+
+    private void readGroups() throws IOException, RefusedByAgentException, InterruptedException {
+        List<Group> all = agent.groups(scope);
+        groups.clear();
+        ownGroups.clear();
+        for (Group group : all) {
+            groups.add(GroupKey.of(group));
+            if (registrations.isOurs(group.apiKey(), group.mission())) {
+                ownGroups.put(GroupKey.of(group), group);
+            }
+        }
+    }
+
+    /** Whether the agent knows a device as it is desired, and finds it by its group. */
+    boolean has(Registration device) {
+        return device.equals(devices.get(device.device())) && groups.contains(GroupKey.of(agent.groupOf(device)));
+    }
+
+    /**
+     * Makes devices known, as far as the budget goes, and first the groups they need.
+     *
+     * @return why the agent did not take those that it refused; of the others {@link #has} says which it has now
+     */
+    Map<Registration, String> add(List<Registration> batch, StepBudget budget)
+            throws IOException, InterruptedException {
+        Map<Registration, String> refused = new LinkedHashMap<>();
+        List<Registration> missing = new ArrayList<>();
+        for (Registration device : batch) {
+            if (budget.isSpent()) {
+                break;
+            }
+            try {
+                prepare(device);
+                if (!has(device)) {
+                    missing.add(device);
+                }
+            } catch (RefusedByAgentException e) {
+                refused.put(device, e.getMessage());
+            }
+        }
+        if (missing.isEmpty()) {
+            return refused;
+        }
+        try {
+            agent.add(scope, missing);
+            missing.forEach(device -> devices.put(device.device(), device));
+        } catch (RefusedByAgentException | AgentFaultException e) {
+            // One of them is the cause; the others shall not wait for it.
+            addSingly(missing, budget, refused);
+        }
+        return refused;
+    }
+
+    /** Adds what the agent has not made of a batch; it is unavailable if it fails on every device. */
+    private void addSingly(List<Registration> batch, StepBudget budget, Map<Registration, String> refused)
+            throws IOException, InterruptedException {
+        try {
+            readDevices();
+        } catch (RefusedByAgentException e) {
+            throw new IOException(e.getMessage(), e);
+        }
+        Map<Registration, AgentFaultException> faults = new LinkedHashMap<>();
+        int answered = 0;
+        for (Registration device : batch) {
+            if (has(device)) {
+                answered++;
+            } else if (!budget.isSpent()) {
+                try {
+                    addOne(device);
+                    answered++;
+                } catch (RefusedByAgentException e) {
+                    refused.put(device, e.getMessage());
+                    answered++;
+                } catch (AgentFaultException e) {
+                    faults.put(device, e);
+                }
+            }
+        }
+        if (answered == 0 && !faults.isEmpty()) {
+            throw faults.values().iterator().next();
+        }
+        faults.forEach((device, fault) -> refused.put(device, fault.getMessage()));
+    }
+
+    /** The agent may still have been making it when it answered for the batch. */
+    private void addOne(Registration device) throws IOException, RefusedByAgentException, InterruptedException {
+        try {
+            agent.add(scope, List.of(device));
+        } catch (RefusedByAgentException e) {
+            if (!agent.device(scope, device.device()).filter(device::equals).isPresent()) {
+                throw e;
+            }
+        }
+        devices.put(device.device(), device);
+    }
+
+    /** Sees to it that nothing stands in the way of a device, and that its group is there. */
+    private void prepare(Registration device) throws IOException, RefusedByAgentException, InterruptedException {
+        Registration there = devices.get(device.device());
+        if (there != null && !registrations.isOurs(there.apiKey(), there.mission())) {
+            throw new RefusedByAgentException(
+                    "somebody else has provisioned a device '%s' at the IoT Agent; remove it there, or give this one another id"
+                            .formatted(device.device()));
+        }
+        Group group = agent.groupOf(device);
+        if (!groups.contains(GroupKey.of(group))) {
+            add(group);
+        }
+        if (there != null && !there.equals(device)) {
+            agent.removeDevice(scope, device.device());
+            devices.remove(device.device());
+        }
+    }
+
+    private void add(Group group) throws IOException, RefusedByAgentException, InterruptedException {
+        if (agent.add(scope, group)) {
+            groups.add(GroupKey.of(group));
+            ownGroups.put(GroupKey.of(group), group);
+            return;
+        }
+        readGroups();
+        if (!groups.contains(GroupKey.of(group))) {
+            throw new RefusedByAgentException(
+                    "the IoT Agent has a service group with the API key of mission '%s' and resource '%s' in another service or service path; remove it there"
+                            .formatted(group.mission(), group.resource()));
+        }
+    }
+
+    /**
+     * Removes, as far as the budget goes, our devices that are not desired, and our groups that no device needs.
+     *
+     * @return why the agent did not remove one, null if it did; the others are removed
+     */
+    String remove(Set<String> desired, Set<String> apiKeys, StepBudget budget)
+            throws IOException, InterruptedException {
+        String failure = null;
+        for (Registration device : leftovers(desired)) {
+            if (budget.isSpent()) {
+                return failure;
+            }
+            try {
+                agent.removeDevice(scope, device.device());
+                devices.remove(device.device());
+            } catch (RefusedByAgentException | AgentFaultException e) {
+                failure = e.getMessage();
+            }
+        }
+        for (Group group : unneeded(apiKeys)) {
+            boolean empty =
+                    leftovers(desired).stream().noneMatch(left -> left.apiKey().equals(group.apiKey()));
+            if (empty && !budget.isSpent()) {
+                try {
+                    agent.remove(scope, group);
+                    groups.remove(GroupKey.of(group));
+                    ownGroups.remove(GroupKey.of(group));
+                } catch (RefusedByAgentException | AgentFaultException e) {
+                    failure = e.getMessage();
+                }
+            }
+        }
+        return failure;
+    }
+
+    /** Whether all of ours that is here is desired. */
+    boolean isClean(Set<String> desired, Set<String> apiKeys) {
+        return leftovers(desired).isEmpty() && unneeded(apiKeys).isEmpty();
+    }
+
+    private List<Registration> leftovers(Set<String> desired) {
+        return devices.values().stream()
+                .filter(device -> !desired.contains(device.device()))
+                .filter(device -> registrations.isOurs(device.apiKey(), device.mission()))
+                .toList();
+    }
+
+    /** Groups of missions that have no devices, and of a resource that was set before. */
+    private List<Group> unneeded(Set<String> apiKeys) {
+        return ownGroups.values().stream()
+                .filter(group -> !apiKeys.contains(group.apiKey()) || !agent.isOfItsResource(group))
+                .toList();
+    }
+}

@@ -1,0 +1,211 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.function.LongSupplier;
+import java.util.stream.Collectors;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.provisioner.account.DeviceAccounts;
+
+/**
+ * Reconciles IoT Agent and MQTT brokers with the desired devices, one step at a time. New devices: first the agent, so
+ * that it knows whose measure it gets, then the accounts, without which no measure comes. Unwanted ones: the other way
+ * round.
+ */
+final class Provisioning {
+    private static final Logger LOG = LoggerFactory.getLogger(Provisioning.class);
+    /** With a request that takes its ten seconds at the end this is far from the consumer's {@code max.poll.interval.ms}. */
+    static final Duration STEP = Duration.ofSeconds(5);
+
+    private final AgentClient agent;
+    private final Registrations registrations;
+    private final SecretSource secret;
+    private final DeviceAccounts accounts;
+    private final WantedDevices wanted;
+    private final LongSupplier nanos;
+    private final BatchSize batchSize = new BatchSize();
+    private final Map<FiwareScope, AgentRegistry> registries = new HashMap<>();
+    private final Map<Registration, String> held = new HashMap<>();
+    private FarmSecret used;
+    private boolean verified;
+
+    Provisioning(ProvisioningSettings settings, WantedDevices wanted, LongSupplier nanos) {
+        this.agent = new AgentClient(settings.agent());
+        this.registrations = new Registrations(settings.secret());
+        this.secret = settings.secret();
+        this.accounts = new DeviceAccounts(settings);
+        this.wanted = wanted;
+        this.nanos = nanos;
+    }
+
+    /**
+     * What came of a step.
+     *
+     * @param refused why, by key of the device
+     * @param stuck why something that is no longer wanted could not be removed; null if nothing was in the way
+     * @param done whether nothing is left to be done but what was refused or is stuck
+     */
+    record Outcome(Map<String, String> refused, String stuck, boolean done) {}
+
+    /** Asks the agent again before the next step, and offers it again what it has refused. */
+    void lookAgain() {
+        registries.clear();
+        held.clear();
+        accounts.retryRefused();
+        verified = false;
+    }
+
+    /** The same, and takes nothing of the accounts for granted. */
+    void startAnew() {
+        lookAgain();
+        accounts.startAnew();
+    }
+
+    /** Whether the farm's secret is another than at the last step: it was rotated, or the time of an older key is over. */
+    boolean isSecretChanged() {
+        return !secret.get().equals(used);
+    }
+
+    /**
+     * Does some of what is to be done: at most a batch of devices in each scope, and begins no request after {@link #STEP}.
+     *
+     * @throws IOException if the agent or a broker is unavailable, or does not let itself be asked, or the secret is not the farm's
+     */
+    Outcome step() throws IOException, InterruptedException {
+        if (!verified) {
+            secret.verify();
+            verified = true;
+        }
+        FarmSecret now = secret.get();
+        if (!now.equals(used)) {
+            LOG.info(
+                    "the MQTT brokers are to accept passwords of the keys {} of the farm's secret", now.acceptedKeys());
+        }
+        used = now;
+        accounts.revoke(wanted.all().values());
+        Map<String, String> refused = new TreeMap<>();
+        Map<String, Registration> there = new LinkedHashMap<>();
+        StepBudget budget = new StepBudget(STEP, nanos);
+        boolean added = true;
+        for (FiwareScope scope : wanted.scopes()) {
+            added &= add(scope, budget, there, refused);
+        }
+        Map<String, WantedDevice> known = new LinkedHashMap<>();
+        there.keySet().forEach(key -> known.put(key, wanted.all().get(key)));
+        refused.putAll(accounts.grant(known, added));
+        wanted.provisioned(there.keySet());
+        boolean removed = true;
+        String stuck = null;
+        for (FiwareScope scope : wanted.scopes()) {
+            if (Registrations.hasTenant(scope)) {
+                String failure = remove(scope, budget);
+                stuck = failure == null ? stuck : failure;
+                removed &= failure != null || isClean(scope);
+            }
+        }
+        return new Outcome(refused, stuck, added && removed);
+    }
+
+    private boolean add(
+            FiwareScope scope, StepBudget budget, Map<String, Registration> there, Map<String, String> refused)
+            throws IOException, InterruptedException {
+        Map<Registration, String> missing = new LinkedHashMap<>();
+        for (Map.Entry<String, WantedDevice> each : in(scope).entrySet()) {
+            try {
+                Registration registration = registrations.of(each.getValue());
+                if (registry(scope).has(registration)) {
+                    there.put(each.getKey(), registration);
+                } else if (held.containsKey(registration)) {
+                    refused.put(each.getKey(), held.get(registration));
+                } else {
+                    missing.put(registration, each.getKey());
+                }
+            } catch (RefusedByAgentException e) {
+                refused.put(each.getKey(), e.getMessage());
+            }
+        }
+        List<Registration> batch =
+                missing.keySet().stream().limit(batchSize.current()).toList();
+        if (batch.isEmpty()) {
+            return true;
+        }
+        held.putAll(add(registry(scope), batch, budget));
+        int settled = 0;
+        for (Registration device : batch) {
+            if (held.containsKey(device)) {
+                refused.put(missing.get(device), held.get(device));
+                settled++;
+            } else if (registry(scope).has(device)) {
+                there.put(missing.get(device), device);
+                settled++;
+            }
+        }
+        return settled == missing.size();
+    }
+
+    private Map<Registration, String> add(AgentRegistry registry, List<Registration> batch, StepBudget budget)
+            throws IOException, InterruptedException {
+        try {
+            Map<Registration, String> refused = registry.add(batch, budget);
+            batchSize.succeeded();
+            return refused;
+        } catch (IOException e) {
+            batchSize.failed();
+            throw e;
+        }
+    }
+
+    private String remove(FiwareScope scope, StepBudget budget) throws IOException, InterruptedException {
+        return registry(scope).remove(desiredDevices(scope), desiredKeys(scope), budget);
+    }
+
+    private boolean isClean(FiwareScope scope) throws IOException, InterruptedException {
+        return registry(scope).isClean(desiredDevices(scope), desiredKeys(scope));
+    }
+
+    private Set<String> desiredDevices(FiwareScope scope) {
+        return in(scope).values().stream().map(WantedDevice::device).collect(Collectors.toSet());
+    }
+
+    private Set<String> desiredKeys(FiwareScope scope) {
+        return in(scope).values().stream()
+                .map(device -> secret.get().apiKey(device.version().mission()))
+                .collect(Collectors.toSet());
+    }
+
+    private AgentRegistry registry(FiwareScope scope) throws IOException, InterruptedException {
+        AgentRegistry registry = registries.get(scope);
+        if (registry == null) {
+            try {
+                registry = AgentRegistry.read(agent, scope, registrations);
+            } catch (RefusedByAgentException e) {
+                throw new IOException(e.getMessage(), e);
+            }
+            registries.put(scope, registry);
+        }
+        return registry;
+    }
+
+    private Map<String, WantedDevice> in(FiwareScope scope) {
+        Map<String, WantedDevice> devices = new LinkedHashMap<>();
+        wanted.all().forEach((key, device) -> {
+            if (WantedDevices.scope(device).equals(scope)) {
+                devices.put(key, device);
+            }
+        });
+        return devices;
+    }
+}

@@ -1,0 +1,195 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.Collection;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import org.apache.kafka.clients.consumer.ConsumerRebalanceListener;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.kafka.CommittedReader;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/**
+ * Provisions the devices of {@code service.devices} at the IoT Agent and at the MQTT brokers, and removes all others.
+ * Of several instances one is at work, another takes over when it dies; each begins with reading all that is requested,
+ * and with asking the agent what it has. Works in steps of a few seconds, between which it polls, so that a slow agent
+ * does not cost it the topic. An agent that is unavailable is tried again forever; a device that it refuses, or a new
+ * one that waits for it, is {@code failed} on {@code service.devices.status} with the reason.
+ */
+final class ProvisioningLoop implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(ProvisioningLoop.class);
+    /** Name of the group; never changed, or two would be at work during an update. */
+    private static final String GROUP = "furrow-provisioner";
+
+    private static final String TAKEN_OVER_AFTER_MS = "10000";
+    private static final Duration POLL_INTERVAL = Duration.ofMillis(500);
+
+    private final KafkaConsumer<String, byte[]> consumer;
+    private final KafkaProducer<String, byte[]> producer;
+    private final WantedDevices wanted;
+    private final Properties client;
+    /** Follows {@code service.missions.devices}; null while another instance is active. */
+    private CommittedReader<String> lists;
+
+    private final Provisioning provisioning;
+    private final RetrySchedule pace;
+    private final Failures failures;
+    private final Map<TopicPartition, Long> unread = new HashMap<>();
+    private boolean active;
+    private String failure = "";
+
+    ProvisioningLoop(ProvisioningSettings settings) {
+        this.wanted = new WantedDevices(settings.scope());
+        this.provisioning = new Provisioning(settings, wanted, System::nanoTime);
+        this.pace = new RetrySchedule(System::nanoTime, settings.agent().interval());
+        this.client = settings.client();
+        this.consumer =
+                new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
+        this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
+        this.failures = new Failures(wanted, producer);
+        consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
+    }
+
+    private static Properties consumerSettings(Properties client) {
+        Properties settings = new Properties();
+        settings.putAll(client);
+        settings.setProperty("group.id", GROUP);
+        settings.setProperty("isolation.level", "read_committed");
+        settings.setProperty("enable.auto.commit", "false");
+        settings.setProperty("auto.offset.reset", "earliest");
+        settings.setProperty("session.timeout.ms", TAKEN_OVER_AFTER_MS);
+        return settings;
+    }
+
+    /** Takes what is new and, where it is this one's turn, does some of what is to be done: some seconds at most. */
+    void next() throws InterruptedException {
+        take(consumer.poll(pace.pause(POLL_INTERVAL)));
+        if (active && readLists()) {
+            pace.hurry();
+        }
+        if (active && provisioning.isSecretChanged()) {
+            pace.hurry();
+        }
+        if (active && isCaughtUp() && pace.isDue()) {
+            step();
+        }
+    }
+
+    /** What it waits for, for people. */
+    String detail() {
+        return active ? failure : "standby";
+    }
+
+    @Override
+    public void close() {
+        consumer.close();
+        closeLists();
+        producer.close();
+    }
+
+    private void take(ConsumerRecords<String, byte[]> records) {
+        for (ConsumerRecord<String, byte[]> record : records) {
+            try {
+                wanted.take(record.key(), record.value() == null ? null : WantedDevice.read(record.value()));
+            } catch (UnreadableException e) {
+                LOG.warn("{}@{} is no wanted device and is passed over", record.topic(), record.offset(), e);
+            }
+        }
+        if (!records.isEmpty()) {
+            pace.hurry();
+        }
+    }
+
+    /** Processes what has arrived, without waiting. Returns whether anything has. */
+    private boolean readLists() {
+        ConsumerRecords<String, byte[]> records = lists.poll(Duration.ZERO);
+        records.forEach(record -> wanted.takeList(record.key(), record.value()));
+        return !records.isEmpty();
+    }
+
+    private void closeLists() {
+        if (lists != null) {
+            lists.close();
+            lists = null;
+        }
+    }
+
+    private boolean isCaughtUp() {
+        if (unread.entrySet().removeIf(each -> consumer.position(each.getKey()) >= each.getValue())
+                && unread.isEmpty()) {
+            wanted.caughtUp();
+            pace.hurry();
+        }
+        return unread.isEmpty() && lists.isCaughtUp();
+    }
+
+    private void step() throws InterruptedException {
+        if (pace.looksAgain()) {
+            provisioning.lookAgain();
+        }
+        try {
+            Provisioning.Outcome outcome = provisioning.step();
+            failures.reached();
+            if (!outcome.done()) {
+                pace.goOn();
+                return;
+            }
+            failures.refused(outcome.refused());
+            failure = "";
+            if (outcome.refused().isEmpty() && outcome.stuck() == null) {
+                pace.rest();
+            } else if (pace.failed() && outcome.stuck() != null) {
+                LOG.warn("what is no longer wanted stays at the IoT Agent; it is tried again: {}", outcome.stuck());
+            }
+        } catch (IOException e) {
+            failure = e.getMessage();
+            if (pace.failed()) {
+                LOG.warn("devices wait to be provisioned: {}", e.getMessage(), e);
+            }
+            failures.away(e.getMessage());
+        }
+    }
+
+    private final class Assignment implements ConsumerRebalanceListener {
+        @Override
+        public void onPartitionsAssigned(Collection<TopicPartition> partitions) {
+            if (partitions.isEmpty()) {
+                return;
+            }
+            active = true;
+            wanted.clear();
+            failures.clear();
+            provisioning.startAnew();
+            closeLists();
+            lists = CommittedReader.open(client, Topics.MISSION_DEVICES);
+            consumer.seekToBeginning(partitions);
+            unread.putAll(consumer.endOffsets(partitions));
+        }
+
+        @Override
+        public void onPartitionsRevoked(Collection<TopicPartition> partitions) {
+            if (!partitions.isEmpty()) {
+                active = false;
+                closeLists();
+                unread.clear();
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+package io.furrow.provisioner.account;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+import io.furrow.model.device.FarmSecret;
+
+/**
+ * Accounts as a section of Mosquitto's password file and of its ACL file. Where nothing changes nothing is written. After a
+ * change a command lets the broker read them again.
+ */
+public final class MosquittoFiles implements MqttAccounts {
+    private static final Logger LOG = LoggerFactory.getLogger(MosquittoFiles.class);
+    private static final long COMMAND_SECONDS = 10;
+    private static final Pattern USER_RULE = Pattern.compile("\\s*user\\s+(.*?)\\s*");
+
+    private final ManagedFileSection passwords;
+    private final ManagedFileSection rules;
+    private final String reload;
+    /** What was made or checked already, because a check takes as long as a login. */
+    private Map<FarmSecret.Login, String> checked = Map.of();
+
+    private Map<String, String> reported = Map.of();
+    /** At the start too: a process that died may have written the files and not notified the broker. */
+    private boolean reloadIsDue = true;
+
+    /**
+     * @param passwords option {@code password_file} of the broker
+     * @param rules option {@code acl_file} of the broker
+     * @param reload for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto.pid)}; null for none. It may hold a password,
+     *     so no message has it
+     */
+    public MosquittoFiles(Path passwords, Path rules, String reload) {
+        this.passwords = new ManagedFileSection(passwords);
+        this.rules = new ManagedFileSection(rules);
+        this.reload = reload;
+    }
+
+    @Override
+    public synchronized Map<String, String> replace(List<MqttAccount> accounts) throws IOException {
+        Map<String, String> refused = refused(accounts);
+        List<MqttAccount> own = accounts.stream()
+                .filter(account -> !refused.containsKey(account.login().user()))
+                .toList();
+        // The rules first: should only one of both be written, nobody gets in without them.
+        reloadIsDue |= write(rules, rules(own));
+        reloadIsDue |= write(passwords, passwords(own));
+        reloadIfDue();
+        return refused;
+    }
+
+    /** A user that stands elsewhere in the files is somebody else's: Mosquitto would take the later line of two. */
+    private Map<String, String> refused(List<MqttAccount> accounts) throws IOException {
+        Set<String> users = new HashSet<>();
+        accounts.forEach(account -> users.add(account.login().user()));
+        Map<String, String> refused = new TreeMap<>();
+        for (String line : passwords.readOthers()) {
+            refuse(MosquittoPassword.user(line), passwords, users, refused);
+        }
+        for (String line : rules.readOthers()) {
+            refuse(user(line), rules, users, refused);
+        }
+        if (!refused.isEmpty() && !refused.equals(reported)) {
+            refused.values().forEach(LOG::warn);
+        }
+        reported = refused;
+        return refused;
+    }
+
+    private static void refuse(String user, ManagedFileSection file, Set<String> users, Map<String, String> refused) {
+        if (users.contains(user)) {
+            refused.put(
+                    user,
+                    "a user '%s' stands outside of Furrow's section of %s, and counts as somebody else's; remove it there"
+                            .formatted(user, file));
+        }
+    }
+
+    @Override
+    public synchronized void retain(Set<String> users) throws IOException {
+        List<String> lines = new ArrayList<>();
+        boolean retained = false;
+        for (String line : rules.read()) {
+            String user = user(line);
+            retained = user == null ? retained : users.contains(user);
+            if (retained) {
+                lines.add(line);
+            }
+        }
+        // The passwords first: should only one of both be written, nobody gets in who shall not.
+        reloadIsDue |= write(
+                passwords,
+                passwords.read().stream()
+                        .filter(line -> users.contains(MosquittoPassword.user(line)))
+                        .toList());
+        reloadIsDue |= write(rules, lines);
+        reloadIfDue();
+    }
+
+    /** The user with which a line of the rules begins; null if it begins none. */
+    private static String user(String rule) {
+        Matcher user = USER_RULE.matcher(rule);
+        return user.matches() ? user.group(1) : null;
+    }
+
+    private void reloadIfDue() throws IOException {
+        if (reloadIsDue && reload != null) {
+            reload();
+        }
+        reloadIsDue = false;
+    }
+
+    private static boolean write(ManagedFileSection section, List<String> lines) throws IOException {
+        if (section.read().equals(lines)) {
+            return false;
+        }
+        section.write(lines);
+        return true;
+    }
+
+    /** Lines that are right already stay as they are; a new one has another salt each time. */
+    private List<String> passwords(List<MqttAccount> accounts) throws IOException {
+        Map<String, String> known = new HashMap<>();
+        passwords.read().forEach(line -> known.put(MosquittoPassword.user(line), line));
+        Map<FarmSecret.Login, String> next = new LinkedHashMap<>();
+        for (MqttAccount account : accounts) {
+            FarmSecret.Login login = account.login();
+            String line = known.getOrDefault(login.user(), "");
+            boolean stays = line.equals(checked.get(login)) || MosquittoPassword.isOf(line, login);
+            next.put(login, stays ? line : MosquittoPassword.line(login));
+        }
+        checked = next;
+        return List.copyOf(next.values());
+    }
+
+    private static List<String> rules(List<MqttAccount> accounts) {
+        List<String> lines = new ArrayList<>();
+        for (MqttAccount account : accounts) {
+            lines.add("user " + account.login().user());
+            account.writes().forEach(topic -> lines.add("topic write " + topic));
+            account.reads().forEach(topic -> lines.add("topic read " + topic));
+        }
+        return lines;
+    }
+
+    private void reload() throws IOException {
+        Process process = new ProcessBuilder("sh", "-c", reload)
+                .redirectErrorStream(true)
+                .redirectOutput(ProcessBuilder.Redirect.PIPE)
+                .start();
+        process.getOutputStream().close();
+        try {
+            if (!process.waitFor(COMMAND_SECONDS, TimeUnit.SECONDS)) {
+                process.destroyForcibly();
+                throw new IOException(
+                        "the command of --mqtt-reload has not ended within %d s".formatted(COMMAND_SECONDS));
+            }
+        } catch (InterruptedException e) {
+            process.destroyForcibly();
+            Thread.currentThread().interrupt();
+            throw new IOException("interrupted while the command of --mqtt-reload ran", e);
+        }
+        if (process.exitValue() != 0) {
+            String said = new String(process.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+            throw new IOException(
+                    "the command of --mqtt-reload ended with %d: %s".formatted(process.exitValue(), said.strip()));
+        }
+        LOG.debug("asked the MQTT broker to reload its files");
+    }
+}

@@ -1,0 +1,2 @@
+/** Accounts of devices at an MQTT broker. */
+package io.furrow.provisioner.account;

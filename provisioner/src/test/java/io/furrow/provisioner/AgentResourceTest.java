@@ -1,0 +1,103 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.net.URI;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.model.device.WantedDevice;
+import io.furrow.provisioner.Provisioning.Outcome;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+/** The resource of service groups. */
+class AgentResourceTest {
+    private static final Outcome DONE = new Outcome(Map.of(), null, true);
+    private static final String API_KEY = Wanted.SECRET.apiKey("hoeing");
+
+    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
+    private final WantedDevice device = Wanted.thermometer("hoeing", 1);
+
+    private FakeAgent agent;
+
+    @BeforeEach
+    void start() throws IOException {
+        agent = FakeAgent.start();
+        wanted.take(device.version().key(), device);
+    }
+
+    @AfterEach
+    void stop() {
+        agent.close();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"", "/iot/json", "/iot/house"})
+    void makesAndRemovesGroupsOfTheResourceThatIsSet(String resource) throws Exception {
+        Provisioning provisioning = provisioning(resource);
+
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        JsonNode group = agent.groups.get(FakeAgent.key(resource, API_KEY));
+        assertThat(group.path("resource").asText("none")).isEqualTo(resource);
+
+        wanted.take(device.version().key(), null);
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(agent.groups).isEmpty();
+    }
+
+    @Test
+    void replacesGroupsOfAResourceThatWasSetBeforeAndLeavesDevicesAlone() throws Exception {
+        provisioning("/iot/json").step();
+        agent.changes.clear();
+
+        assertThat(provisioning("").step()).isEqualTo(DONE);
+
+        assertThat(agent.groups).containsOnlyKeys(FakeAgent.key("", API_KEY));
+        assertThat(agent.changes).containsExactly("POST /iot/services", "DELETE /iot/services");
+    }
+
+    /** The agent keeps one group of a resource and a key in all tenants, and lists those of the scope only. */
+    @Test
+    void refusesADeviceWhoseGroupIsInAnotherTenant() throws Exception {
+        agent.hidden.put(FakeAgent.key("/iot/json", API_KEY), JsonNodeFactory.instance.objectNode());
+
+        Outcome outcome = provisioning("/iot/json").step();
+
+        assertThat(outcome.refused().get(device.version().key()))
+                .contains("mission 'hoeing'", "in another service or service path; remove it there");
+        assertThat(agent.deviceIds()).isEmpty();
+    }
+
+    @Test
+    void refusesSettingsThatCannotBeRight() {
+        AgentSettings settings = AgentSettings.at(URI.create("http://127.0.0.1:4041"));
+
+        assertThatThrownBy(() -> settings.withResource("iot/json"))
+                .isInstanceOf(IllegalArgumentException.class)
+                .hasMessageContaining("must be empty or begin with '/'")
+                .hasMessageContaining("'iot/json'");
+        assertThatThrownBy(() -> settings.withInterval(Duration.ZERO))
+                .isInstanceOf(IllegalArgumentException.class)
+                .hasMessageContaining("at least a second");
+        assertThat(settings.interval()).isLessThanOrEqualTo(Duration.ofSeconds(30));
+    }
+
+    private Provisioning provisioning(String resource) {
+        AgentSettings settings = AgentSettings.at(agent.uri()).withResource(resource);
+        return new Provisioning(
+                new ProvisioningSettings(new Properties(), Wanted.SCOPE, Wanted.SECRET, settings, List.of()),
+                wanted,
+                System::nanoTime);
+    }
+}

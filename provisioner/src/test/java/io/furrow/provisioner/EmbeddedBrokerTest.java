@@ -1,0 +1,143 @@
+package io.furrow.provisioner;
+
+import java.nio.charset.StandardCharsets;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.ConcurrentHashMap;
+
+import org.eclipse.paho.client.mqttv3.MqttClient;
+import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
+import org.eclipse.paho.client.mqttv3.MqttException;
+import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.MqttAccount;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+/** The MQTT broker of the one-command start with accounts that come and go. */
+class EmbeddedBrokerTest {
+    private static final LiveAccounts ACCOUNTS = new LiveAccounts();
+    private static final String KEY = "/" + Wanted.SECRET.apiKey("hoeing");
+    private static final FarmSecret.Login DEVICE = Wanted.SECRET.device("hoeing", "d");
+
+    private static EmbeddedMqtt mqtt;
+
+    private final Map<String, String> heard = new ConcurrentHashMap<>();
+    private MqttClient agent;
+
+    @BeforeAll
+    static void startBroker() {
+        mqtt = EmbeddedMqtt.start(0, Map.of("agent", "plough"), new EmbeddedMqtt.Users() {
+            @Override
+            public boolean knows(String user, byte[] password) {
+                return ACCOUNTS.knows(user, password);
+            }
+
+            @Override
+            public boolean mayWrite(String user, String topic) {
+                return ACCOUNTS.mayWrite(user, topic);
+            }
+
+            @Override
+            public boolean mayRead(String user, String filter) {
+                return ACCOUNTS.mayRead(user, filter);
+            }
+        });
+    }
+
+    @AfterAll
+    static void stopBroker() {
+        mqtt.close();
+    }
+
+    @BeforeEach
+    void listen() throws MqttException {
+        ACCOUNTS.replace(List.of(
+                MqttAccount.device(Wanted.SECRET, "hoeing", "d"), MqttAccount.gateway(Wanted.SECRET, "hoeing")));
+        agent = connect(new FarmSecret.Login("agent", "plough"));
+        agent.subscribe(
+                "#", 1, (topic, message) -> heard.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
+    }
+
+    @AfterEach
+    void stop() throws MqttException {
+        leave(agent);
+    }
+
+    @Test
+    void letsADevicePublishAsItselfOnly() throws MqttException {
+        MqttClient device = connect(DEVICE);
+        device.publish(KEY + "/e/attrs", "forged".getBytes(StandardCharsets.UTF_8), 0, false);
+        device.publish(KEY + "/d/attrs", "1".getBytes(StandardCharsets.UTF_8), 1, false);
+
+        await().until(() -> "1".equals(heard.get(KEY + "/d/attrs")));
+        assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
+        leave(device);
+    }
+
+    @Test
+    void letsADeviceHearItsOwnCommandsOnly() throws MqttException {
+        MqttClient device = connect(DEVICE);
+        Map<String, String> commands = new ConcurrentHashMap<>();
+        assertThatThrownBy(() -> device.subscribe("#", 1)).isInstanceOf(MqttException.class);
+        device.subscribe(
+                KEY + "/d/cmd",
+                1,
+                (topic, message) -> commands.put(topic, new String(message.getPayload(), StandardCharsets.UTF_8)));
+        agent.publish(KEY + "/e/cmd", "on".getBytes(StandardCharsets.UTF_8), 1, false);
+        agent.publish(KEY + "/d/cmd", "off".getBytes(StandardCharsets.UTF_8), 1, false);
+
+        await().until(() -> "off".equals(commands.get(KEY + "/d/cmd")));
+        assertThat(commands).containsOnlyKeys(KEY + "/d/cmd");
+        leave(device);
+    }
+
+    @Test
+    void shutsOutWhoIsNoLongerWanted() throws MqttException {
+        leave(connect(DEVICE));
+        ACCOUNTS.replace(List.of());
+
+        assertThatThrownBy(() -> connect(DEVICE)).isInstanceOf(MqttException.class);
+        assertThatThrownBy(() -> connect(new FarmSecret.Login("agent", "harrow")))
+                .isInstanceOf(MqttException.class);
+    }
+
+    @Test
+    void letsAMissionHaveTheNameOfAUserOfTheStart() throws MqttException {
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "agent")));
+        MqttClient gateway = connect(Wanted.SECRET.gateway("agent"));
+
+        assertThatThrownBy(() -> gateway.subscribe("#", 1)).isInstanceOf(MqttException.class);
+        leave(gateway);
+    }
+
+    private static MqttClient connect(FarmSecret.Login login) throws MqttException {
+        MqttClient client =
+                new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());
+        MqttConnectOptions options = new MqttConnectOptions();
+        options.setUserName(login.user());
+        options.setPassword(login.password().toCharArray());
+        try {
+            client.connect(options);
+            return client;
+        } catch (MqttException e) {
+            client.close();
+            throw e;
+        }
+    }
+
+    private static void leave(MqttClient client) throws MqttException {
+        client.disconnect();
+        client.close();
+    }
+}

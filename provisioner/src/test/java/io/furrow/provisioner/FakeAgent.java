@@ -1,0 +1,277 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.InetSocketAddress;
+import java.net.URI;
+import java.net.URLDecoder;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.HashSet;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.sun.net.httpserver.HttpExchange;
+import com.sun.net.httpserver.HttpServer;
+
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * An IoT Agent JSON 3.14 of one tenant, as its answers were recorded and its library is written: no group is 404; the devices of a
+ * batch are made one by one, and the first refusal is the answer; groups are listed without pages; without the headers of tenant
+ * and service path it answers nothing else. It fails where a test wants it so.
+ */
+final class FakeAgent implements AutoCloseable {
+    final Map<String, JsonNode> devices = new LinkedHashMap<>();
+    /** By resource and API key. */
+    final Map<String, JsonNode> groups = new LinkedHashMap<>();
+    /** Groups of other tenants. */
+    final Map<String, JsonNode> hidden = new LinkedHashMap<>();
+    /** Ids of devices that it refuses. */
+    final Set<String> disliked = new HashSet<>();
+    /** Ids of devices that it fails to make or to remove: 500. */
+    final Set<String> broken = new HashSet<>();
+    /** Ids of devices that it continues to make after it has refused the rest of their batch. */
+    final Set<String> late = new HashSet<>();
+    /** Method and path of each request that changes something. */
+    final List<String> changes = new CopyOnWriteArrayList<>();
+    /** Values of {@code fiware-service}. */
+    final Set<String> services = new HashSet<>();
+
+    /** It answers 503 to everything. */
+    volatile boolean away;
+    /** What it answers with 200 to every GET; null for what is asked. */
+    volatile String garbage;
+    /** It makes no more devices of a batch, and breaks the connection of one that has more. */
+    volatile int most = Integer.MAX_VALUE;
+    /** Run at each request that changes something. */
+    volatile Runnable onChange = () -> {};
+
+    private final HttpServer server;
+    private final List<JsonNode> unfinished = new ArrayList<>();
+
+    /** A refusal. */
+    private static final class Refusal extends Exception {
+        private static final long serialVersionUID = 1;
+
+        private final int status;
+        private final String name;
+
+        private Refusal(int status, String name, String message) {
+            super(message);
+            this.status = status;
+            this.name = name;
+        }
+    }
+
+    private FakeAgent(HttpServer server) {
+        this.server = server;
+    }
+
+    static FakeAgent start() throws IOException {
+        FakeAgent agent =
+                new FakeAgent(HttpServer.create(new InetSocketAddress(InetAddress.getLoopbackAddress(), 0), 0));
+        agent.server.createContext("/", agent::handle);
+        agent.server.start();
+        return agent;
+    }
+
+    URI uri() {
+        return URI.create("http://127.0.0.1:" + server.getAddress().getPort());
+    }
+
+    synchronized Set<String> deviceIds() {
+        return Set.copyOf(devices.keySet());
+    }
+
+    synchronized Set<String> apiKeys() {
+        return groups.values().stream()
+                .map(group -> group.path("apikey").asText())
+                .collect(Collectors.toUnmodifiableSet());
+    }
+
+    /** Starts again with nothing in its registry. */
+    synchronized void restart() {
+        devices.clear();
+        groups.clear();
+        unfinished.clear();
+    }
+
+    static String key(String resource, String apiKey) {
+        return resource + " " + apiKey;
+    }
+
+    @Override
+    public void close() {
+        server.stop(0);
+    }
+
+    private synchronized void handle(HttpExchange exchange) throws IOException {
+        try {
+            if (away) {
+                throw new Refusal(503, "AWAY", "the registry is away");
+            }
+            if (garbage != null && exchange.getRequestMethod().equals("GET")) {
+                answer(exchange, 200, garbage.getBytes(StandardCharsets.UTF_8));
+                return;
+            }
+            answer(exchange, exchange.getRequestMethod().equals("POST") ? 201 : 200, NgsiJson.write(route(exchange)));
+        } catch (Refusal e) {
+            ObjectNode refusal = JsonNodeFactory.instance.objectNode().put("name", e.name);
+            answer(exchange, e.status, NgsiJson.write(refusal.put("message", e.getMessage())));
+        } finally {
+            exchange.close(); // without an answer that breaks the connection
+        }
+    }
+
+    private static void answer(HttpExchange exchange, int status, byte[] body) throws IOException {
+        exchange.getResponseHeaders().set("Content-Type", "application/json");
+        exchange.sendResponseHeaders(status, body.length);
+        exchange.getResponseBody().write(body);
+    }
+
+    private JsonNode route(HttpExchange exchange) throws Refusal, IOException {
+        String service = exchange.getRequestHeaders().getFirst("fiware-service");
+        if (service == null || exchange.getRequestHeaders().getFirst("fiware-servicepath") == null) {
+            throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
+        }
+        services.add(service);
+        String method = exchange.getRequestMethod();
+        String path = exchange.getRequestURI().getRawPath();
+        boolean ofDevices = path.startsWith("/iot/devices");
+        if (!method.equals("GET")) {
+            changes.add(method + " " + exchange.getRequestURI().getPath());
+            onChange.run();
+        }
+        return switch (method) {
+            case "GET" -> ofDevices ? listDevices(exchange) : listGroups(service);
+            case "DELETE" -> ofDevices ? removeDevice(id(path)) : removeGroup(exchange);
+            default -> {
+                JsonNode sent = NgsiJson.mapper().readTree(exchange.getRequestBody());
+                yield ofDevices ? addDevices(sent) : addGroup(sent.at("/services/0"));
+            }
+        };
+    }
+
+    private static String id(String path) {
+        return URLDecoder.decode(path.substring("/iot/devices/".length()), StandardCharsets.UTF_8);
+    }
+
+    private static Map<String, String> query(HttpExchange exchange) {
+        Map<String, String> query = new LinkedHashMap<>();
+        for (String part :
+                String.valueOf(exchange.getRequestURI().getRawQuery()).split("&")) {
+            String[] pair = part.split("=", 2);
+            query.put(pair[0], pair.length == 1 ? null : URLDecoder.decode(pair[1], StandardCharsets.UTF_8));
+        }
+        return query;
+    }
+
+    private JsonNode listDevices(HttpExchange exchange) throws Refusal {
+        if (exchange.getRequestURI().getRawPath().length() > "/iot/devices".length()) {
+            JsonNode device = devices.get(id(exchange.getRequestURI().getRawPath()));
+            if (device == null) {
+                throw new Refusal(404, "DEVICE_NOT_FOUND", "No device was found with id");
+            }
+            return device;
+        }
+        Map<String, String> query = query(exchange);
+        ArrayNode page = JsonNodeFactory.instance.arrayNode();
+        devices.values().stream()
+                .skip(Long.parseLong(query.getOrDefault("offset", "0")))
+                .limit(Long.parseLong(query.getOrDefault("limit", "20")))
+                .forEach(page::add);
+        return JsonNodeFactory.instance
+                .objectNode()
+                .put("count", devices.size())
+                .set("devices", page);
+    }
+
+    private JsonNode listGroups(String service) throws Refusal {
+        if (groups.isEmpty()) {
+            throw new Refusal(
+                    404,
+                    "DEVICE_GROUP_NOT_FOUND",
+                    "Couldn\t find device group for fields: \"%s\" and values: \"/\"".formatted(service));
+        }
+        ArrayNode all = JsonNodeFactory.instance.arrayNode().addAll(groups.values());
+        return JsonNodeFactory.instance.objectNode().put("count", groups.size()).set("services", all);
+    }
+
+    private JsonNode addGroup(JsonNode group) throws Refusal {
+        String key = key(group.path("resource").asText(), group.path("apikey").asText());
+        if (hidden.containsKey(key) || groups.putIfAbsent(key, group) != null) {
+            throw new Refusal(409, "DUPLICATE_GROUP", "A device configuration already exists for resource " + key);
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private JsonNode removeGroup(HttpExchange exchange) throws Refusal {
+        Map<String, String> query = query(exchange);
+        if (query.get("resource") == null || query.get("apikey") == null) {
+            throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
+        }
+        if (groups.remove(key(query.get("resource"), query.get("apikey"))) == null) {
+            throw new Refusal(404, "DEVICE_GROUP_NOT_FOUND", "Couldn\t find device group");
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private JsonNode removeDevice(String id) throws Refusal {
+        if (broken.contains(id)) {
+            throw new Refusal(500, "Error", "cannot remove " + id);
+        }
+        if (devices.remove(id) == null) {
+            throw new Refusal(404, "DEVICE_NOT_FOUND", "No device was found with id:" + id);
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private JsonNode addDevices(JsonNode sent) throws Refusal, IOException {
+        unfinished.forEach(device -> devices.put(device.path("device_id").asText(), device));
+        unfinished.clear();
+        Refusal first = null;
+        int made = 0;
+        for (JsonNode device : sent.path("devices")) {
+            if (made == most) {
+                throw new IOException("out of time");
+            }
+            try {
+                add(device, sent.path("devices").size() > 1);
+                made++;
+            } catch (Refusal e) {
+                first = first == null ? e : first;
+            }
+        }
+        if (first != null) {
+            throw first;
+        }
+        return JsonNodeFactory.instance.objectNode();
+    }
+
+    private void add(JsonNode device, boolean inABatch) throws Refusal {
+        String id = device.path("device_id").asText();
+        if (broken.contains(id)) {
+            throw new Refusal(500, "Error", "cannot make " + id);
+        }
+        if (disliked.contains(id)) {
+            throw new Refusal(422, "REFUSED", "not " + id);
+        }
+        if (devices.containsKey(id)) {
+            throw new Refusal(409, "DUPLICATE_DEVICE_ID", "A device with the same info was found:" + id);
+        }
+        if (late.contains(id) && inABatch) {
+            unfinished.add(device);
+        } else {
+            devices.put(id, device);
+        }
+    }
+}

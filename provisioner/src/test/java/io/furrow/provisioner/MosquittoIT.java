@@ -1,0 +1,192 @@
+package io.furrow.provisioner;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Set;
+
+import org.eclipse.paho.client.mqttv3.MqttException;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.FarmSecret.Login;
+import io.furrow.provisioner.account.MosquittoFiles;
+import io.furrow.provisioner.account.MosquittoPassword;
+import io.furrow.provisioner.account.MqttAccount;
+
+import static io.furrow.provisioner.Mosquitto.AGENT;
+import static io.furrow.provisioner.Mosquitto.TIMEOUT;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+/** The written files in a real Mosquitto that reads them again while it runs. */
+class MosquittoIT {
+    private static final FarmSecret SECRET = Wanted.SECRET;
+    private static final String KEY = "/" + SECRET.apiKey("hoeing");
+    private static final String OTHER_KEY = "/" + SECRET.apiKey("weeding");
+    /** With signs that mean something in the files. */
+    private static final String DEVICE = "urn:ngsi-ld:Thermometer:hoeing-1";
+
+    private static final List<MqttAccount> ACCOUNTS = List.of(
+            MqttAccount.gateway(SECRET, "hoeing"),
+            MqttAccount.device(SECRET, "hoeing", DEVICE),
+            MqttAccount.device(SECRET, "weeding", "other"));
+
+    @TempDir
+    Path directory;
+
+    private Mosquitto broker;
+    private MosquittoFiles files;
+    private MqttPeer agent;
+
+    @BeforeEach
+    void startWithTheAgentAsItsOnlyUser() throws Exception {
+        broker = new Mosquitto(directory);
+        files = broker.files();
+        agent = broker.connect(AGENT, "agent").subscribe("#");
+        files.replace(ACCOUNTS);
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        agent.close();
+        broker.close();
+    }
+
+    @Test
+    void letsADeviceInWithItsPasswordAndWithNoOther() throws Exception {
+        Login right = SECRET.device("hoeing", DEVICE);
+        try (MqttPeer device = broker.comesIn(right)) {
+            device.publish(KEY + "/" + DEVICE + "/attrs", "1");
+            await().atMost(TIMEOUT)
+                    .until(() -> agent.newest(KEY + "/" + DEVICE + "/attrs").equals("1"));
+        }
+        Login guessed = new Login(right.user(), SECRET.device("hoeing", "d").password());
+        assertThatThrownBy(() -> broker.connect(guessed, "guess"))
+                .isInstanceOf(MqttException.class)
+                .hasMessageContaining("Not authorized");
+    }
+
+    @Test
+    void letsADevicePublishAsItselfOnly() throws Exception {
+        try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
+            List<String> foreign = List.of(
+                    KEY + "/urn:ngsi-ld:Thermometer:hoeing-2/attrs",
+                    OTHER_KEY + "/" + DEVICE + "/attrs",
+                    "/json" + OTHER_KEY + "/other/attrs",
+                    KEY + "/" + DEVICE + "/cmd");
+            for (String topic : foreign) {
+                device.publish(topic, "forged");
+            }
+            device.publish("/json" + KEY + "/" + DEVICE + "/attrs", "2");
+
+            // One connection keeps its order: what was forged would have come before.
+            await().atMost(TIMEOUT)
+                    .until(() -> agent.newest("/json" + KEY + "/" + DEVICE + "/attrs")
+                            .equals("2"));
+            assertThat(foreign)
+                    .allSatisfy(topic -> assertThat(agent.newest(topic)).isEmpty());
+        }
+    }
+
+    @Test
+    void letsADeviceHearItsOwnCommandsOnly() throws Exception {
+        try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
+            device.subscribe("#");
+            device.subscribe(KEY + "/" + DEVICE + "/cmd");
+            agent.publish(KEY + "/urn:ngsi-ld:Thermometer:hoeing-2/cmd", "on");
+            agent.publish(KEY + "/" + DEVICE + "/attrs", "3");
+            agent.publish(KEY + "/" + DEVICE + "/cmd", "off");
+
+            await().atMost(TIMEOUT)
+                    .until(() -> device.newest(KEY + "/" + DEVICE + "/cmd").equals("off"));
+            assertThat(device.topics()).containsOnly(KEY + "/" + DEVICE + "/cmd");
+        }
+    }
+
+    @Test
+    void letsAGatewaySpeakForItsOwnMissionOnly() throws Exception {
+        try (MqttPeer gateway = broker.comesIn(SECRET.gateway("hoeing"))) {
+            gateway.publish(OTHER_KEY + "/other/attrs", "forged");
+            gateway.publish(KEY + "/any/attrs", "4");
+            gateway.subscribe(KEY + "/+/cmd");
+            agent.publish(KEY + "/any/cmd", "on");
+
+            await().atMost(TIMEOUT).until(() -> agent.newest(KEY + "/any/attrs").equals("4"));
+            await().atMost(TIMEOUT).until(() -> gateway.newest(KEY + "/any/cmd").equals("on"));
+            assertThat(agent.newest(OTHER_KEY + "/other/attrs")).isEmpty();
+        }
+    }
+
+    @Test
+    void shutsADeviceOutThatIsNoLongerWantedAndKeepsTheAgent() throws Exception {
+        try (MqttPeer device = broker.comesIn(SECRET.device("hoeing", DEVICE))) {
+            files.replace(List.of());
+
+            await().atMost(TIMEOUT).until(() -> !device.isConnected());
+            assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))
+                    .isInstanceOf(MqttException.class);
+            assertThat(agent.isConnected()).isTrue();
+        }
+    }
+
+    @Test
+    void letsAMissionHaveTheNameOfAnotherUser() throws Exception {
+        String key = "/" + SECRET.apiKey("agent");
+        files.replace(List.of(MqttAccount.gateway(SECRET, "agent")));
+
+        try (MqttPeer gateway = broker.comesIn(SECRET.gateway("agent"));
+                MqttPeer again = broker.connect(AGENT, "agent-again").subscribe("#")) {
+            gateway.publish(KEY + "/" + DEVICE + "/attrs", "forged");
+            gateway.publish(key + "/d/attrs", "5");
+
+            await().atMost(TIMEOUT).until(() -> again.newest(key + "/d/attrs").equals("5"));
+            assertThat(again.newest(KEY + "/" + DEVICE + "/attrs")).isEmpty();
+            assertThat(agent.isConnected()).isTrue();
+        }
+    }
+
+    @Test
+    void takesOverNoUserThatSomebodyElseHasPutIntoItsFiles() throws Exception {
+        Login theirs = new Login(SECRET.device("hoeing", "theirs").user(), "their password");
+        List<String> lines = new ArrayList<>(Files.readAllLines(broker.passwords()));
+        lines.add(0, MosquittoPassword.line(theirs));
+        Files.write(broker.passwords(), lines);
+        List<MqttAccount> wanted = new ArrayList<>(ACCOUNTS);
+        wanted.add(MqttAccount.device(SECRET, "hoeing", "theirs"));
+        wanted.add(MqttAccount.device(SECRET, "hoeing", "late"));
+
+        assertThat(files.replace(wanted)).containsOnlyKeys(theirs.user());
+
+        broker.comesIn(SECRET.device("hoeing", "late")).close();
+        broker.connect(theirs, "theirs").close();
+        assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", "theirs"), "ours"))
+                .isInstanceOf(MqttException.class);
+    }
+
+    /** The thief may be connected: he is cut off, and nobody else is. */
+    @Test
+    void refusesTheOldPasswordOnceCredentialsAreRotatedAndCutsItsConnectionOff() throws Exception {
+        List<MqttAccount> rotated = new ArrayList<>(MqttAccount.devices(SECRET, "hoeing", DEVICE, 1));
+        rotated.add(MqttAccount.device(SECRET, "weeding", "other"));
+        try (MqttPeer thief = broker.comesIn(SECRET.device("hoeing", DEVICE));
+                MqttPeer other = broker.connect(SECRET.device("weeding", "other"), "other")) {
+            files.retain(Set.of(
+                    SECRET.device("hoeing", DEVICE, 1).user(),
+                    SECRET.device("weeding", "other").user()));
+            await().atMost(TIMEOUT).until(() -> !thief.isConnected());
+            files.replace(rotated);
+
+            broker.comesIn(SECRET.device("hoeing", DEVICE, 1)).close();
+            assertThatThrownBy(() -> broker.connect(SECRET.device("hoeing", DEVICE), "again"))
+                    .isInstanceOf(MqttException.class);
+            assertThat(other.isConnected()).isTrue();
+            assertThat(agent.isConnected()).isTrue();
+        }
+    }
+}

@@ -1,0 +1,197 @@
+package io.furrow.provisioner;
+
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+import io.furrow.provisioner.account.LiveAccounts;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class ProvisionerIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+
+    @TempDir
+    Path directory;
+
+    private final LiveAccounts accounts = new LiveAccounts();
+    private EmbeddedKafka kafka;
+    private FakeAgent agent;
+    private KafkaProducer<String, byte[]> producer;
+
+    @BeforeEach
+    void start() throws Exception {
+        kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+        agent = FakeAgent.start();
+        producer = new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer());
+        kafka.createTopics(List.of(topic(Topics.DEVICES), topic(Topics.DEVICES_STATUS), topic(Topics.MISSION_DEVICES)));
+    }
+
+    @AfterEach
+    void stop() {
+        producer.close();
+        agent.close();
+        kafka.close();
+    }
+
+    @Test
+    void followsTheTopicAndRemovesAfterARestartWhatWentInTheMeantime() {
+        WantedDevice one = Wanted.thermometer("hoeing", 1);
+        WantedDevice two = Wanted.thermometer("hoeing", 2);
+        try (Provisioner provisioner = provisioner()) {
+            put(one);
+            put(two);
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            assertThat(provisioner).isNotNull();
+        }
+        producer.send(new ProducerRecord<>(Topics.DEVICES, one.version().key(), null));
+        try (Provisioner provisioner = provisioner()) {
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+            assertThat(agent.deviceIds()).containsExactly(two.device());
+            put(Wanted.stopped(two));
+            await().atMost(TIMEOUT).until(() -> agent.apiKeys().isEmpty());
+            assertThat(agent.deviceIds()).isEmpty();
+            assertThat(provisioner).isNotNull();
+        }
+        assertThat(agent.changes)
+                .filteredOn(change -> change.equals("POST /iot/services"))
+                .hasSize(1);
+        assertThat(statuses()).isEmpty();
+    }
+
+    @Test
+    void saysWhyADeviceIsNotProvisionedAndProvisionsItOnceTheCauseIsGone() {
+        WantedDevice before = Wanted.thermometer("hoeing", 1);
+        WantedDevice after = Wanted.thermometer("hoeing", 2);
+        WantedDevice disliked = Wanted.thermometer("hoeing", 3);
+        agent.disliked.add(disliked.device());
+        try (Provisioner provisioner = provisioner()) {
+            put(before);
+            put(disliked);
+            await().atMost(TIMEOUT)
+                    .until(() -> statuses().containsKey(disliked.version().key()));
+            agent.away = true;
+            put(after);
+            await().atMost(TIMEOUT)
+                    .until(() -> statuses().containsKey(after.version().key()));
+
+            assertThat(statuses()).doesNotContainKey(before.version().key());
+            assertThat(statuses().get(disliked.version().key()).reason()).contains("not provisioned", "422");
+            DeviceStatus status = statuses().get(after.version().key());
+            assertThat(status.state()).isEqualTo(DeviceStatus.State.FAILED);
+            assertThat(status.sequence()).isEqualTo(after.version().sequence());
+            assertThat(status.reason()).contains("not provisioned", "answers 503");
+
+            agent.disliked.clear();
+            agent.away = false;
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
+            assertThat(provisioner).isNotNull();
+        }
+    }
+
+    @Test
+    void restoresWhatARestartedAgentHasLostAtTheNextInterval() {
+        put(Wanted.thermometer("hoeing", 1));
+        put(Wanted.thermometer("hoeing", 2));
+        try (Provisioner provisioner = provisioner()) {
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+
+            agent.restart();
+
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            assertThat(agent.apiKeys()).containsExactly(Wanted.SECRET.apiKey("hoeing"));
+            assertThat(provisioner).isNotNull();
+        }
+        assertThat(statuses()).isEmpty();
+    }
+
+    @Test
+    void leavesTheWorkToOneOfTwoInstancesAndThenToTheOther() {
+        Provisioner first = provisioner();
+        put(Wanted.thermometer("hoeing", 1));
+        await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 1);
+        try (Provisioner second = provisioner()) {
+            put(Wanted.thermometer("hoeing", 2));
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 2);
+            first.close();
+            put(Wanted.thermometer("weeding", 1));
+            await().atMost(TIMEOUT).until(() -> agent.deviceIds().size() == 3);
+            assertThat(second).isNotNull();
+        } finally {
+            first.close();
+        }
+        assertThat(agent.changes)
+                .filteredOn(change -> change.equals("POST /iot/devices"))
+                .hasSize(3);
+    }
+
+    private Provisioner provisioner() {
+        return Provisioner.start(new ProvisioningSettings(
+                client(),
+                Wanted.SCOPE,
+                Wanted.SECRET,
+                AgentSettings.at(agent.uri()).withInterval(Duration.ofSeconds(1)),
+                List.of(accounts)));
+    }
+
+    private void put(WantedDevice device) {
+        producer.send(new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
+        producer.flush();
+    }
+
+    private Map<String, DeviceStatus> statuses() {
+        Map<String, DeviceStatus> statuses = new java.util.HashMap<>();
+        List<Exception> unreadable = new ArrayList<>();
+        try (KafkaConsumer<String, byte[]> consumer =
+                new KafkaConsumer<>(client(), new StringDeserializer(), new ByteArrayDeserializer())) {
+            TopicPartition all = new TopicPartition(Topics.DEVICES_STATUS, 0);
+            consumer.assign(List.of(all));
+            consumer.seekToBeginning(List.of(all));
+            long end = consumer.endOffsets(List.of(all)).get(all);
+            while (consumer.position(all) < end) {
+                consumer.poll(Duration.ofMillis(100)).forEach(record -> {
+                    try {
+                        statuses.put(record.key(), DeviceStatus.read(record.value()));
+                    } catch (Exception e) {
+                        unreadable.add(e);
+                    }
+                });
+            }
+        }
+        assertThat(unreadable).isEmpty();
+        return statuses;
+    }
+
+    private static NewTopic topic(String name) {
+        return new NewTopic(name, Optional.of(1), Optional.empty()).configs(Map.of("cleanup.policy", "compact"));
+    }
+
+    private Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+}

@@ -1,0 +1,253 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.provisioner.Provisioning.Outcome;
+import io.furrow.provisioner.account.LiveAccounts;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+/** An IoT Agent that forgets, refuses, fails or is slow. */
+class ProvisioningFailuresTest {
+    private static final Outcome DONE = new Outcome(Map.of(), null, true);
+    private static final String KEY = FakeAgent.key("/iot/json", Wanted.SECRET.apiKey("hoeing"));
+
+    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
+
+    private FakeAgent agent;
+    private Provisioning provisioning;
+    private volatile long now;
+
+    @BeforeEach
+    void start() throws IOException {
+        agent = FakeAgent.start();
+        provisioning = provisioning();
+    }
+
+    @AfterEach
+    void stop() {
+        agent.close();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"all", "groups", "devices", "a device"})
+    void restoresWhatTheAgentHasLost(String lost) throws Exception {
+        want(3);
+        provisioning.step();
+        switch (lost) {
+            case "all" -> agent.restart();
+            case "groups" -> agent.groups.clear();
+            case "devices" -> agent.devices.clear();
+            default -> agent.devices.remove(id(2));
+        }
+        agent.changes.clear();
+
+        provisioning.lookAgain();
+        assertThat(provisioning.step()).isEqualTo(DONE);
+
+        assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(1), id(2), id(3));
+        assertThat(agent.groups).containsOnlyKeys(KEY);
+        assertThat(agent.changes).hasSize(lost.equals("all") ? 2 : 1);
+    }
+
+    @Test
+    void takesADeviceForProvisionedThatTheAgentMadeAfterItRefusedTheBatch() throws Exception {
+        want(4);
+        agent.disliked.add(id(1));
+        agent.late.add(id(2));
+        agent.late.add(id(3));
+
+        assertThat(provisioning.step().refused()).containsOnlyKeys(key(1));
+
+        assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(2), id(3), id(4));
+    }
+
+    @Test
+    void provisionsTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
+        want(3);
+        agent.broken.add(id(1));
+
+        Outcome outcome = provisioning.step();
+
+        assertThat(outcome.done()).isTrue();
+        assertThat(outcome.refused()).containsOnlyKeys(key(1));
+        assertThat(outcome.refused().get(key(1))).contains("500", "cannot make");
+        assertThat(agent.deviceIds()).containsExactlyInAnyOrder(id(2), id(3));
+
+        agent.broken.clear();
+        provisioning.lookAgain();
+        assertThat(provisioning.step()).isEqualTo(DONE);
+    }
+
+    @Test
+    void isAwayWhenItFailsOnAllDevices() {
+        want(3);
+        agent.broken.addAll(List.of(id(1), id(2), id(3)));
+
+        assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("500");
+    }
+
+    @Test
+    void getsALargeMissionThroughAnAgentThatMakesFewDevicesInTime() throws Exception {
+        want(60);
+        agent.most = 4;
+        int failures = 0;
+        int inARow = 0;
+        for (int step = 0; step < 100 && agent.deviceIds().size() < 60; step++) {
+            try {
+                provisioning.step();
+                inARow = 0;
+            } catch (IOException e) {
+                failures++;
+                inARow++;
+                provisioning.lookAgain();
+            }
+            assertThat(inARow).as("failures in a row").isLessThan(Failures.ATTEMPTS);
+        }
+
+        assertThat(agent.deviceIds()).hasSize(60);
+        assertThat(failures).isPositive();
+    }
+
+    @Test
+    void removesTheOthersThoughTheAgentFailsOnOneDevice() throws Exception {
+        List<WantedDevice> devices = want(3);
+        provisioning.step();
+        devices.forEach(device -> wanted.take(device.version().key(), null));
+        agent.broken.add(id(1));
+
+        Outcome outcome = provisioning.step();
+
+        assertThat(outcome.done()).isTrue();
+        assertThat(outcome.stuck()).contains("500", "cannot remove");
+        assertThat(agent.deviceIds()).containsExactly(id(1));
+        assertThat(agent.groups).containsOnlyKeys(KEY);
+
+        agent.broken.clear();
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(agent.groups).isEmpty();
+    }
+
+    /** Time passes in requests only: three seconds in each. */
+    @Test
+    void removesManySlowDevicesInStepsThatLeaveTimeToPoll() throws Exception {
+        List<WantedDevice> devices = want(100);
+        while (!provisioning.step().done()) {
+            assertThat(agent.deviceIds()).hasSizeLessThan(100);
+        }
+        devices.forEach(device -> wanted.take(device.version().key(), null));
+        agent.onChange = () -> now += Duration.ofSeconds(3).toNanos();
+
+        int steps = 0;
+        boolean done = false;
+        while (!done) {
+            long before = now;
+            done = provisioning.step().done();
+            steps++;
+            assertThat(Duration.ofNanos(now - before)).isLessThanOrEqualTo(Provisioning.STEP.plusSeconds(3));
+        }
+
+        assertThat(steps).isBetween(20, 101);
+        assertThat(agent.deviceIds()).isEmpty();
+        assertThat(agent.groups).isEmpty();
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"<html>not an agent</html>", "{}", "{\"count\": 1, \"devices\": {}}", "[]"})
+    void changesNothingWhileTheAgentAnswersWhatItCannotRead(String garbage) throws Exception {
+        want(2);
+        provisioning.step();
+        wanted.take(key(1), null);
+        agent.changes.clear();
+        agent.garbage = garbage;
+
+        provisioning.lookAgain();
+        assertThatThrownBy(provisioning::step)
+                .isInstanceOf(IOException.class)
+                .hasMessageContaining("/iot/devices")
+                .hasMessageContaining("is it an IoT Agent?");
+
+        assertThat(agent.changes).isEmpty();
+    }
+
+    @Test
+    @Timeout(value = 60, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
+    void readsAsManyGroupsAsAPageHolds() throws Exception {
+        for (int i = 0; i < 500; i++) {
+            agent.groups.put(
+                    FakeAgent.key("/iot/json", "k" + i),
+                    JsonNodeFactory.instance.objectNode().put("apikey", "k" + i).put("resource", "/iot/json"));
+        }
+        want(1);
+
+        assertThat(provisioning.step()).isEqualTo(DONE);
+    }
+
+    @Test
+    void refusesADeviceOfTheDefaultTenantWithoutHarmToOthers() throws Exception {
+        want(1);
+        WantedDevice device = Wanted.thermometer("old", 1);
+        DeviceVersion of = device.version();
+        DeviceVersion version =
+                new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
+        wanted.take(
+                version.key(),
+                new WantedDevice(version, device.type(), device.device(), true, device.period(), device.settings()));
+
+        Outcome outcome = provisioning.step();
+
+        assertThat(outcome.done()).isTrue();
+        assertThat(outcome.refused()).containsOnlyKeys(version.key());
+        assertThat(outcome.refused().get(version.key()))
+                .contains("needs a tenant")
+                .contains("--fiware-service");
+        assertThat(agent.deviceIds()).containsExactly(id(1));
+        assertThat(agent.services).containsExactly("farm");
+    }
+
+    private Provisioning provisioning() {
+        return new Provisioning(
+                new ProvisioningSettings(
+                        new Properties(),
+                        Wanted.SCOPE,
+                        Wanted.SECRET,
+                        AgentSettings.at(agent.uri()),
+                        List.of(new LiveAccounts())),
+                wanted,
+                () -> now);
+    }
+
+    private static String id(int number) {
+        return "urn:ngsi-ld:Thermometer:hoeing-" + number;
+    }
+
+    private static String key(int number) {
+        return Wanted.SCOPE.identity(id(number));
+    }
+
+    private List<WantedDevice> want(int count) {
+        List<WantedDevice> devices = new ArrayList<>();
+        for (int i = 1; i <= count; i++) {
+            WantedDevice device = Wanted.thermometer("hoeing", i);
+            devices.add(device);
+            wanted.take(device.version().key(), device);
+        }
+        return devices;
+    }
+}

@@ -1,0 +1,90 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Set;
+
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.provisioner.Provisioning.Outcome;
+import io.furrow.provisioner.account.LiveAccounts;
+import io.furrow.provisioner.account.MqttAccount;
+import io.furrow.provisioner.account.MqttAccounts;
+
+/** A provisioner in a test's hands: what is requested, and what the agent and the MQTT brokers are told. */
+abstract class ProvisioningFixture {
+    static final Outcome DONE = new Outcome(Map.of(), null, true);
+    static final String KEY = Wanted.SECRET.apiKey("hoeing");
+
+    final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
+    final LiveAccounts accounts = new LiveAccounts();
+    /** How many accounts there were after each change. */
+    final List<Integer> counts = new ArrayList<>();
+
+    final Map<String, String> refused = new HashMap<>();
+    FakeAgent agent;
+    Provisioning provisioning;
+
+    @BeforeEach
+    void start() throws IOException {
+        agent = FakeAgent.start();
+        provisioning = provisioning();
+    }
+
+    @AfterEach
+    void stop() {
+        agent.close();
+    }
+
+    Provisioning provisioning() {
+        return new Provisioning(settings(SecretSource.of(Wanted.SECRET), false), wanted, System::nanoTime);
+    }
+
+    ProvisioningSettings settings(SecretSource secret, boolean gateways) {
+        return new ProvisioningSettings(
+                new Properties(),
+                Wanted.SCOPE,
+                secret,
+                AgentSettings.at(agent.uri()),
+                List.of(accounts, new Counted()),
+                gateways);
+    }
+
+    void want(WantedDevice device) {
+        wanted.take(device.version().key(), device);
+    }
+
+    boolean knows(FarmSecret.Login login) {
+        return accounts.knows(login.user(), login.password().getBytes(StandardCharsets.UTF_8));
+    }
+
+    /** Counts accounts at each change, and refuses users that somebody else has. */
+    private final class Counted implements MqttAccounts {
+        private final Set<String> users = new HashSet<>();
+
+        @Override
+        public Map<String, String> replace(List<MqttAccount> all) {
+            users.clear();
+            all.forEach(account -> users.add(account.login().user()));
+            counts.add(all.size());
+            return Map.copyOf(refused);
+        }
+
+        @Override
+        public void retain(Set<String> some) {
+            if (users.retainAll(some)) {
+                counts.add(users.size());
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+package io.furrow.provisioner;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.time.Duration;
+import java.time.Instant;
+import java.time.ZoneId;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.stream.Stream;
+
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.eclipse.paho.client.mqttv3.MqttException;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.kafka.secret.SecretFile;
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.kafka.secret.SecretTopic;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.FarmSecretCodec;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+
+import static io.furrow.provisioner.Mosquitto.AGENT;
+import static io.furrow.provisioner.Mosquitto.TIMEOUT;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+/** The farm's secret is rotated while devices are connected to a real Mosquitto and the provisioner is at work. */
+class RotationIT {
+    private static final Duration ACCEPTED = Duration.ofDays(30);
+
+    @TempDir
+    Path directory;
+
+    private final WantedDevice first = Wanted.thermometer("hoeing", 1);
+    private final WantedDevice second = Wanted.thermometer("hoeing", 2);
+    private final List<AutoCloseable> open = new ArrayList<>();
+    private final MovedClock clock = new MovedClock();
+    private EmbeddedKafka kafka;
+    private Mosquitto broker;
+    private FakeAgent iotAgent;
+    private MqttPeer agent;
+    private Path file;
+    private SecretSource secret;
+    private FarmSecret old;
+
+    @BeforeEach
+    void startWithTwoDevices() throws Exception {
+        kafka = open(EmbeddedKafka.start(directory.resolve("kafka")));
+        kafka.createTopics(Stream.of(Topics.DEVICES, Topics.DEVICES_STATUS, Topics.MISSION_DEVICES, Topics.SECRETS)
+                .map(topic -> new NewTopic(topic, 1, (short) 1).configs(Map.of("cleanup.policy", "compact")))
+                .toList());
+        broker = open(new Mosquitto(Files.createDirectory(directory.resolve("mosquitto"))));
+        iotAgent = open(FakeAgent.start());
+        agent = open(broker.connect(AGENT, "agent").subscribe("#"));
+        old = FarmSecret.generate();
+        file = Files.writeString(directory.resolve("secret"), FarmSecretCodec.write(old));
+        secret = SecretFile.open(file, new SecretTopic(client(), null), clock);
+        open(Provisioner.start(new ProvisioningSettings(
+                client(), Wanted.SCOPE, secret, AgentSettings.at(iotAgent.uri()), List.of(broker.files()), false)));
+        put(first, second);
+    }
+
+    @AfterEach
+    void stop() throws Exception {
+        for (int i = open.size() - 1; i >= 0; i--) {
+            open.get(i).close();
+        }
+    }
+
+    @Test
+    void acceptsOldAndNewPasswordsUntilTheTimeIsOver() throws Exception {
+        MqttPeer moved = open(broker.comesIn(old.device("hoeing", first.device())));
+        MqttPeer late = open(broker.comesIn(old.device("hoeing", second.device())));
+        List<String> provisioning = List.copyOf(iotAgent.changes);
+        String measures = "/" + old.apiKey("hoeing") + "/" + first.device() + "/attrs";
+
+        FarmSecret rotated = rotate(old);
+
+        MqttPeer renewed = open(broker.comesIn(rotated.device("hoeing", first.device())));
+        renewed.publish(measures, "new");
+        await().atMost(TIMEOUT).until(() -> agent.newest(measures).equals("new"));
+        moved.publish(measures, "old");
+        await().atMost(TIMEOUT).until(() -> agent.newest(measures).equals("old"));
+        open(broker.connect(old.device("hoeing", second.device()), "again"));
+        assertThat(late.isConnected()).isTrue();
+
+        clock.move(ACCEPTED);
+
+        await().atMost(TIMEOUT).until(() -> !late.isConnected() && !moved.isConnected());
+        assertThatThrownBy(() -> broker.connect(old.device("hoeing", second.device()), "too-late"))
+                .isInstanceOf(MqttException.class)
+                .hasMessageContaining("Not authorized");
+        broker.connect(rotated.device("hoeing", second.device()), "in-time").close();
+        assertThat(renewed.isConnected()).isTrue();
+        assertThat(agent.isConnected()).isTrue();
+        assertThat(iotAgent.changes).isEqualTo(provisioning);
+    }
+
+    @Test
+    void givesOneDeviceANewPasswordAndLeavesTheOthers() throws Exception {
+        MqttPeer thief = open(broker.comesIn(old.device("hoeing", first.device())));
+        MqttPeer other = open(broker.comesIn(old.device("hoeing", second.device())));
+
+        put(first.withGeneration(1));
+
+        await().atMost(TIMEOUT).until(() -> !thief.isConnected());
+        broker.comesIn(old.device("hoeing", first.device(), 1)).close();
+        assertThatThrownBy(() -> broker.connect(old.device("hoeing", first.device()), "thief"))
+                .isInstanceOf(MqttException.class);
+        assertThat(other.isConnected()).isTrue();
+    }
+
+    @Test
+    void keepsEverythingAsItIsWhereTheFileIsReplacedByAnothersSecret() throws Exception {
+        MqttPeer device = open(broker.comesIn(old.device("hoeing", first.device())));
+        Files.writeString(file, FarmSecretCodec.write(FarmSecret.generate()));
+        await().atMost(TIMEOUT)
+                .untilAsserted(() -> assertThat(secret.problem())
+                        .hasValueSatisfying(why -> assertThat(why).contains("this farm has another secret")));
+        WantedDevice third = Wanted.thermometer("hoeing", 3);
+        put(third);
+
+        MqttPeer added = open(broker.comesIn(old.device("hoeing", third.device())));
+
+        assertThat(added.isConnected()).isTrue();
+        assertThat(device.isConnected()).isTrue();
+    }
+
+    private FarmSecret rotate(FarmSecret secret) throws Exception {
+        Instant now = clock.instant();
+        FarmSecret rotated = secret.rotated(now, now.plus(ACCEPTED), false);
+        Files.writeString(file, FarmSecretCodec.write(rotated));
+        return rotated;
+    }
+
+    private void put(WantedDevice... devices) {
+        try (KafkaProducer<String, byte[]> producer =
+                new KafkaProducer<>(client(), new StringSerializer(), new ByteArraySerializer())) {
+            for (WantedDevice device : devices) {
+                producer.send(
+                        new ProducerRecord<>(Topics.DEVICES, device.version().key(), device.toBytes()));
+            }
+        }
+    }
+
+    private Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+
+    private <T extends AutoCloseable> T open(T part) {
+        open.add(part);
+        return part;
+    }
+
+    /** Continues only where a test moves it. */
+    private static final class MovedClock extends Clock {
+        private volatile Instant now = Instant.parse("2026-03-01T08:00:00Z");
+
+        void move(Duration time) {
+            now = now.plus(time);
+        }
+
+        @Override
+        public Instant instant() {
+            return now;
+        }
+
+        @Override
+        public ZoneId getZone() {
+            return ZoneId.of("Z");
+        }
+
+        @Override
+        public Clock withZone(ZoneId zone) {
+            return this;
+        }
+    }
+}

@@ -1,0 +1,135 @@
+package io.furrow.provisioner;
+
+import java.io.IOException;
+import java.time.Instant;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.WantedDevice;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class SecretRotationTest extends ProvisioningFixture {
+
+    @Test
+    void acceptsOldAndNewPasswordsWhileASecretIsRotatedAndDoesNotProvisionAnew() throws Exception {
+        Secret secret = new Secret();
+        provisioning = new Provisioning(settings(secret, false), wanted, System::nanoTime);
+        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        want(device);
+        provisioning.step();
+        assertThat(provisioning.isSecretChanged()).isFalse();
+        agent.changes.clear();
+        Instant until = Instant.parse("2026-03-01T08:00:00Z");
+        FarmSecret rotated = Wanted.SECRET.rotated(until.minusSeconds(60), until, false);
+
+        secret.current = rotated.at(until.minusSeconds(1));
+        assertThat(provisioning.isSecretChanged()).isTrue();
+        provisioning.step();
+        assertThat(knows(Wanted.SECRET.device("hoeing", device.device()))).isTrue();
+        assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
+
+        secret.current = rotated.at(until);
+        assertThat(provisioning.isSecretChanged()).isTrue();
+        provisioning.step();
+        assertThat(knows(Wanted.SECRET.device("hoeing", device.device()))).isFalse();
+        assertThat(knows(rotated.device("hoeing", device.device()))).isTrue();
+        assertThat(agent.changes).isEmpty();
+        assertThat(counts).containsExactly(1, 2, 1);
+    }
+
+    @Test
+    void movesWhatHasAnApiKeyOfAnOlderKeyAndLeavesWhatOthersHave() throws Exception {
+        Secret secret = new Secret();
+        WantedDevice device = Wanted.thermometer("hoeing", 1);
+        want(device);
+        want(Wanted.thermometer("gone", 1));
+        new Provisioning(settings(secret, false), wanted, System::nanoTime).step();
+        agent.devices.put(
+                "foreign",
+                JsonNodeFactory.instance
+                        .objectNode()
+                        .put("device_id", "foreign")
+                        .put("apikey", "secret"));
+        wanted.clear();
+        want(device);
+        secret.current =
+                Wanted.SECRET.rotated(Instant.now(), Instant.EPOCH, true).at(Instant.now());
+
+        assertThat(new Provisioning(settings(secret, false), wanted, System::nanoTime).step())
+                .isEqualTo(DONE);
+
+        assertThat(agent.deviceIds()).containsExactlyInAnyOrder(device.device(), "foreign");
+        assertThat(agent.apiKeys()).containsExactly(secret.current.apiKey("hoeing"));
+        assertThat(agent.devices.get(device.device()).path("apikey").asText())
+                .isEqualTo(secret.current.apiKey("hoeing"));
+        assertThat(knows(secret.current.device("hoeing", device.device()))).isTrue();
+    }
+
+    /** A stolen device must not wait for an agent. */
+    @Test
+    void refusesAnOldPasswordThoughTheAgentIsAway() throws Exception {
+        WantedDevice stolen = Wanted.thermometer("hoeing", 1);
+        WantedDevice other = Wanted.thermometer("hoeing", 2);
+        want(stolen);
+        want(other);
+        provisioning.step();
+        agent.away = true;
+        provisioning.lookAgain();
+        want(stolen.withGeneration(1));
+
+        assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessageContaining("503");
+        assertThat(knows(Wanted.SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(knows(Wanted.SECRET.device("hoeing", other.device()))).isTrue();
+
+        agent.away = false;
+        provisioning.step();
+        assertThat(knows(Wanted.SECRET.device("hoeing", stolen.device(), 1))).isTrue();
+        assertThat(knows(Wanted.SECRET.device("hoeing", stolen.device()))).isFalse();
+        assertThat(knows(Wanted.SECRET.device("hoeing", other.device()))).isTrue();
+        assertThat(agent.changes)
+                .filteredOn(change -> change.startsWith("DELETE"))
+                .isEmpty();
+    }
+
+    @Test
+    void doesNothingWithASecretThatIsNotTheFarms() throws Exception {
+        want(Wanted.thermometer("hoeing", 1));
+        provisioning.step();
+        agent.changes.clear();
+        counts.clear();
+        Secret another = new Secret();
+        another.current = FarmSecret.generate();
+        another.foreign = "this farm has another secret";
+        provisioning = new Provisioning(settings(another, false), wanted, System::nanoTime);
+
+        assertThatThrownBy(provisioning::step).isInstanceOf(IOException.class).hasMessage(another.foreign);
+
+        assertThat(agent.changes).isEmpty();
+        assertThat(counts).isEmpty();
+        assertThat(knows(Wanted.SECRET.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")))
+                .isTrue();
+    }
+
+    /** The farm's secret, as long as nobody says that it is not. */
+    private static final class Secret implements SecretSource {
+        private FarmSecret current = Wanted.SECRET;
+        private String foreign;
+
+        @Override
+        public FarmSecret get() {
+            return current;
+        }
+
+        @Override
+        public void verify() throws IOException {
+            if (foreign != null) {
+                throw new IOException(foreign);
+            }
+        }
+    }
+}

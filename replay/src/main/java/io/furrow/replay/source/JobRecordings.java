@@ -1,0 +1,46 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.util.Optional;
+
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingGoneException;
+import io.furrow.mission.Recordings;
+import io.furrow.mission.file.FileRecordings;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.WantedReplay;
+
+/**
+ * Missions that are kept, and what else a replay may name as its source: a file of the job's folder, a topic.
+ *
+ * @param folder of exported missions, of any file system of Flink's; null if files may not be played
+ * @param topics makes a recording of a topic with its own history
+ */
+public record JobRecordings(Recordings missions, String folder, TopicHistories topics) implements RecordingSources {
+    private static final FlinkFiles FILES = new FlinkFiles();
+
+    @Override
+    public Optional<Recording> open(WantedReplay replay) throws RecordingException {
+        ReplayPlan.Source source = replay.plan().source();
+        if (source == null) {
+            return missions.open(replay.mission());
+        } else if (source.topic() != null) {
+            return topics.open(source.topic(), replay);
+        }
+        if (folder == null) {
+            throw new RecordingGoneException(
+                    "the file '%s' cannot be played: the job has no folder of recordings; start it with --recordings"
+                            .formatted(source.file()));
+        }
+        return ofFile(folder + "/" + source.file(), replay.mission());
+    }
+
+    private static Optional<Recording> ofFile(String path, String mission) throws RecordingException {
+        try {
+            return FILES.exists(path) ? new FileRecordings(path, FILES).open(mission) : Optional.empty();
+        } catch (IOException e) {
+            throw new RecordingException("The file %s cannot be read: %s".formatted(path, e.getMessage()), e);
+        }
+    }
+}

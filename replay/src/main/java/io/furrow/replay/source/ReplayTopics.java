@@ -1,0 +1,62 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.io.Serializable;
+
+import io.furrow.flink.job.JobOptions;
+import io.furrow.flink.job.TopicOptions;
+import io.furrow.flink.kafka.EnsureTopics;
+import io.furrow.flink.kafka.WritableRecords;
+import io.furrow.flink.record.TopicRecord;
+
+/** Where replays are played. Serializable, so that a job can carry it. */
+public interface ReplayTopics extends Serializable {
+    /** For the lifetime of a reader. */
+    Writing open();
+
+    /** What a reader writes to. */
+    interface Writing extends AutoCloseable {
+        /**
+         * Makes the topic where it is not there, and waits for the broker; from any thread.
+         *
+         * @return its partitions
+         * @throws IOException if that cannot be done now; the message says what to do
+         */
+        int prepare(String topic) throws IOException, InterruptedException;
+
+        /** The record, or what is written in its place because the topic does not take it. */
+        TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
+
+        @Override
+        void close();
+    }
+
+    /** The topics of a job on Kafka. */
+    static ReplayTopics of(JobOptions options, TopicOptions.Settings settings) {
+        return new OnKafka(new EnsureTopics(options, settings));
+    }
+
+    /** Topics are made as the job's options say. */
+    record OnKafka(EnsureTopics topics) implements ReplayTopics {
+        @Override
+        public Writing open() {
+            WritableRecords records = topics.writable();
+            return new Writing() {
+                @Override
+                public int prepare(String topic) throws IOException, InterruptedException {
+                    return records.prepare(topic);
+                }
+
+                @Override
+                public TopicRecord writable(TopicRecord record) throws IOException, InterruptedException {
+                    return records.of(record);
+                }
+
+                @Override
+                public void close() {
+                    records.close();
+                }
+            };
+        }
+    }
+}

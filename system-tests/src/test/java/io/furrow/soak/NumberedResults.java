@@ -1,0 +1,143 @@
+package io.furrow.soak;
+
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Stream;
+
+import io.furrow.model.ngsi.Entity;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** Compares everything that the jobs wrote with what {@link NumberedEvents} must come to: no gap, no repetition. */
+public final class NumberedResults {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    /** Long enough for a repetition that is still on its way. */
+    private static final Duration QUIET = Duration.ofSeconds(3);
+    /** The jobs' out-of-orderness and one report of each device: what is younger need not be known yet. */
+    private static final long OPEN_MILLIS = 2_500;
+
+    private static final int SHOWN = 10;
+
+    /** Topics that {@code flink-run} names. */
+    private static final String NORMALIZED = "data.raw.native";
+
+    private static final String GREEN = "data.temperature.green";
+    private static final String WIDE = "data.collision.wide";
+    private static final double USUAL_THRESHOLD_METERS = 5;
+    private static final double WIDE_THRESHOLD_METERS = 8;
+    /** Where the devices stand in {@code fields.geojson}, however the second robot goes. */
+    private static final Map<String, List<String>> FIELDS_OF = Map.of(
+            Farm.FIRST_THERMOMETER, List.of("farm"),
+            Farm.SECOND_THERMOMETER, List.of("farm", "corner"),
+            Farm.FIRST_ROBOT, List.of("farm"),
+            Farm.SECOND_ROBOT, List.of("farm"));
+
+    private final Expected expected;
+    private final String bootstrapServers;
+    private final long windowMillis;
+
+    private NumberedResults(String bootstrapServers, long windowMillis) throws UnreadableException {
+        this.bootstrapServers = bootstrapServers;
+        this.windowMillis = windowMillis;
+        try (TopicLog raw = new TopicLog(bootstrapServers, Topics.RAW)) {
+            expected = new Expected(raw.read(QUIET));
+        }
+    }
+
+    /** Arguments: bootstrap servers, window of the temperature job in ms. The exit code is 0 where nothing differs. */
+    public static void main(String... args) throws UnreadableException {
+        System.exit(new NumberedResults(args[0], Long.parseLong(args[1])).isClean() ? 0 : 1);
+    }
+
+    private boolean isClean() throws UnreadableException {
+        Map<String, Comparison> comparisons = new LinkedHashMap<>();
+        for (String topic :
+                List.of(Topics.realtime(Farm.DOMAIN), Topics.realtime(Farm.DOMAIN, Farm.MISSION), NORMALIZED)) {
+            try (TopicLog log = new TopicLog(bootstrapServers, topic)) {
+                comparisons.put(topic, compared(log, expected.numbers(), Long.MAX_VALUE));
+                System.out.printf("%-32s nothing for %.1f s at most%n", topic, log.longestSilence() / 1000.0);
+            }
+        }
+        for (Map.Entry<String, List<Result>> topic : results().entrySet()) {
+            try (TopicLog log = new TopicLog(bootstrapServers, topic.getKey())) {
+                comparisons.put(topic.getKey(), compared(log, topic.getValue(), expected.lastTime() - OPEN_MILLIS));
+            }
+        }
+        long aside = TopicLog.count(bootstrapServers, List.of(".dead", ".late"));
+        comparisons.forEach(NumberedResults::print);
+        System.out.printf("%-32s %5d records%n", "late and dead", aside);
+        return aside == 0 && comparisons.values().stream().allMatch(Comparison::isClean);
+    }
+
+    /** Of each topic of results; blue and green tell the same, another threshold tells something else. */
+    private Map<String, List<Result>> results() {
+        Map<String, List<Result>> results = new LinkedHashMap<>();
+        results.put(Topics.TEMPERATURE, windows());
+        results.put(GREEN, windows());
+        results.put(Topics.COLLISION, expected.encounters(USUAL_THRESHOLD_METERS));
+        results.put(WIDE, expected.encounters(WIDE_THRESHOLD_METERS));
+        results.put(Topics.PRESENCE, expected.entries(FIELDS_OF));
+        return results;
+    }
+
+    private List<Result> windows() {
+        List<String> both = List.of(Farm.FIRST_THERMOMETER, Farm.SECOND_THERMOMETER);
+        List<Result> all = new ArrayList<>(expected.windows("farm", both, windowMillis));
+        all.addAll(expected.windows("corner", List.of(Farm.SECOND_THERMOMETER), windowMillis));
+        return all;
+    }
+
+    /** Waits while something is missing; then once more, so that a late repetition counts. */
+    private static Comparison compared(TopicLog log, List<Result> expected, long horizon) throws UnreadableException {
+        long deadline = System.nanoTime() + TIMEOUT.toNanos();
+        Comparison comparison;
+        do {
+            comparison = Comparison.of(expected, results(log.read(QUIET)), horizon);
+        } while (!comparison.missing().isEmpty() && System.nanoTime() < deadline);
+        return Comparison.of(expected, results(log.read(QUIET)), horizon);
+    }
+
+    private static List<Result> results(List<Entity> entities) {
+        return entities.stream().map(NumberedResults::result).toList();
+    }
+
+    private static Result result(Entity entity) {
+        return switch (entity.type()) {
+            case "Analytics:FieldTemperature" ->
+                Expected.window(
+                        entity.text("field").orElseThrow(),
+                        integer(entity, "windowEnd"),
+                        entity.number("averageTemperature").orElseThrow(),
+                        integer(entity, "devices"));
+            case "Analytics:Collision" ->
+                Expected.encounter(
+                        entity.text("phase").orElseThrow(),
+                        integer(entity, "time"),
+                        entity.number("distance").orElseThrow());
+            case "Analytics:Presence" ->
+                Expected.passage(
+                        entity.text("phase").orElseThrow(),
+                        entity.text("device").orElseThrow(),
+                        entity.text("field").orElseThrow(),
+                        integer(entity, "time"));
+            default -> Expected.numbered(entity);
+        };
+    }
+
+    private static long integer(Entity entity, String attribute) {
+        return entity.number(attribute).orElseThrow().longValue();
+    }
+
+    private static void print(String topic, Comparison comparison) {
+        System.out.printf("%-32s %s%n", topic, comparison);
+        Stream.of(
+                        comparison.missing().stream().map(name -> "missing: " + name),
+                        comparison.repeated().stream().map(name -> "repeated: " + name),
+                        comparison.wrong().stream().map(name -> "wrong: " + name))
+                .flatMap(lines -> lines.limit(SHOWN))
+                .forEach(line -> System.out.println("    " + line));
+    }
+}

@@ -1,0 +1,63 @@
+package io.furrow.soak.control;
+
+import java.io.File;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+
+/** A JVM with this one's class path that can be killed and started again; its output is appended to one file. */
+public final class JavaProcess implements AutoCloseable {
+    private static final long STOP_SECONDS = 40;
+
+    private final List<String> command = new ArrayList<>();
+    private final Path output;
+    private Process process;
+
+    /** @param words options of the JVM, class and arguments */
+    public JavaProcess(Path output, List<String> options, String mainClass, List<String> arguments) {
+        this.output = output;
+        command.add(Path.of(System.getProperty("java.home"), "bin", "java").toString());
+        command.addAll(options);
+        command.addAll(List.of("-cp", System.getProperty("java.class.path"), mainClass));
+        command.addAll(arguments);
+    }
+
+    public void start() throws IOException {
+        Files.createDirectories(output.toAbsolutePath().getParent());
+        process = new ProcessBuilder(command)
+                .redirectErrorStream(true)
+                .redirectOutput(ProcessBuilder.Redirect.appendTo(new File(output.toString())))
+                .start();
+    }
+
+    public boolean isAlive() {
+        return process != null && process.isAlive();
+    }
+
+    public long pid() {
+        return process.pid();
+    }
+
+    /** Ends it as {@code kill -9} does. */
+    void kill() throws InterruptedException {
+        process.destroyForcibly().waitFor();
+    }
+
+    /** Asks it to stop, and kills it where it does not. @return whether it stopped by itself in time */
+    public boolean stop() throws InterruptedException {
+        process.destroy();
+        boolean stopped = process.waitFor(STOP_SECONDS, TimeUnit.SECONDS);
+        process.destroyForcibly().waitFor();
+        return stopped;
+    }
+
+    @Override
+    public void close() {
+        if (process != null) {
+            process.destroyForcibly();
+        }
+    }
+}

@@ -1,0 +1,85 @@
+package io.furrow.soak.control;
+
+import java.net.URI;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.TimeoutException;
+import java.util.concurrent.atomic.LongAdder;
+
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.control.CommandResult;
+
+/** Asks until there is an answer: the same request again, over Kafka or over one of the REST APIs. */
+final class Requester {
+    /** Shorter than an outage, so that requests are sent again that are still on their way. */
+    private static final Duration ANSWER_TIMEOUT = Duration.ofSeconds(5);
+    /** Longer than the API waits itself. */
+    private static final Duration CALL_TIMEOUT = Duration.ofSeconds(20);
+
+    private static final Duration PAUSE = Duration.ofMillis(500);
+
+    private final RequestSender sender;
+    private final AnswerLog answers;
+    private final List<URI> apis;
+    private final Map<String, String> sent = new ConcurrentHashMap<>();
+    private final LongAdder repeated = new LongAdder();
+    private final LongAdder answered = new LongAdder();
+
+    Requester(RequestSender sender, AnswerLog answers, List<URI> apis) {
+        this.sender = sender;
+        this.answers = answers;
+        this.apis = apis;
+    }
+
+    /** Every request by its id, in words. */
+    Map<String, String> sent() {
+        return sent;
+    }
+
+    long repeated() {
+        return repeated.sum();
+    }
+
+    long answered() {
+        return answered.sum();
+    }
+
+    /** Blocks until it is answered, over however many outages. */
+    CommandResult ask(ControlRequest request, Random random) throws InterruptedException {
+        sent.put(request.id(), request.command() + " " + request.members());
+        boolean overKafka = random.nextBoolean();
+        for (CommandResult answer = null; ; repeated.increment()) {
+            answer = overKafka ? write(request) : call(request, apis.get(random.nextInt(apis.size())));
+            if (answer != null) {
+                answered.increment();
+                return answer;
+            }
+            Thread.sleep(PAUSE.toMillis());
+        }
+    }
+
+    /** Null where none came in time. */
+    private CommandResult write(ControlRequest request) {
+        sender.write(request);
+        return Until.within(ANSWER_TIMEOUT, () -> !answers.to(request.id()).isEmpty())
+                ? answers.to(request.id()).get(0)
+                : null;
+    }
+
+    /** Null where none came, or to ask again. */
+    private CommandResult call(ControlRequest request, URI api) throws InterruptedException {
+        try {
+            Http.Answer answer = sender.call(api, request).get(CALL_TIMEOUT.toSeconds(), TimeUnit.SECONDS);
+            boolean again = answer.status() == 0 || answer.status() == 503;
+            return again || !answer.body().isObject() ? null : new CommandResult((ObjectNode) answer.body());
+        } catch (TimeoutException | ExecutionException e) {
+            return null;
+        }
+    }
+}

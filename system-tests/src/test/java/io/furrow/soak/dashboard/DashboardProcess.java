@@ -1,0 +1,147 @@
+package io.furrow.soak.dashboard;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+import io.furrow.embedded.FreePort;
+import io.furrow.soak.control.JavaProcess;
+import io.furrow.soak.control.Until;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+
+/** {@code furrow dashboard} in a process of its own; its heap and threads are those of nothing else. */
+final class DashboardProcess implements AutoCloseable {
+    private static final Duration START_TIMEOUT = Duration.ofSeconds(60);
+    private static final Pattern TOTAL = Pattern.compile("(?m)^Total\\s+\\d+\\s+(\\d+)");
+    private static final Pattern THREAD = Pattern.compile("(?m)^\"(?!dashboard-(?:work-)?\\d)");
+    private static final Pattern POOLED = Pattern.compile("(?m)^\"dashboard-(?:work-)?\\d");
+
+    /**
+     * Of four collections three leave up to a twentieth of the heap as it is, dead objects too, and a histogram counts these as live,
+     * as arrays of int.
+     */
+    private static final String COMPACT = "-XX:MarkSweepAlwaysCompactCount=1";
+
+    private final Path folder;
+    private final URI uri;
+    private final JavaProcess process;
+    private final HttpClient http = HttpClient.newBuilder()
+            .version(HttpClient.Version.HTTP_1_1)
+            .connectTimeout(Duration.ofSeconds(5))
+            .build();
+    private int histograms;
+
+    /** Returns when it is ready. */
+    DashboardProcess(Path folder, String bootstrapServers, URI controlPlane) throws IOException {
+        this.folder = folder;
+        int port = FreePort.orFree(0);
+        uri = URI.create("http://127.0.0.1:" + port);
+        process = new JavaProcess(
+                folder.resolve("dashboard.out"),
+                List.of("-Xmx256m", "-XX:+UseSerialGC", COMPACT, "-XX:+ExitOnOutOfMemoryError"),
+                "io.furrow.launcher.Furrow",
+                List.of(
+                        "dashboard",
+                        "--port",
+                        Integer.toString(port),
+                        "--kafka",
+                        bootstrapServers,
+                        "--control-plane",
+                        controlPlane.toString(),
+                        "--log",
+                        folder.resolve("dashboard.log").toString()));
+        process.start();
+        Until.isTrue("the dashboard is ready", START_TIMEOUT, this::isReady);
+    }
+
+    URI uri() {
+        return uri;
+    }
+
+    private boolean isReady() {
+        try {
+            return get("/ready").statusCode() == 200;
+        } catch (IOException e) {
+            return false;
+        }
+    }
+
+    HttpResponse<String> get(String path) throws IOException {
+        try {
+            return http.send(
+                    HttpRequest.newBuilder(uri.resolve(path))
+                            .timeout(Duration.ofSeconds(30))
+                            .build(),
+                    HttpResponse.BodyHandlers.ofString());
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+            throw new IOException(e);
+        }
+    }
+
+    /** A number of {@code /metrics}. @param name with its labels */
+    double metric(String name) {
+        try {
+            Matcher line = Pattern.compile("(?m)^" + Pattern.quote(name) + " (\\S+)$")
+                    .matcher(get("/metrics").body());
+            if (!line.find()) {
+                throw new IllegalStateException("/metrics has no " + name);
+            }
+            return Double.parseDouble(line.group(1));
+        } catch (IOException e) {
+            throw new IllegalStateException("/metrics cannot be read", e);
+        }
+    }
+
+    /** Bytes of objects that are still reachable; it is collected before. By class they stand in a file of the folder. */
+    long liveBytes() throws IOException, InterruptedException {
+        String histogram = jcmd("GC.class_histogram");
+        Files.writeString(folder.resolve("classes-%d.log".formatted(++histograms)), histogram);
+        Matcher total = TOTAL.matcher(histogram);
+        if (!total.find()) {
+            throw new IOException("jcmd shows no total: " + histogram);
+        }
+        return Long.parseLong(total.group(1));
+    }
+
+    /** Those that are not of the server's pools, which have at most 96 and give them back over minutes. */
+    long threads() throws IOException, InterruptedException {
+        return THREAD.matcher(jcmd("Thread.print")).results().count();
+    }
+
+    long pooledThreads() throws IOException, InterruptedException {
+        return POOLED.matcher(jcmd("Thread.print")).results().count();
+    }
+
+    private String jcmd(String command) throws IOException, InterruptedException {
+        Process jcmd = new ProcessBuilder(
+                        Path.of(System.getProperty("java.home"), "bin", "jcmd").toString(),
+                        Long.toString(process.pid()),
+                        command)
+                .redirectErrorStream(true)
+                .start();
+        String output = new String(jcmd.getInputStream().readAllBytes(), UTF_8);
+        if (jcmd.waitFor() != 0) {
+            throw new IOException("jcmd %s: %s".formatted(command, output));
+        }
+        return output;
+    }
+
+    boolean isAlive() {
+        return process.isAlive();
+    }
+
+    @Override
+    public void close() {
+        process.close();
+    }
+}

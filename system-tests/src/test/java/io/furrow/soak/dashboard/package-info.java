@@ -1,0 +1,2 @@
+/** Many sockets on one dashboard. */
+package io.furrow.soak.dashboard;

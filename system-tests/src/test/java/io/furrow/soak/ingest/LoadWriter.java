@@ -1,0 +1,164 @@
+package io.furrow.soak.ingest;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.HashMap;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Set;
+import java.util.concurrent.ExecutionException;
+import java.util.concurrent.atomic.AtomicReference;
+import java.util.concurrent.locks.LockSupport;
+import java.util.function.IntPredicate;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.ConsumerRecords;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.topic.Topics;
+
+/** Makes the input topics, writes the {@link FarmLoad} to them at a rate, and waits until the job has brought it out. */
+public final class LoadWriter {
+    private static final Duration TIMEOUT = Duration.ofMinutes(2);
+
+    private final Map<String, Object> kafka;
+    private volatile int written;
+
+    LoadWriter(String bootstrapServers) {
+        this.kafka = Map.of("bootstrap.servers", bootstrapServers);
+    }
+
+    /**
+     * Arguments: bootstrap servers, records per second (0: as fast as it goes), and either how many records or a file whose
+     * appearance says that it is enough. The last line says how many there were.
+     */
+    public static void main(String... args) throws Exception {
+        LoadWriter writer = new LoadWriter(args[0]);
+        writer.makeTopics();
+        System.out.println("writing");
+        boolean counted = args[2].matches("\\d+");
+        int most = counted ? Integer.parseInt(args[2]) : Integer.MAX_VALUE;
+        Path enough = Path.of(args[2]);
+        int count =
+                writer.write(Integer.parseInt(args[1]), number -> number < most && (counted || !Files.exists(enough)));
+        System.out.println("wrote " + count + " records");
+        long begin = System.nanoTime();
+        writer.awaitOutput(TIMEOUT);
+        System.out.printf(
+                "all read %d ms after the last%n",
+                Duration.ofNanos(System.nanoTime() - begin).toMillis());
+        System.out.println(count);
+    }
+
+    /**
+     * They keep records of any time: retention goes by the record timestamp. {@code data.latest} is made beforehand and not
+     * compacted, so that all that was written to it can be compared.
+     */
+    void makeTopics() throws ExecutionException, InterruptedException {
+        try (Admin admin = Admin.create(kafka);
+                var producer = producer()) {
+            admin.createTopics(List.of(
+                            topic(Topics.RAW, FarmLoad.PARTITIONS),
+                            topic(Topics.DEVICES, 1),
+                            topic(Topics.LATEST, FarmLoad.PARTITIONS)))
+                    .all()
+                    .get();
+            for (DeviceVersion version : FarmLoad.devices().toList()) {
+                byte[] key = FarmLoad.utf8(version.key());
+                producer.send(new ProducerRecord<>(Topics.DEVICES, 0, version.from(), key, version.toBytes()))
+                        .get();
+            }
+        }
+    }
+
+    private static NewTopic topic(String name, int partitions) {
+        return new NewTopic(name, Optional.of(partitions), Optional.empty()).configs(Map.of("retention.ms", "-1"));
+    }
+
+    /** @param goOn whether the record of this number is wanted; asked for one number after the other */
+    int write(int perSecond, IntPredicate goOn) {
+        AtomicReference<Exception> lost = new AtomicReference<>();
+        try (var producer = producer()) {
+            long begin = System.nanoTime();
+            for (; goOn.test(written); written++) {
+                if (perSecond > 0) {
+                    LockSupport.parkNanos(begin + written * 1_000_000_000L / perSecond - System.nanoTime());
+                }
+                producer.send(FarmLoad.record(written), (done, failure) -> lost.compareAndSet(null, failure));
+            }
+            for (int partition = 0; partition < FarmLoad.PARTITIONS; partition++) {
+                producer.send(FarmLoad.closing(partition, written));
+            }
+        }
+        if (lost.get() != null) {
+            throw new IllegalStateException("a record was not written", lost.get());
+        }
+        return written;
+    }
+
+    /** How many records were handed over so far. */
+    int written() {
+        return written;
+    }
+
+    /**
+     * Returns when the last event of each partition is committed on the topic of its domain.
+     *
+     * @param timeout how long nothing may come out before that
+     */
+    void awaitOutput(Duration timeout) {
+        long until = System.nanoTime() + timeout.toNanos();
+        Map<String, Object> settings = new HashMap<>(kafka);
+        settings.put("auto.offset.reset", "earliest");
+        settings.put("isolation.level", "read_committed");
+        settings.put("allow.auto.create.topics", "false");
+        Set<String> closed = new HashSet<>();
+        try (var consumer = new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+            while (closed.size() < FarmLoad.PARTITIONS) {
+                if (System.nanoTime() > until) {
+                    throw new IllegalStateException("nothing came out for " + timeout + ", and of the last events of "
+                            + FarmLoad.PARTITIONS + " partitions only " + closed);
+                }
+                if (assign(consumer)) {
+                    ConsumerRecords<byte[], byte[]> records = consumer.poll(Duration.ofMillis(200));
+                    until = records.isEmpty() ? until : System.nanoTime() + timeout.toNanos();
+                    records.forEach(record -> {
+                        if (FarmLoad.isClosing(record.key())) {
+                            closed.add(new String(record.key(), java.nio.charset.StandardCharsets.UTF_8));
+                        }
+                    });
+                }
+            }
+        }
+    }
+
+    /** False as long as the topic is not there. */
+    private static boolean assign(KafkaConsumer<byte[], byte[]> consumer) {
+        if (consumer.assignment().isEmpty()) {
+            consumer.assign(consumer.partitionsFor(Topics.realtime(FarmLoad.DOMAIN)).stream()
+                    .map(info -> new TopicPartition(info.topic(), info.partition()))
+                    .toList());
+            LockSupport.parkNanos(Duration.ofMillis(100).toNanos());
+        }
+        return !consumer.assignment().isEmpty();
+    }
+
+    private KafkaProducer<byte[], byte[]> producer() {
+        Map<String, Object> settings = new HashMap<>(kafka);
+        settings.put("acks", "all");
+        settings.put("linger.ms", "5");
+        // Topics just made could refuse the first of two requests and take the second (KAFKA-15591).
+        settings.put("max.in.flight.requests.per.connection", "1");
+        return new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+    }
+}

@@ -1,0 +1,94 @@
+package io.furrow.soak.replay;
+
+import java.util.ArrayList;
+import java.util.BitSet;
+import java.util.List;
+import java.util.SortedMap;
+import java.util.TreeMap;
+
+/** What the topic of a replay holds, by epoch and sequence, and what is wrong with it. */
+final class PlayedEpochs {
+    private static final String EVENT = "event";
+    private static final String END = "end";
+
+    private final SortedMap<Long, SortedMap<Long, List<Entry>>> epochs = new TreeMap<>();
+    private int records;
+
+    /**
+     * A record.
+     *
+     * @param kind event, prime or end
+     * @param number of the event in its mission; −1 of any other kind
+     */
+    record Entry(String kind, int partition, long number) {}
+
+    void add(long epoch, long sequence, Entry entry) {
+        epochs.computeIfAbsent(epoch, any -> new TreeMap<>())
+                .computeIfAbsent(sequence, any -> new ArrayList<>())
+                .add(entry);
+        records++;
+    }
+
+    int count() {
+        return epochs.size();
+    }
+
+    int records() {
+        return records;
+    }
+
+    /** Sequences that are there more than once, ends excepted, which go to every partition. */
+    long doubled() {
+        return epochs.values().stream()
+                .flatMap(epoch -> epoch.values().stream())
+                .filter(entries -> entries.size() > 1 && !isEnd(entries))
+                .count();
+    }
+
+    private static boolean isEnd(List<Entry> entries) {
+        return entries.stream().allMatch(entry -> entry.kind().equals(END));
+    }
+
+    /** Sequences that are missing before the last of an epoch. */
+    List<String> gaps() {
+        List<String> gaps = new ArrayList<>();
+        epochs.forEach((epoch, sequences) -> {
+            long expected = 0;
+            for (long sequence : sequences.keySet()) {
+                if (sequence != expected) {
+                    gaps.add("epoch %d: %d to %d are missing".formatted(epoch, expected, sequence - 1));
+                }
+                expected = sequence + 1;
+            }
+        });
+        return gaps;
+    }
+
+    /** What must not be where each record is written exactly once. */
+    List<String> faultsOfExactlyOnce(int partitions) {
+        List<String> faults = new ArrayList<>();
+        epochs.forEach((epoch, sequences) -> {
+            long before = -1;
+            for (var each : sequences.entrySet()) {
+                List<Entry> entries = each.getValue();
+                Entry entry = entries.get(0);
+                if (!isEnd(entries) && entries.size() > 1) {
+                    faults.add("epoch %d: %d is there %d times".formatted(epoch, each.getKey(), entries.size()));
+                }
+                if (entry.kind().equals(EVENT)) {
+                    if (before >= 0 && entry.number() != before + 1) {
+                        faults.add("epoch %d: event %d follows event %d".formatted(epoch, entry.number(), before));
+                    }
+                    before = entry.number();
+                }
+            }
+            List<Entry> last = sequences.get(sequences.lastKey());
+            BitSet ended = new BitSet();
+            last.forEach(entry -> ended.set(entry.partition()));
+            if (!isEnd(last) || last.size() != partitions || ended.cardinality() != partitions) {
+                faults.add("epoch %d does not end once on each partition, but with %s".formatted(epoch, last));
+            }
+        });
+        return faults;
+    }
+}

@@ -1,0 +1,101 @@
+package io.furrow.soak.replay;
+
+import java.time.Clock;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Random;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.mongodb.client.MongoClient;
+import org.bson.RawBsonDocument;
+
+import io.furrow.mission.StoredEvent;
+import io.furrow.mission.mongo.EventDocumentCodec;
+import io.furrow.mission.mongo.MissionCollections;
+import io.furrow.mission.mongo.Retention;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
+
+/** A mission of numbered events that is played over and over, and what is wanted of its replay. */
+final class SteeredReplay {
+    /** The attribute that holds an event's number. */
+    static final String NUMBER = "n";
+
+    private static final long TIME = 1_600_000_000_000L;
+    private static final int EVENTS = 2_000;
+    private static final int APART = 20;
+    private static final int DEVICES = 5;
+    private static final double[] SPEEDS = {0.5, 1, 2, 5, 20, ReplayCommand.MAX};
+    private static final ReplayPlan LOOP =
+            new ReplayPlan(null, null, null, true, List.of(), null, ReplayPlan.Stamps.ORIGINAL, null, List.of());
+
+    private final int index;
+    private WantedReplay wanted;
+
+    SteeredReplay(int index) {
+        this.index = index;
+        this.wanted = WantedReplay.started(mission(index), topic(index), LOOP, 1, 0, 1);
+    }
+
+    private static String mission(int index) {
+        return "soak" + index;
+    }
+
+    static String topic(int index) {
+        return Topics.replay(mission(index), "0a1b2c3d");
+    }
+
+    WantedReplay wanted() {
+        return wanted;
+    }
+
+    void store(MongoClient client) throws UnreadableException {
+        MissionCollections missions = new MissionCollections(client, Retention.of(null, Map.of()), Clock.systemUTC());
+        List<RawBsonDocument> events = new ArrayList<>();
+        for (int i = 0; i < EVENTS; i++) {
+            String id = "urn:ngsi-ld:Robot:" + i % DEVICES;
+            ObjectNode entity =
+                    JsonNodeFactory.instance.objectNode().put("id", id).put("type", "Robot");
+            entity.putObject(NUMBER).put("type", "Integer").put("value", i).putObject("metadata");
+            StoredEvent event =
+                    new StoredEvent("e%05d".formatted(i), TIME + i * APART, id, Map.of("ce_source", "/soak"), entity);
+            events.add(new RawBsonDocument(EventDocumentCodec.write(event)));
+        }
+        missions.prepared(MissionCollections.nameOf(mission(index))).insertMany(events);
+    }
+
+    /** Changes what is wanted at random. @return the command's name */
+    String steer(Random random) {
+        long next = wanted.sequence() + 1;
+        boolean paused = wanted.wanted() == State.PAUSED;
+        switch (random.nextInt(4)) {
+            case 0 -> {
+                wanted = wanted.wanted(paused ? State.RUNNING : State.PAUSED, next);
+                return paused ? "resume" : "pause";
+            }
+            case 1 -> {
+                wanted = wanted.seeking(TIME + random.nextInt(EVENTS * APART), next);
+                return "seek";
+            }
+            case 2 -> {
+                wanted = wanted.at(SPEEDS[random.nextInt(SPEEDS.length)], next);
+                return "speed";
+            }
+            default -> {
+                int steps = random.nextInt(4) == 0 ? -1 - random.nextInt(5) : 1 + random.nextInt(20);
+                wanted = wanted.wanted(State.PAUSED, next).stepping(steps, next);
+                return "step";
+            }
+        }
+    }
+
+    void stop() {
+        wanted = wanted.wanted(State.STOPPED, wanted.sequence() + 1);
+    }
+}

@@ -1,0 +1,199 @@
+package io.furrow.soak.source;
+
+import java.io.IOException;
+import java.net.InetAddress;
+import java.net.ServerSocket;
+import java.net.URI;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.concurrent.ThreadLocalRandom;
+import java.util.stream.IntStream;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+/** The workers of one Connect group, each with its disk and its address, and the source with three tasks that runs on them. */
+final class SourceGroup implements AutoCloseable {
+    static final int TASKS = 3;
+
+    private static final Duration TIMEOUT = Duration.ofSeconds(120);
+    /** A killed worker keeps its tasks until the group misses it. */
+    private static final String[] SETTINGS = {
+        "session.timeout.ms=6000",
+        "heartbeat.interval.ms=2000",
+        "config.providers=env",
+        "config.providers.env.class=org.apache.kafka.common.config.provider.EnvVarConfigProvider"
+    };
+
+    private final Path folder;
+    private final String bootstrapServers;
+    private final boolean exactlyOnce;
+    private final List<Member> members = new ArrayList<>();
+    private final List<Member> gone = new ArrayList<>();
+
+    SourceGroup(Path folder, String bootstrapServers, boolean exactlyOnce) {
+        this.folder = folder;
+        this.bootstrapServers = bootstrapServers;
+        this.exactlyOnce = exactlyOnce;
+    }
+
+    /** A worker. @param port of the first task; task i has this one + i */
+    record Member(String name, Path disk, int port, WorkerProcess process, WorkerGauges gauges) {
+        /** Whether one of the tasks listens on this port when it runs here. */
+        boolean has(int listener) {
+            return listener >= port && listener < port + TASKS;
+        }
+
+        @Override
+        public String toString() {
+            return name;
+        }
+    }
+
+    /** Starts a worker with this disk, which may be there already, at an address of its own. */
+    Member join(String name, String disk) throws IOException {
+        Path own = folder.resolve(disk).toAbsolutePath();
+        int port = freePorts();
+        Map<String, String> environment =
+                Map.of("FURROW_JOURNAL", own.resolve("journal").toString(), "FURROW_PORT", Integer.toString(port));
+        WorkerProcess process = new WorkerProcess(
+                folder.resolve(name), bootstrapServers, environment, SourceWorker.settings(exactlyOnce, SETTINGS));
+        Member member = new Member(name, own, port, process, new WorkerGauges(process.jmxPort()));
+        members.add(member);
+        gone.removeIf(other -> other.disk().equals(own));
+        process.start();
+        return member;
+    }
+
+    /** The same worker again, on its disk and at its address. */
+    void restart(Member member) throws IOException {
+        member.process().start();
+        members.add(member);
+        gone.remove(member);
+    }
+
+    void kill(Member member) throws InterruptedException {
+        members.remove(member);
+        gone.add(member);
+        member.process().kill();
+    }
+
+    void stop(Member member) {
+        members.remove(member);
+        gone.add(member);
+        member.process().close();
+    }
+
+    List<Member> members() {
+        return List.copyOf(members);
+    }
+
+    /** Those that were killed or stopped, and whose disk no other has. */
+    List<Member> gone() {
+        return List.copyOf(gone);
+    }
+
+    void createSource(URI contextBroker, String publicUrl) {
+        ObjectNode config = SourceWorker.config(exactlyOnce)
+                .put("tasks.max", Integer.toString(TASKS))
+                .put("listen.port", "${env:FURROW_PORT}")
+                .put("journal.dir", "${env:FURROW_JOURNAL}")
+                .put("public.url", publicUrl)
+                .put("context.broker.url", contextBroker.toString())
+                .put("subscription.types", Change.TYPE)
+                .put("subscription.check.interval.ms", "2000");
+        members.get(0).process().createConnector(SourceWorker.CONNECTOR, config);
+    }
+
+    void pause() {
+        change("pause");
+    }
+
+    void resume() {
+        change("resume");
+    }
+
+    private void change(String verb) {
+        ObjectNode nothing = JsonNodeFactory.instance.objectNode();
+        Waiting.until(
+                verb,
+                TIMEOUT,
+                () -> Json.send("PUT", connectors("/" + SourceWorker.CONNECTOR + "/" + verb), nothing) / 100 == 2);
+        String state = verb.equals("pause") ? "PAUSED" : "RUNNING";
+        Waiting.until(
+                "all tasks " + state,
+                TIMEOUT,
+                () -> tasks(state).values().stream().mapToInt(Integer::intValue).sum() == TASKS);
+    }
+
+    private URI connectors(String path) {
+        return members.get(0).process().connectors(path);
+    }
+
+    /** Returns when all tasks run, and each of the workers has one. */
+    void awaitTasks() {
+        Waiting.until("all tasks run on " + members, TIMEOUT, () -> {
+            var shown = shown().values();
+            return tasks("RUNNING").values().stream()
+                                    .mapToInt(Integer::intValue)
+                                    .sum()
+                            == TASKS
+                    && shown.stream().mapToInt(WorkerGauges.Shown::tasks).sum() == TASKS
+                    && shown.stream().allMatch(one -> one.tasks() > 0);
+        });
+    }
+
+    private Map<String, Integer> tasks(String state) {
+        Map<String, Integer> tasks = new TreeMap<>();
+        JsonNode status = Json.get(connectors("/" + SourceWorker.CONNECTOR + "/status"));
+        for (JsonNode task : status.path("tasks")) {
+            if (task.path("state").asText().equals(state)) {
+                tasks.merge(task.path("worker_id").asText(), 1, Integer::sum);
+            }
+        }
+        return tasks;
+    }
+
+    /** What each worker shows now. */
+    Map<String, WorkerGauges.Shown> shown() {
+        Map<String, WorkerGauges.Shown> shown = new TreeMap<>();
+        members().forEach(member -> shown.put(member.name(), member.gauges().look()));
+        return shown;
+    }
+
+    /** Journals that Connect knows offsets of. */
+    int journalsInOffsets() {
+        return Json.get(connectors("/" + SourceWorker.CONNECTOR + "/offsets"))
+                .path("offsets")
+                .size();
+    }
+
+    /** Below those that systems give to clients. */
+    private int freePorts() {
+        while (true) {
+            int first = ThreadLocalRandom.current().nextInt(20_000, 32_000);
+            boolean others = members.stream().anyMatch(member -> Math.abs(member.port() - first) < TASKS);
+            if (!others && IntStream.range(first, first + TASKS).allMatch(SourceGroup::isFree)) {
+                return first;
+            }
+        }
+    }
+
+    private static boolean isFree(int port) {
+        try (ServerSocket socket = new ServerSocket(port, 1, InetAddress.getLoopbackAddress())) {
+            return socket.isBound();
+        } catch (IOException e) {
+            return false;
+        }
+    }
+
+    @Override
+    public void close() {
+        members().forEach(this::stop);
+    }
+}

@@ -1,0 +1,122 @@
+package io.furrow.soak.source;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.embedded.FreePort;
+
+/** A Connect worker that runs the NGSI source with one task; it can be killed and started again. */
+final class SourceWorker implements AutoCloseable {
+    static final String CONNECTOR = "ngsi-source";
+
+    private static final Duration TIMEOUT = Duration.ofSeconds(120);
+
+    private final Path folder;
+    private final boolean exactlyOnce;
+    private final WorkerProcess process;
+    private final int port = FreePort.orFree(0);
+
+    /**
+     * @param folder for its log and the journals
+     * @param settings of the worker, {@code name=value}, other than Connect's own
+     */
+    SourceWorker(Path folder, String bootstrapServers, boolean exactlyOnce, String... settings) {
+        this.folder = folder;
+        this.exactlyOnce = exactlyOnce;
+        process = new WorkerProcess(folder, bootstrapServers, Map.of(), settings(exactlyOnce, settings));
+    }
+
+    /** Of a worker for this kind of delivery. */
+    static List<String> settings(boolean exactlyOnce, String... others) {
+        List<String> settings = new ArrayList<>(List.of("offset.flush.interval.ms=5000"));
+        if (exactlyOnce) {
+            settings.add("exactly.once.source.support=enabled");
+        }
+        settings.addAll(List.of(others));
+        return settings;
+    }
+
+    /** What every source here has in its configuration. */
+    static ObjectNode config(boolean exactlyOnce) {
+        ObjectNode config = JsonNodeFactory.instance
+                .objectNode()
+                .put("connector.class", "io.furrow.connect.source.NgsiSourceConnector")
+                .put("key.converter", "org.apache.kafka.connect.storage.StringConverter")
+                .put("value.converter", "org.apache.kafka.connect.converters.ByteArrayConverter")
+                .put("header.converter", "org.apache.kafka.connect.storage.StringConverter");
+        if (exactlyOnce) {
+            config.put("exactly.once.support", "required");
+            // A worker that starts waits for transactions that a killed one left open.
+            config.put("producer.override.transaction.timeout.ms", "10000");
+        }
+        return config;
+    }
+
+    /** Starts the process; it finds the connector if that was created before. */
+    void start() throws IOException {
+        process.start();
+    }
+
+    /** Creates or changes the source as soon as the worker takes it; returns when it takes notifications. */
+    void createSource() {
+        process.createConnector(
+                CONNECTOR,
+                config(exactlyOnce)
+                        .put("tasks.max", "1")
+                        .put("listen.port", Integer.toString(port))
+                        .put(
+                                "journal.dir",
+                                folder.resolve("journal").toAbsolutePath().toString()));
+        awaitListening();
+    }
+
+    void awaitListening() {
+        Waiting.until("the source listens", TIMEOUT, () -> health().has("received"));
+    }
+
+    /** Returns when nothing that was taken waits for Kafka any more. */
+    void awaitDrained() {
+        Waiting.until(
+                "the journal is drained",
+                TIMEOUT,
+                () -> health().path("pending").asLong(-1) == 0);
+    }
+
+    /** What the source says of itself; empty while it does not answer. */
+    JsonNode health() {
+        return Json.get(URI.create("http://127.0.0.1:" + port + "/health"));
+    }
+
+    int port() {
+        return port;
+    }
+
+    /** @see WorkerProcess#residentMib */
+    long residentMib() throws IOException {
+        return process.residentMib();
+    }
+
+    /** @see WorkerProcess#peakResidentMib */
+    long peakResidentMib() throws IOException {
+        return process.peakResidentMib();
+    }
+
+    /** Ends it as {@code kill -9} does. */
+    void kill() throws InterruptedException {
+        process.kill();
+    }
+
+    @Override
+    public void close() {
+        process.close();
+    }
+}

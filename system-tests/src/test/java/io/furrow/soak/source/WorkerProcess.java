@@ -1,0 +1,141 @@
+package io.furrow.soak.source;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.TimeUnit;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.embedded.FreePort;
+
+/** A distributed Connect worker in a process of its own; it can be killed, stopped in order and started again. */
+final class WorkerProcess implements AutoCloseable {
+    private static final Duration TIMEOUT = Duration.ofSeconds(120);
+    private static final Duration STOP_TIMEOUT = Duration.ofSeconds(30);
+
+    private final Path folder;
+    private final String bootstrapServers;
+    private final Map<String, String> environment;
+    private final List<String> settings;
+    private final int restPort = FreePort.orFree(0);
+    private final int jmxPort = FreePort.orFree(0);
+    private Process process;
+
+    /**
+     * @param folder for its log
+     * @param environment beside that of this process
+     * @param settings of the worker, {@code name=value}
+     */
+    WorkerProcess(Path folder, String bootstrapServers, Map<String, String> environment, List<String> settings) {
+        this.folder = folder;
+        this.bootstrapServers = bootstrapServers;
+        this.environment = environment;
+        this.settings = settings;
+        Runtime.getRuntime().addShutdownHook(new Thread(this::endWithThisProcess));
+    }
+
+    private void endWithThisProcess() {
+        if (process != null) {
+            process.destroyForcibly();
+        }
+    }
+
+    void start() throws IOException {
+        List<String> command = new ArrayList<>(List.of(
+                Path.of(System.getProperty("java.home"), "bin", "java").toString(),
+                "-Xmx384m",
+                "-Dfurrow.log=" + log(),
+                "-Djava.rmi.server.hostname=127.0.0.1",
+                "-Dcom.sun.management.jmxremote.host=127.0.0.1",
+                "-Dcom.sun.management.jmxremote.port=" + jmxPort,
+                "-Dcom.sun.management.jmxremote.rmi.port=" + jmxPort,
+                "-Dcom.sun.management.jmxremote.authenticate=false",
+                "-Dcom.sun.management.jmxremote.ssl=false",
+                "-cp",
+                System.getProperty("java.class.path"),
+                WorkerMain.class.getName(),
+                bootstrapServers,
+                System.getProperty("furrow.plugins"),
+                Integer.toString(restPort)));
+        command.addAll(settings);
+        Path output = Files.createDirectories(folder).resolve("worker.out");
+        ProcessBuilder builder = new ProcessBuilder(command)
+                .redirectErrorStream(true)
+                .redirectOutput(ProcessBuilder.Redirect.appendTo(output.toFile()));
+        builder.environment().putAll(environment);
+        process = builder.start();
+    }
+
+    /** The connectors of its REST API. */
+    URI connectors(String path) {
+        return URI.create("http://127.0.0.1:" + restPort + "/connectors" + path);
+    }
+
+    Path log() {
+        return folder.resolve("worker.log");
+    }
+
+    /** The port of its JMX. */
+    int jmxPort() {
+        return jmxPort;
+    }
+
+    /** Creates or changes a connector as soon as the worker takes it. */
+    void createConnector(String name, JsonNode config) {
+        Waiting.until(
+                "the worker takes the connector",
+                TIMEOUT,
+                () -> Json.send("PUT", connectors("/" + name + "/config"), config) / 100 == 2);
+    }
+
+    /** Resident memory in MiB, from Linux' proc; 0 elsewhere. */
+    long residentMib() throws IOException {
+        return statusMib("VmRSS:");
+    }
+
+    /** The most that was resident at any time, in MiB, from Linux' proc; 0 elsewhere. */
+    long peakResidentMib() throws IOException {
+        return statusMib("VmHWM:");
+    }
+
+    private long statusMib(String name) throws IOException {
+        Path status = Path.of("/proc/" + process.pid() + "/status");
+        if (Files.notExists(status)) {
+            return 0;
+        }
+        return Files.readAllLines(status).stream()
+                .filter(line -> line.startsWith(name))
+                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) / 1024)
+                .findFirst()
+                .orElse(0);
+    }
+
+    /** Ends it as {@code kill -9} does. */
+    void kill() throws InterruptedException {
+        process.destroyForcibly();
+        process.waitFor();
+    }
+
+    /** Asks it to stop, and kills it where it does not. */
+    @Override
+    public void close() {
+        if (process == null) {
+            return;
+        }
+        try {
+            process.destroy();
+            if (!process.waitFor(STOP_TIMEOUT.toSeconds(), TimeUnit.SECONDS)) {
+                process.destroyForcibly();
+            }
+        } catch (InterruptedException e) {
+            process.destroyForcibly();
+            Thread.currentThread().interrupt();
+        }
+    }
+}

@@ -1,0 +1,142 @@
+package io.furrow.soak.source;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.locks.LockSupport;
+
+import org.apache.kafka.clients.admin.NewTopic;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.model.topic.Topics;
+import io.furrow.soak.source.NotificationTap.Try;
+import io.furrow.soak.source.SourceGroup.Member;
+import io.furrow.soak.source.WorkerGauges.Shown;
+
+/** Kafka, a context broker whose entities change, and the workers that are notified of it. */
+final class WorkersFarm implements AutoCloseable {
+    static final int ENTITIES = 60;
+
+    private static final Duration LOAD = Duration.ofSeconds(2);
+    private static final Duration TIMEOUT = Duration.ofSeconds(120);
+    private static final Duration REPAIRED_WITHIN = Duration.ofSeconds(60);
+
+    private final EmbeddedKafka kafka;
+    private final FiwareStandIn contextBroker;
+    private final NotificationTap tap;
+    private final EntityChanges changes;
+    private final SourceGroup group;
+    private final ChangesOnTopic topic;
+
+    private WorkersFarm(Path folder, int perSecond, boolean exactlyOnce) throws IOException {
+        kafka = EmbeddedKafka.start(folder.resolve("kafka"));
+        contextBroker = FiwareStandIn.start(FiwareSettings.httpOnly());
+        tap = NotificationTap.start();
+        changes = EntityChanges.prepare(contextBroker.contextBroker(), ENTITIES, perSecond);
+        group = new SourceGroup(folder, kafka.bootstrapServers(), exactlyOnce);
+        createTopic();
+        topic = new ChangesOnTopic(kafka.bootstrapServers());
+    }
+
+    /** Without workers yet. */
+    static WorkersFarm start(Path folder, int perSecond, boolean exactlyOnce) throws IOException {
+        return new WorkersFarm(folder, perSecond, exactlyOnce);
+    }
+
+    /** A topic that is made on first use shows its partitions one by one. */
+    private void createTopic() {
+        kafka.createTopics(List.of(new NewTopic(Topics.RAW, EmbeddedKafka.PARTITIONS, (short) 1)));
+    }
+
+    /** Creates the source on the workers; returns when each of its tasks has its subscription. */
+    void subscribe() {
+        group.createSource(contextBroker.contextBroker(), tap.publicUrl());
+        group.awaitTasks();
+        URI subscriptions = URI.create(contextBroker.contextBroker() + "/v2/subscriptions");
+        Waiting.until(
+                "each task has its subscription",
+                TIMEOUT,
+                () -> Json.get(subscriptions).size() == SourceGroup.TASKS);
+    }
+
+    NotificationTap tap() {
+        return tap;
+    }
+
+    EntityChanges changes() {
+        return changes;
+    }
+
+    SourceGroup group() {
+        return group;
+    }
+
+    ChangesOnTopic topic() {
+        return topic;
+    }
+
+    /** For a while; then the gauges are printed. Changes go on. @return the most that was left */
+    long load(String when) {
+        changes.goOn();
+        long[] left = {0};
+        long end = System.nanoTime() + LOAD.toNanos();
+        while (System.nanoTime() < end) {
+            LockSupport.parkNanos(Duration.ofMillis(250).toNanos());
+            group.shown().values().forEach(shown -> left[0] = Math.max(left[0], shown.leftRecords()));
+        }
+        System.out.println(when);
+        group.shown().forEach((worker, shown) -> System.out.printf("  %s: %s%n", worker, shown));
+        return left[0];
+    }
+
+    /** Nothing changes any more, and every notification has its answer or none. */
+    void awaitAnswers() {
+        changes.hold();
+        Waiting.until(
+                "every notification is answered",
+                TIMEOUT,
+                () -> contextBroker.counters().notificationsQueued() == 0 && tap.isIdle());
+    }
+
+    /** Nothing changes any more, and the workers have nothing left to do. */
+    void quiet() {
+        awaitAnswers();
+        Waiting.until("every journal is drained", TIMEOUT, () -> {
+            var shown = group.shown().values();
+            return shown.stream().mapToInt(Shown::tasks).sum() == SourceGroup.TASKS
+                    && shown.stream().allMatch(one -> one.onDisk() == 0 && one.adopted() == 0 && one.orphaned() == 0);
+        });
+        List<Change> newest = changes.newest();
+        Waiting.within(REPAIRED_WITHIN, () -> {
+            topic.read();
+            return topic.notNewest(newest).isEmpty();
+        });
+    }
+
+    /** Changes that a listener acknowledged and that no notification brought to Kafka. */
+    List<Change> missing() {
+        return tap.changes().stream()
+                .filter(change -> topic.notified(change) == 0)
+                .filter(change -> tap.tries(change).stream().anyMatch(Try::isAcknowledged))
+                .toList();
+    }
+
+    /** Whether a listener of this worker acknowledged it. */
+    boolean isAt(Member member, Change change) {
+        return tap.tries(change).stream().anyMatch(tried -> tried.isAcknowledged() && member.has(tried.port()));
+    }
+
+    @Override
+    public void close() {
+        changes.close();
+        group.close();
+        topic.close();
+        tap.close();
+        contextBroker.close();
+        kafka.close();
+    }
+}

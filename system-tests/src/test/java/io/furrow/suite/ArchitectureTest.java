@@ -1,0 +1,214 @@
+package io.furrow.suite;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import java.util.stream.Collectors;
+import java.util.stream.Stream;
+
+import com.tngtech.archunit.base.DescribedPredicate;
+import com.tngtech.archunit.core.domain.JavaClass;
+import com.tngtech.archunit.core.domain.JavaClasses;
+import com.tngtech.archunit.core.importer.ClassFileImporter;
+import com.tngtech.archunit.lang.ArchRule;
+import com.tngtech.archunit.lang.syntax.ArchRuleDefinition;
+import com.tngtech.archunit.library.dependencies.SlicesRuleDefinition;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
+
+import static com.tngtech.archunit.core.domain.JavaClass.Predicates.resideInAnyPackage;
+import static com.tngtech.archunit.lang.syntax.ArchRuleDefinition.noClasses;
+import static com.tngtech.archunit.lang.syntax.ArchRuleDefinition.noFields;
+import static org.assertj.core.api.Assertions.assertThat;
+
+class ArchitectureTest {
+    private static final int MAX_CLASSES_OF_A_PACKAGE = 20;
+    private static final JavaClasses CLASSES = everyModule();
+
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+                    io.furrow.model      |
+                    io.furrow.http       |
+                    io.furrow.embedded   | io.furrow.http
+                    io.furrow.flink      | io.furrow.model, io.furrow.kafka
+                    io.furrow.mission    | io.furrow.model
+                    io.furrow.connect    | io.furrow.model, io.furrow.http
+                    io.furrow.ingest     | io.furrow.model, io.furrow.flink, io.furrow.mission
+                    io.furrow.analytics  | io.furrow.model, io.furrow.flink
+                    io.furrow.replay     | io.furrow.model, io.furrow.kafka, io.furrow.flink, io.furrow.mission
+                    io.furrow.kafka      | io.furrow.model
+                    io.furrow.fields     | io.furrow.model, io.furrow.kafka
+                    io.furrow.provisioner | io.furrow.model, io.furrow.kafka
+                    io.furrow.control    | io.furrow.model, io.furrow.http, io.furrow.kafka, io.furrow.mission, io.furrow.fields
+                    io.furrow.dashboard  | io.furrow.model, io.furrow.http, io.furrow.kafka
+                    io.furrow.fiware     | io.furrow.model, io.furrow.http
+                    io.furrow.simulators | io.furrow.model, io.furrow.kafka
+                    io.furrow.cli        | io.furrow.model, io.furrow.kafka, io.furrow.flink, io.furrow.mission, io.furrow.ingest, io.furrow.fields
+                    io.furrow.launcher   | io.furrow.cli, io.furrow.model, io.furrow.http, io.furrow.kafka, io.furrow.embedded, io.furrow.flink, io.furrow.mission, io.furrow.ingest, io.furrow.analytics, io.furrow.replay, io.furrow.fields, io.furrow.provisioner, io.furrow.control, io.furrow.dashboard, io.furrow.fiware, io.furrow.simulators
+                    """)
+    void letsEachModuleDependOnWhatItMay(String module, String allowed) {
+        List<String> others = allowed == null ? List.of() : List.of(allowed.split(", "));
+        String[] mayUse = Stream.concat(Stream.of(module), others.stream())
+                .map(name -> name + "..")
+                .toArray(String[]::new);
+        DescribedPredicate<JavaClass> ours = resideInAnyPackage("io.furrow..");
+
+        noClasses()
+                .that()
+                .resideInAPackage(module + "..")
+                .should()
+                .dependOnClassesThat(ours.and(DescribedPredicate.not(resideInAnyPackage(mayUse))))
+                .check(CLASSES);
+    }
+
+    /** They share the fields, the clocks of devices, how entities are read and how to act in event time. */
+    @ParameterizedTest
+    @ValueSource(strings = "io.furrow.analytics.(*)..")
+    void keepsJobsApart(String jobs) {
+        SlicesRuleDefinition.slices()
+                .matching(jobs)
+                .should()
+                .notDependOnEachOther()
+                .ignoreDependency(
+                        resideInAnyPackage("io.furrow.analytics.."),
+                        resideInAnyPackage(
+                                "io.furrow.analytics.clock",
+                                "io.furrow.analytics.eventtime",
+                                "io.furrow.analytics.field",
+                                "io.furrow.analytics.job",
+                                "io.furrow.analytics.position"))
+                .check(CLASSES);
+    }
+
+    /** The page of ingest joins its branches; they know the events of {@code route} and nothing of each other. */
+    @Test
+    void keepsTheBranchesOfIngestApart() {
+        SlicesRuleDefinition.slices()
+                .matching("io.furrow.ingest.(*)..")
+                .should()
+                .notDependOnEachOther()
+                .ignoreDependency(
+                        resideInAnyPackage("io.furrow.ingest.."), resideInAnyPackage("io.furrow.ingest.route"))
+                .check(CLASSES);
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.ingest.route")
+                .should()
+                .dependOnClassesThat(resideInAnyPackage("io.furrow.ingest..")
+                        .and(DescribedPredicate.not(resideInAnyPackage("io.furrow.ingest.route"))))
+                .check(CLASSES);
+    }
+
+    /** When what is due can be tested without a cluster. */
+    @Test
+    void keepsTheRulesOfReplaysFreeOfEngines() {
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.replay.playback")
+                .should()
+                .dependOnClassesThat()
+                .resideInAnyPackage("org.apache..", "com.mongodb..", "io.furrow.replay.source")
+                .check(CLASSES);
+    }
+
+    @Test
+    void givesNoPackageANameThatSaysNothing() {
+        ArchRule rule = ArchRuleDefinition.noClasses()
+                .should()
+                .resideInAnyPackage(
+                        "..common..", "..util..", "..utils..", "..core..", "..misc..", "..impl..", "..helper..");
+
+        rule.check(CLASSES);
+    }
+
+    @Test
+    void keepsPackagesSmallEnoughToFindAClassIn() {
+        Map<String, Long> crowded = CLASSES.stream()
+                .filter(each -> each.isTopLevelClass() && !each.getSimpleName().equals("package-info"))
+                .filter(each -> !each.getPackageName().endsWith(".jmh_generated"))
+                .collect(Collectors.groupingBy(JavaClass::getPackageName, TreeMap::new, Collectors.counting()));
+        crowded.values().removeIf(classes -> classes <= MAX_CLASSES_OF_A_PACKAGE);
+
+        assertThat(crowded).isEmpty();
+    }
+
+    /** The word list is in CONTRIBUTING.md. */
+    @Test
+    void usesTheWordsOfTheField() {
+        noClasses()
+                .should()
+                .haveNameMatching(".*(Desk|Keeper|Gatekeeper|Caretaker|Book|Shelf|Board)s?")
+                .check(CLASSES);
+        noFields()
+                .should()
+                .haveNameMatching(
+                        "(.*_)?(PATIENCE|LOOK|LOOKS)(_.*)?|(MOST|LONGEST|LEAST|SHORTEST|FEWEST)(_(?!SEVERE).*)?")
+                .check(CLASSES);
+    }
+
+    @Test
+    void keepsTheModelFreeOfEngines() {
+        noClasses()
+                .that()
+                .resideInAPackage("io.furrow.model..")
+                .should()
+                .dependOnClassesThat()
+                .resideInAnyPackage("org.apache..", "org.eclipse..")
+                .check(CLASSES);
+    }
+
+    /** Each of its adapters goes where the engines of the others are not. */
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+                    io.furrow.http         | java.., io.furrow.http
+                    io.furrow.http.jetty   | java.., io.furrow.http, io.furrow.http.jetty, org.eclipse.jetty..
+                    io.furrow.http.flink   | java.., io.furrow.http, io.furrow.http.flink, org.apache.flink..
+                    io.furrow.http.connect | java.., io.furrow.http, io.furrow.http.connect, org.apache.kafka.., jakarta..
+                    """)
+    void keepsTheAccessRuleFreeOfEnginesAndItsAdaptersApart(String where, String allowed) {
+        ArchRuleDefinition.classes()
+                .that()
+                .resideInAPackage(where)
+                .should()
+                .onlyDependOnClassesThat()
+                .resideInAnyPackage(allowed.split(", "))
+                .check(CLASSES);
+    }
+
+    @Test
+    void seesEveryModule() {
+        assertThat(CLASSES)
+                .extracting(JavaClass::getPackageName)
+                .contains(
+                        "io.furrow.model.ngsi",
+                        "io.furrow.http",
+                        "io.furrow.embedded",
+                        "io.furrow.flink.job",
+                        "io.furrow.mission",
+                        "io.furrow.connect.source",
+                        "io.furrow.ingest.route",
+                        "io.furrow.analytics.collision",
+                        "io.furrow.replay.playback",
+                        "io.furrow.fields",
+                        "io.furrow.fiware",
+                        "io.furrow.bench.load",
+                        "io.furrow.launcher");
+    }
+
+    /** From the folders, because the connector is on nobody's class path. */
+    private static JavaClasses everyModule() {
+        try (Stream<Path> folders = Files.list(Path.of(".."))) {
+            List<Path> compiled = folders.map(folder -> folder.resolve("target/classes"))
+                    .filter(Files::isDirectory)
+                    .toList();
+            return new ClassFileImporter().importPaths(compiled);
+        } catch (IOException e) {
+            throw new java.io.UncheckedIOException("cannot list the modules", e);
+        }
+    }
+}

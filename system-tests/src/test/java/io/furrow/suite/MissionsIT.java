@@ -1,0 +1,140 @@
+package io.furrow.suite;
+
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.time.Instant;
+import java.util.List;
+import java.util.Optional;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.TestReporter;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.bench.mission.MissionStart;
+import io.furrow.launcher.suite.Suite;
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.FarmSecretCodec;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Missions on a whole suite: REST API, managers, IoT Agent, MQTT broker, simulated devices, and back to Kafka. */
+class MissionsIT {
+    private static final int DEVICES = 100;
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    private static final HttpClient HTTP = HttpClient.newHttpClient();
+
+    @TempDir
+    Path kept;
+
+    @Test
+    void startsAMissionOfAHundredDevicesGoesOnAfterARestartAndStopsIt(TestReporter reporter) throws Exception {
+        try (RunningSuite running = RunningSuite.start(kept)) {
+            Suite suite = running.suite();
+            suite.kafka()
+                    .admin()
+                    .createTopics(List.of(new NewTopic(Topics.realtime("north"), Optional.empty(), Optional.empty())))
+                    .all()
+                    .get();
+            try (MissionStart start =
+                    new MissionStart(suite.control(), suite.kafka().clientProperties(), "north")) {
+                MissionStart.Delays delays =
+                        start.run(new MissionStart.Plan("hoeing", DEVICES, Duration.ofSeconds(1)), TIMEOUT);
+                reporter.publishEntry("mission of 100 devices", delays.toString());
+            }
+            assertThat(provisioned(suite)).isEqualTo(DEVICES);
+        }
+        try (RunningSuite running = RunningSuite.start(kept)) {
+            Suite suite = running.suite();
+            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
+            JsonNode thermometer = running.ngsi()
+                    .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
+                    .path(0);
+            await().atMost(TIMEOUT)
+                    .until(() -> running.ngsi()
+                                    .entities("id=urn:ngsi-ld:Thermometer:hoeing-1")
+                                    .at("/0/Time/value")
+                                    .asLong()
+                            > thermometer.at("/Time/value").asLong());
+
+            send(suite, "POST", "/api/missions/hoeing/stop", "{}");
+
+            await().atMost(TIMEOUT).until(() -> state(suite).equals("stopped"));
+            await().atMost(TIMEOUT).until(() -> provisioned(suite) == 0);
+        }
+    }
+
+    @Test
+    void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
+        try (RunningSuite running = RunningSuite.start(kept)) {
+            Suite suite = running.suite();
+            await().atMost(TIMEOUT)
+                    .until(() -> send(suite, "GET", "/ready", "")
+                            .path("status")
+                            .asText()
+                            .equals("ready"));
+            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
+            send(suite, "POST", "/api/missions/hoeing/start", """
+                    {"domain": "north", "devices": [
+                      {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
+                    """);
+            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
+
+            Instant over = Instant.now().plusSeconds(5);
+            Path file = kept.resolve("farm-secret");
+            FarmSecret rotated = FarmSecret.read(file).rotated(Instant.now(), over, false);
+            Files.writeString(file, FarmSecretCodec.write(rotated));
+
+            for (int number = 1; number <= 3; number++) {
+                String entity = "id=urn:ngsi-ld:Thermometer:hoeing-" + number;
+                await().atMost(TIMEOUT)
+                        .until(() -> running.ngsi()
+                                        .entities(entity)
+                                        .at("/0/Time/value")
+                                        .asLong()
+                                > over.plusSeconds(3).toEpochMilli());
+            }
+            assertThat(state(suite)).isEqualTo("running");
+            assertThat(send(suite, "GET", "/api/devices/urn:ngsi-ld:Thermometer:hoeing-1/credentials", "")
+                            .path("user")
+                            .asText())
+                    .isEqualTo(rotated.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")
+                            .user());
+        }
+    }
+
+    private static String state(Suite suite) throws Exception {
+        return send(suite, "GET", "/api/missions/hoeing", "")
+                .at("/status/state")
+                .asText();
+    }
+
+    private static int provisioned(Suite suite) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(suite.devices().iotAgent().resolve("/iot/devices?limit=1"))
+                .header("fiware-service", suite.fiwareService())
+                .header("fiware-servicepath", "/")
+                .build();
+        return NgsiJson.read(HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray())
+                        .body())
+                .path("count")
+                .asInt();
+    }
+
+    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
+                .header("Content-Type", "application/json")
+                .method(method, HttpRequest.BodyPublishers.ofString(body))
+                .build();
+        return NgsiJson.read(
+                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
+    }
+}

@@ -1,0 +1,58 @@
+package io.furrow.suite;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpRequest.BodyPublishers;
+import java.net.http.HttpResponse;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.launcher.suite.Suite;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** The context broker and the listener for notifications, as a client over HTTP sees them. */
+final class Ngsi {
+    private final HttpClient http =
+            HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
+    private final Suite suite;
+
+    Ngsi(Suite suite) {
+        this.suite = suite;
+    }
+
+    /** The entities that a query such as {@code type=Camera} finds. */
+    JsonNode entities(String query) throws IOException, InterruptedException {
+        HttpRequest request = HttpRequest.newBuilder(suite.contextBroker().resolve("/v2/entities?limit=1000&" + query))
+                .header("fiware-service", suite.fiwareService())
+                .header("fiware-servicepath", "/#")
+                .build();
+        return NgsiJson.mapper()
+                .readTree(http.send(request, HttpResponse.BodyHandlers.ofByteArray())
+                        .body());
+    }
+
+    /** Sends a notification to the NGSI source and returns the status of its answer. */
+    int notify(byte[] body) throws IOException, InterruptedException {
+        return send(suite.listener(), body);
+    }
+
+    /** Creates or updates an entity in normalized form. */
+    int append(String entities) throws IOException, InterruptedException {
+        String update = "{\"actionType\":\"append\",\"entities\":[" + entities + "]}";
+        return send(
+                suite.contextBroker().resolve("/v2/op/update"),
+                update.getBytes(java.nio.charset.StandardCharsets.UTF_8));
+    }
+
+    private int send(URI uri, byte[] body) throws IOException, InterruptedException {
+        HttpRequest request = HttpRequest.newBuilder(uri)
+                .header("Content-Type", "application/json")
+                .header("fiware-service", suite.fiwareService())
+                .header("fiware-servicepath", "/")
+                .POST(BodyPublishers.ofByteArray(body))
+                .build();
+        return http.send(request, HttpResponse.BodyHandlers.discarding()).statusCode();
+    }
+}

@@ -1,0 +1,65 @@
+package io.furrow.suite;
+
+import java.nio.file.Path;
+import java.time.Duration;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.http.AllowedNames;
+import io.furrow.launcher.suite.SuiteSettings;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class PartsThatAlreadyRunIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+
+    @TempDir
+    Path directory;
+
+    @TempDir
+    Path documents;
+
+    @TempDir
+    Path kept;
+
+    @Test
+    void usesTheContextBrokerTheKafkaAndTheMongoThatItIsGiven() throws Exception {
+        try (EmbeddedKafka kafka = EmbeddedKafka.start(directory);
+                EmbeddedMongo mongo = EmbeddedMongo.start(documents);
+                FiwareStandIn orion = FiwareStandIn.start(FiwareSettings.httpOnly());
+                RunningSuite running = RunningSuite.start(
+                        kept,
+                        new SuiteSettings(
+                                null,
+                                "farm",
+                                "2s",
+                                null,
+                                SuiteSettings.Ports.free(),
+                                orion.contextBroker(),
+                                kafka.bootstrapServers(),
+                                mongo.uri(),
+                                SuiteSettings.Farm.SIMULATED,
+                                SuiteSettings.Watch.DEFAULT,
+                                AllowedNames.NONE))) {
+            assertThat(running.suite().hasStandIn()).isFalse();
+            assertThat(running.suite().mongo()).isEqualTo(mongo.uri());
+            assertThat(running.suite().kafka().bootstrapServers()).isEqualTo(kafka.bootstrapServers());
+
+            running.ngsi()
+                    .append(
+                            "{\"id\":\"probe\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"elsewhere\"}}");
+
+            await().atMost(TIMEOUT).untilAsserted(() -> {
+                try (TopicLog topic = running.topic("data.elsewhere.realtime")) {
+                    assertThat(topic.of("probe")).hasSize(1);
+                }
+            });
+        }
+    }
+}

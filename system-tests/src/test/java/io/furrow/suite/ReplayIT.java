@@ -1,0 +1,144 @@
+package io.furrow.suite;
+
+import java.io.IOException;
+import java.io.UncheckedIOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.TreeMap;
+
+import com.fasterxml.jackson.core.type.TypeReference;
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.launcher.suite.Suite;
+import io.furrow.mission.Cursor;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recording;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.MongoRecordings;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** A mission on a whole suite, kept, and played back: what its topic had, its replay has. */
+class ReplayIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    private static final HttpClient HTTP = HttpClient.newHttpClient();
+    private static final int REPORTS = 30;
+
+    @Test
+    void playsWhatTheMissionReported() throws Exception {
+        try (RunningSuite running = RunningSuite.start(null);
+                TopicLog live = running.topic(Topics.realtime("north", "hoeing"))) {
+            Suite suite = running.suite();
+            runMission(suite, live);
+            await().atMost(TIMEOUT)
+                    .until(() -> stored(suite, "hoeing") == live.records().size());
+            awaitListed(suite, "hoeing");
+
+            JsonNode replay = send(suite, "POST", "/api/replays", "{\"mission\":\"hoeing\",\"speed\":\"max\"}");
+            try (TopicLog played = running.topic(replay.path("topic").asText())) {
+                await().atMost(TIMEOUT).until(() -> played.records().stream().anyMatch(record -> kind(record, "end")));
+
+                assertThat(byId(played.records(), "event", HeaderNames.REPLAY_CE_ID))
+                        .isEqualTo(byId(live.records(), null, HeaderNames.CE_ID))
+                        .hasSizeGreaterThanOrEqualTo(REPORTS);
+            }
+            await("forgotten when its end is settled")
+                    .atMost(TIMEOUT)
+                    .until(() -> send(suite, "GET", "/api/replays", "").size() == 0);
+        }
+    }
+
+    private static void runMission(Suite suite, TopicLog live) throws Exception {
+        await().atMost(TIMEOUT)
+                .until(() ->
+                        send(suite, "GET", "/ready", "").path("status").asText().equals("ready"));
+        send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
+        send(suite, "POST", "/api/missions/hoeing/start", """
+                {"domain": "north", "devices": [
+                  {"type": "Thermometer", "count": 3, "period": "PT0.2S", "path": [[-3.48, 40.31]]}]}
+                """);
+        await().atMost(TIMEOUT).until(() -> live.records().size() >= REPORTS);
+        send(suite, "POST", "/api/missions/hoeing/stop", "{}");
+        await().atMost(TIMEOUT)
+                .until(() -> send(suite, "GET", "/api/missions/hoeing", "")
+                        .at("/status/state")
+                        .asText()
+                        .equals("stopped"));
+    }
+
+    /** How many events of a mission are kept. */
+    static long stored(Suite suite, String mission) throws Exception {
+        Optional<Recording> recording = new MongoRecordings(suite.mongo(), MongoAccess.DATABASE).open(mission);
+        if (recording.isEmpty()) {
+            return 0;
+        }
+        try (Recording open = recording.get()) {
+            return open.read(Cursor.START, new PageLimits(100_000, Integer.MAX_VALUE))
+                    .events()
+                    .size();
+        }
+    }
+
+    /** Until the catalog of recordings, which is polled, has the mission: only then a replay of it is accepted. */
+    static void awaitListed(Suite suite, String mission) {
+        await("listed among the recordings").atMost(TIMEOUT).until(() -> {
+            List<String> listed = send(suite, "GET", "/api/recordings", "").findValuesAsText("mission");
+            return listed.contains(mission);
+        });
+    }
+
+    private static boolean kind(ConsumerRecord<byte[], byte[]> record, String kind) {
+        return kind.equals(TopicLog.headers(record).get(HeaderNames.REPLAY_KIND));
+    }
+
+    /** Timestamp and value of each record by the event's id. */
+    private static Map<String, String> byId(List<ConsumerRecord<byte[], byte[]>> records, String kind, String id) {
+        Map<String, String> byId = new TreeMap<>();
+        for (ConsumerRecord<byte[], byte[]> record : records) {
+            if (kind == null || kind(record, kind)) {
+                String value = record.value() == null ? "" : new String(record.value(), StandardCharsets.UTF_8);
+                byId.put(TopicLog.headers(record).get(id), record.timestamp() + " " + sorted(value));
+            }
+        }
+        return byId;
+    }
+
+    /** Equal texts for equal entities. */
+    private static String sorted(String json) {
+        try {
+            return json.isEmpty()
+                    ? ""
+                    : NgsiJson.mapper()
+                            .readValue(json, new TypeReference<TreeMap<String, Object>>() {})
+                            .toString();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
+    }
+
+    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
+                .header("Content-Type", "application/json")
+                .method(method, HttpRequest.BodyPublishers.ofString(body))
+                .build();
+        HttpResponse<byte[]> response = HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray());
+        JsonNode answer = NgsiJson.read(response.body());
+        assertThat(response.statusCode())
+                .as("%s %s: %s", method, path, answer)
+                .isLessThan(method.equals("GET") ? 600 : 300);
+        return answer;
+    }
+}

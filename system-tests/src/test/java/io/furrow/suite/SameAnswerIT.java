@@ -1,0 +1,146 @@
+package io.furrow.suite;
+
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.TreeSet;
+
+import com.fasterxml.jackson.core.type.TypeReference;
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.Timeout;
+
+import io.furrow.launcher.suite.Suite;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The demonstration farm's robots and thermometers as one mission: a replay gives the answers that the live run gave, at any speed. */
+@Timeout(300)
+class SameAnswerIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(90);
+    private static final HttpClient HTTP = HttpClient.newHttpClient();
+    private static final List<String> RESULTS = List.of(Topics.COLLISION, Topics.TEMPERATURE, Topics.PRESENCE);
+
+    @Test
+    void findsInReplaysWhatItFoundLive() throws Exception {
+        try (RunningSuite running = RunningSuite.start(null);
+                TopicLog live = running.topic(Topics.realtime("farm", "weeding"));
+                TopicLog collisions = running.topic(Topics.COLLISION)) {
+            Suite suite = running.suite();
+            await().atMost(TIMEOUT)
+                    .until(() -> send(suite, "GET", "/ready", "")
+                            .path("status")
+                            .asText()
+                            .equals("ready"));
+            send(suite, "POST", "/api/domains", "{\"domain\":\"farm\"}");
+            // off the fields, and still reporting when the mission is over: event time goes on
+            send(suite, "POST", "/api/domains", "{\"domain\":\"canary\"}");
+            send(suite, "POST", "/api/missions/dummy/start", """
+                    {"domain": "canary", "devices": [{"type": "Thermometer", "period": "PT1S", "path": [[-3.482, 40.3092]]}]}
+                    """);
+            send(suite, "POST", "/api/missions/weeding/start", """
+                    {"domain": "farm", "devices": [
+                      {"type": "Thermometer", "period": "PT1S", "path": [[-3.4836, 40.3134]]},
+                      {"type": "Thermometer", "period": "PT1S", "path": [[-3.4825, 40.31325]]},
+                      {"type": "Thermometer", "period": "PT1S", "path": [[-3.48355, 40.3135]]},
+                      {"type": "Thermometer", "period": "PT1S", "path": [[-3.4826, 40.3133]],
+                       "faults": [{"kind": "stuck", "value": 60}]},
+                      {"type": "Robot", "period": "PT0.5S", "speed": 1.5, "parameters": {"start": 6},
+                       "path": [[-3.484, 40.3128], [-3.4836, 40.3128]]},
+                      {"type": "Robot", "period": "PT0.5S", "speed": 1.5, "parameters": {"start": 6},
+                       "path": [[-3.4836, 40.31281], [-3.484, 40.31281]]}]}
+                    """);
+            await().atMost(TIMEOUT).until(() -> phases(collisions).contains("ended"));
+            send(suite, "POST", "/api/missions/weeding/stop", "{}");
+            await().atMost(TIMEOUT)
+                    .until(() -> send(suite, "GET", "/api/missions/weeding", "")
+                            .at("/status/state")
+                            .asText()
+                            .equals("stopped"));
+
+            await().atMost(TIMEOUT)
+                    .until(() ->
+                            ReplayIT.stored(suite, "weeding") == live.records().size());
+            ReplayIT.awaitListed(suite, "weeding");
+
+            List<String> topics = List.of(replay(suite, "1"), replay(suite, "10"), replay(suite, "\"max\""));
+            for (String result : RESULTS) {
+                for (String topic : topics) {
+                    // windows and encounters that the live run left open close as its event time goes on
+                    await().atMost(TIMEOUT)
+                            .untilAsserted(() -> assertSame(
+                                    topic, answers(running, result), answers(running, Topics.resultOf(topic, result))));
+                }
+            }
+        }
+    }
+
+    private static void assertSame(String topic, Set<String> live, Set<String> replayed) {
+        Set<String> missed = new TreeSet<>(live);
+        missed.removeAll(replayed);
+        Set<String> added = new TreeSet<>(replayed);
+        added.removeAll(live);
+        // that a device which stays silent left its field, five minutes later: no answer of the live run yet
+        long now = System.currentTimeMillis();
+        added.removeIf(answer -> Long.parseLong(answer.substring(0, answer.indexOf(' '))) > now);
+        assertThat(live).isNotEmpty();
+        assertThat(missed).as("of %d only live, not on %s", live.size(), topic).isEmpty();
+        assertThat(added).as("only on %s", topic).isEmpty();
+    }
+
+    private static List<String> phases(TopicLog collisions) {
+        return collisions.records().stream()
+                .map(record -> entity(record).path("phase").path("value").asText())
+                .toList();
+    }
+
+    private static String replay(Suite suite, String speed) throws Exception {
+        JsonNode answer = send(suite, "POST", "/api/replays", """
+                {"mission": "weeding", "speed": %s, "analytics": ["collision", "temperature", "presence"]}
+                """.formatted(speed));
+        assertThat(answer.path("topic").asText()).as(answer.toString()).isNotEmpty();
+        return answer.path("topic").asText();
+    }
+
+    /** Timestamp, key and attributes of each result, in any order. */
+    private static Set<String> answers(RunningSuite running, String topic) {
+        try (TopicLog log = running.topic(topic)) {
+            Set<String> answers = new TreeSet<>();
+            for (ConsumerRecord<byte[], byte[]> record : log.records()) {
+                Map<String, Object> entity =
+                        NgsiJson.mapper().convertValue(entity(record), new TypeReference<TreeMap<String, Object>>() {});
+                String key = new String(record.key(), StandardCharsets.UTF_8);
+                answers.add(record.timestamp() + " " + key + " " + entity);
+            }
+            return answers;
+        }
+    }
+
+    private static JsonNode entity(ConsumerRecord<byte[], byte[]> record) {
+        try {
+            return NgsiJson.read(record.value());
+        } catch (io.furrow.model.ngsi.UnreadableException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    private static JsonNode send(Suite suite, String method, String path, String body) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(URI.create(suite.control() + path))
+                .header("Content-Type", "application/json")
+                .method(method, HttpRequest.BodyPublishers.ofString(body))
+                .build();
+        return NgsiJson.read(
+                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
+    }
+}

@@ -1,0 +1,151 @@
+package io.furrow.suite;
+
+import java.io.ByteArrayOutputStream;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.fields.FieldsTopic;
+import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.launcher.command.DemoFarm;
+import io.furrow.model.event.HeaderNames;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.Entity;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class WholePathIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+
+    private static RunningSuite running;
+
+    @BeforeAll
+    static void startTheDemonstrationFarm() throws Exception {
+        running = RunningSuite.start(null);
+        DemoFarm.start(running.suite().control());
+    }
+
+    @AfterAll
+    static void stop() {
+        if (running != null) {
+            running.close();
+        }
+    }
+
+    @Test
+    void writesTheAverageOfAFieldIntoTheContextBrokerAndNamesTheDefectiveThermometer() {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
+            JsonNode average = running.ngsi()
+                    .entities("id=Analytics:FieldTemperature:field-1")
+                    .path(0);
+            assertThat(average.path("suspects").path("value")).hasSize(1);
+            assertThat(average.at("/suspects/value/0").asText()).isEqualTo("urn:ngsi-ld:Thermometer:4");
+            assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
+            assertThat(average.at("/averageTemperature/value").asDouble())
+                    .isLessThan(average.at("/plainMean/value").asDouble());
+        });
+    }
+
+    @Test
+    void showsEachDomainAndMissionInTheContextBroker() {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
+            JsonNode missions = running.ngsi().entities("type=Mission");
+            assertThat(missions)
+                    .hasSize(3)
+                    .allSatisfy(mission ->
+                            assertThat(mission.at("/status/value").asText()).isEqualTo("running"));
+            assertThat(running.ngsi().entities("type=Domain")).hasSize(2);
+        });
+    }
+
+    /** As {@code ./furrow fields import} writes it. */
+    @Test
+    void averagesAFieldThatIsImportedWhileItRuns() throws Exception {
+        FieldsTopic fields = new FieldsTopic(running.suite().kafka().clientProperties());
+        FieldVersion known = fields.read().stream()
+                .filter(field -> field.id().equals("field-1"))
+                .findFirst()
+                .orElseThrow();
+        fields.write(List.of(new FieldVersion("imported", 0, known.geometry(), known.properties())));
+
+        await().atMost(TIMEOUT).untilAsserted(() -> {
+            JsonNode average = running.ngsi()
+                    .entities("id=Analytics:FieldTemperature:imported")
+                    .path(0);
+            assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
+        });
+    }
+
+    @Test
+    void writesTheEncounterOfTwoRobotsIntoTheContextBroker() {
+        await().atMost(TIMEOUT).untilAsserted(() -> {
+            JsonNode collision =
+                    running.ngsi().entities("type=Analytics:Collision").path(0);
+            assertThat(collision.at("/Device1_ID/value").asText()).isEqualTo("urn:ngsi-ld:Robot:1");
+            assertThat(collision.at("/Device2_ID/value").asText()).isEqualTo("urn:ngsi-ld:Robot:2");
+            assertThat(collision.at("/minDistance/value").asDouble()).isBetween(0.0, 5.0);
+        });
+    }
+
+    @Test
+    void routesEachMissionToItsOwnTopicWithEveryHopStamped() {
+        try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
+                TopicLog dummy = running.topic("data.canary.realtime.dummy")) {
+            await().atMost(TIMEOUT).untilAsserted(() -> {
+                assertThat(weeding.records()).hasSizeGreaterThan(10);
+                assertThat(dummy.records()).hasSizeGreaterThan(10);
+            });
+            assertThat(weeding.records()).allSatisfy(record -> {
+                Entity entity = Entity.parse(record.value());
+                assertThat(entity.text("Mission")).contains("weeding");
+                assertThat(new String(record.key(), StandardCharsets.UTF_8)).isEqualTo(entity.id());
+                assertThat(TopicLog.headers(record))
+                        .containsKeys(
+                                HeaderNames.CE_ID, HeaderNames.TS_DEVICE, HeaderNames.TS_SOURCE, HeaderNames.TS_INGEST)
+                        .containsEntry(HeaderNames.CE_SPECVERSION, "1.0")
+                        .containsEntry(HeaderNames.ORIGIN, "notification")
+                        .containsEntry(HeaderNames.TS_DEVICE, Long.toString(record.timestamp()))
+                        .containsEntry(HeaderNames.SERVICE, "farm");
+            });
+        }
+    }
+
+    @Test
+    void keepsEveryEventOfAMissionInMongo() {
+        try (TopicLog weeding = running.topic("data.farm.realtime.weeding");
+                StoredMissions missions = StoredMissions.open(running.suite().mongo())) {
+            await().atMost(TIMEOUT)
+                    .untilAsserted(() -> assertThat(weeding.records()).hasSizeGreaterThan(10));
+            await().atMost(TIMEOUT).untilAsserted(() -> {
+                ByteArrayOutputStream lines = new ByteArrayOutputStream();
+                missions.export("weeding", lines, ignored -> {});
+                String kept = lines.toString(StandardCharsets.UTF_8);
+                assertThat(weeding.records().subList(0, 10))
+                        .allSatisfy(record -> assertThat(kept)
+                                .contains(TopicLog.headers(record).get(HeaderNames.CE_ID))
+                                .contains("\"entity\":" + new String(record.value(), StandardCharsets.UTF_8)));
+            });
+        }
+    }
+
+    @Test
+    void doesNotTakeItsOwnResultsForNews() {
+        await().atMost(TIMEOUT)
+                .untilAsserted(() -> assertThat(running.ngsi().entities("typePattern=Analytics:.*"))
+                        .isNotEmpty());
+        try (TopicLog raw = running.topic("data.raw")) {
+            await().atMost(TIMEOUT)
+                    .untilAsserted(() -> assertThat(raw.records()).hasSizeGreaterThan(50));
+            assertThat(raw.records())
+                    .extracting(record -> Entity.parse(record.value()).type())
+                    .doesNotContain("Analytics:FieldTemperature", "Analytics:Collision")
+                    .contains("Thermometer", "Camera");
+        }
+    }
+}

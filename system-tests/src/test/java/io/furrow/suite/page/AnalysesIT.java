@@ -1,0 +1,94 @@
+package io.furrow.suite.page;
+
+import java.util.List;
+import java.util.regex.Pattern;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.options.BoundingBox;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** What analytics found, and the way from it to its moment. */
+@PageTest
+class AnalysesIT {
+    @Test
+    void showsAveragesAsAChartAndAsATableWithItsSuspects(PageSuite suite) {
+        FarmPage farm = suite.open("#/analyses");
+        assertThat(farm.find(".analysis.averages canvas").first()).isVisible();
+        farm.find(".analysis.averages").getByText("Table").click();
+
+        Locator rows = farm.find(".analysis.averages tbody tr");
+        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Upper field"))
+                        .filter(new Locator.FilterOptions().setHasText("Thermometer 4"))
+                        .first())
+                .containsText("robust");
+        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Mill field"))
+                        .first())
+                .containsText("unverified");
+    }
+
+    @Test
+    void leadsFromAnEncounterToItsMomentOnTheMap(PageSuite suite) {
+        FarmPage farm = suite.open("#/analyses").expectingError(ReplaysIT.NO_RESULTS_YET);
+        farm.untilStore("store.recordings.has('weeding')");
+        Locator row = farm.find(".analysis.encounters tbody tr")
+                .filter(new Locator.FilterOptions().setHasText("ended"))
+                .first();
+        assertThat(row).containsText(Pattern.compile("3\\.\\d m"));
+        row.getByText("To the moment").click();
+
+        assertThat(farm.find(".mode")).containsText("Replay of weeding");
+        assertThat(farm.page()).hasURL(Pattern.compile("#/map"));
+    }
+
+    @Test
+    void showsWhoWasInWhichField(PageSuite suite) {
+        FarmPage farm = suite.open("#/analyses");
+        farm.find(".analysis.presence").getByText("Table").click();
+
+        assertThat(farm.find(".analysis.presence tbody tr")
+                        .filter(new Locator.FilterOptions().setHasText("Robot 1"))
+                        .first())
+                .containsText("Upper field");
+    }
+
+    @Test
+    void beginsWithWhatThereIsAndEndsWithItsAxis(PageSuite suite) {
+        FarmPage farm = suite.open("#/analyses");
+        Locator averages = farm.find(".analysis.averages");
+        assertThat(averages.locator("canvas").first()).isVisible();
+
+        // a suite that has just begun is not shown as an empty hour; a minute is the least
+        farm.page().waitForCondition(() -> Boolean.TRUE.equals(farm.page().evaluate("""
+                () => {
+                  const { chart, findings } = document.querySelector('furrow-analyses');
+                  const { min, max } = chart.plot.scales.x;
+                  return Math.abs(min - Math.min(findings.first / 1000, max - 60)) < 1;
+                }""")));
+        BoundingBox panel = averages.boundingBox();
+        BoundingBox chart = averages.locator(".uplot").boundingBox();
+        org.assertj.core.api.Assertions.assertThat(panel.y + panel.height - chart.y - chart.height)
+                .as("px below the chart")
+                .isLessThan(20);
+    }
+
+    @Test
+    void hasAllOfItOnAPhone(PageSuite suite) {
+        FarmPage farm = suite.open("#/analyses", Look.PHONE);
+        Locator moment = farm.find(".analysis.encounters tbody tr").first().getByText("To the moment");
+        assertThat(moment).isVisible();
+        assertThat(farm.find(".gantt-name").first()).isVisible();
+
+        moment.scrollIntoViewIfNeeded();
+        BoundingBox button = moment.boundingBox();
+        org.assertj.core.api.Assertions.assertThat(button.x).isPositive();
+        org.assertj.core.api.Assertions.assertThat(button.x + button.width).isLessThan(Look.PHONE.width());
+        for (String part : List.of(".encounter-frame", ".gantt-name", ".chart-legend")) {
+            org.assertj.core.api.Assertions.assertThat(farm.find(part)
+                            .evaluateAll("(all) => all.filter((each) => each.scrollWidth > each.clientWidth).length"))
+                    .as(part + " that are cut")
+                    .isEqualTo(0);
+        }
+    }
+}

@@ -1,0 +1,143 @@
+package io.furrow.suite.page;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.util.regex.Pattern;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.assertions.LocatorAssertions;
+import com.microsoft.playwright.options.AriaRole;
+import com.microsoft.playwright.options.BoundingBox;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** What a card says of its device, and what it does to it. */
+@PageTest
+class CardsIT {
+    private static final String DEFECTIVE = "urn:ngsi-ld:Thermometer:4";
+    private static final String STATION = "urn:ngsi-ld:WeatherStation:1";
+    private static final String CAMERA = "urn:ngsi-ld:Camera:1";
+    private static final String ROBOT = "urn:ngsi-ld:Robot:canary-1";
+
+    @Test
+    void showsTheAttributesOfAnEntityWhateverTheyAre(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        Locator card = farm.card(STATION);
+        assertThat(card).containsText("°C");
+        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
+                .click();
+
+        for (String attribute : new String[] {"WindSpeed", "WindDirection", "Pressure", "SolarRadiation", "Humidity"}) {
+            assertThat(card.locator(".attributes")).containsText(attribute);
+        }
+        assertThat(card.locator("svg.spark path")).hasAttribute("d", Pattern.compile("^M.*L.*"));
+    }
+
+    @Test
+    void findsOutTheDefectiveThermometerAndPutsItFirst(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        assertThat(farm.card(DEFECTIVE)).containsText("suspect");
+        assertThat(farm.card(DEFECTIVE)).containsText("40.5 °C");
+        assertThat(farm.card(DEFECTIVE)).containsText("Field mean");
+        assertThat(farm.find("furrow-cards li.card.device").first())
+                .hasAttribute("data-id", DEFECTIVE, new LocatorAssertions.HasAttributeOptions().setTimeout(10_000));
+    }
+
+    @Test
+    void showsTheStoredPictureOfACamera(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.card(CAMERA).scrollIntoViewIfNeeded();
+        Locator picture = farm.card(CAMERA).locator("img");
+
+        assertThat(picture).isVisible();
+        farm.page()
+                .waitForCondition(() -> ((Number) picture.evaluate("(image) => image.naturalWidth")).intValue() == 320);
+        assertThat(farm.card(CAMERA)).containsText("Picture of");
+    }
+
+    @Test
+    void sendsACommandAndSaysWhatBecameOfIt(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        Locator card = farm.card(ROBOT);
+        card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+
+        assertThat(card.locator(".card-outcome")).containsText("✓ Stop");
+        assertThat(card.locator(".card-facts")).containsText("Stopped");
+        card.getByText("Resume", new Locator.GetByTextOptions().setExact(true)).click();
+        assertThat(card.locator(".card-outcome")).containsText("✓ Resume");
+        assertThat(card.locator(".card-facts")).containsText("Running");
+    }
+
+    /** Nobody keeps it: the context broker has no such entity. */
+    @Test
+    void saysWhyACommandWasNotSent(PageSuite suite) throws Exception {
+        String lost = "urn:ngsi-ld:Robot:lost";
+        suite.produce("data.raw", lost, robot(lost, "Running", Instant.now()));
+        FarmPage farm = suite.open("").expectingError("status of 4\\d\\d.*commands");
+        Locator card = farm.card(lost);
+        card.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+
+        assertThat(card.locator(".card-outcome")).containsText("Stop was not sent:");
+        suite.produce("data.raw", lost, null);
+    }
+
+    @Test
+    void saysThatADeviceIsSilent(PageSuite suite) throws Exception {
+        String silent = "urn:ngsi-ld:Robot:silent";
+        Instant before = Instant.now().minusSeconds(300);
+        suite.produce("data.raw", silent, robot(silent, "Running", before), before);
+        FarmPage farm = suite.open("");
+
+        assertThat(farm.card(silent)).hasClass(Pattern.compile("is-stale"));
+        assertThat(farm.card(silent)).containsText("silent");
+        suite.produce("data.raw", silent, null);
+    }
+
+    @Test
+    void searchesFromTheKeyboard(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        assertThat(farm.card(STATION)).isAttached();
+        farm.find("body").press("/");
+        farm.page().keyboard().type("robot 2");
+
+        assertThat(farm.card("urn:ngsi-ld:Robot:2")).isVisible();
+        assertThat(farm.find("furrow-cards li.card.device")).hasCount(1);
+        farm.page().keyboard().press("Escape");
+        assertThat(farm.card(STATION)).isAttached();
+    }
+
+    @Test
+    void showsOneKindOnly(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.find("furrow-cards .chip[data-key=camera]").click();
+
+        assertThat(farm.find("furrow-cards li.card.device")).hasCount(2);
+        assertThat(farm.card(CAMERA)).isVisible();
+    }
+
+    /** One time for all charts, and for the timeline. */
+    @Test
+    void sharesTheCursorOfCharts(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("(store.entities.get('" + DEFECTIVE + "')?.series.get('Temperature')?.length ?? 0) > 8"
+                + " && (store.entities.get('urn:ngsi-ld:Robot:1')?.series.get('speed')?.length ?? 0) > 16");
+        // A chart holds a number of points, not a period: at the right edge all charts have one.
+        Locator chart = farm.card(DEFECTIVE).locator("svg.spark");
+        chart.scrollIntoViewIfNeeded();
+        BoundingBox box = chart.boundingBox();
+        chart.hover(new Locator.HoverOptions().setPosition(box.width - 2, box.height / 2));
+
+        assertThat(farm.card(DEFECTIVE).locator(".spark-rule")).hasAttribute("visibility", "visible");
+        assertThat(farm.card("urn:ngsi-ld:Robot:1").locator(".spark-rule")).hasAttribute("visibility", "visible");
+        assertThat(farm.find("furrow-timeline .tl-cursor")).isVisible();
+    }
+
+    private static byte[] robot(String id, String state, Instant time) {
+        return """
+                {"id": "%s", "type": "ROBOT", "Domain": {"type": "String", "value": "farm"}, "Time": {"type": "Integer", "value": %d},
+                 "Latitude": {"type": "Float", "value": 40.3125}, "Longitude": {"type": "Float", "value": -3.4822},
+                 "state": {"type": "String", "value": "%s"}, "cmd": {"type": "String", "value": ""}}""".formatted(id, time.toEpochMilli(), state).getBytes(StandardCharsets.UTF_8);
+    }
+}

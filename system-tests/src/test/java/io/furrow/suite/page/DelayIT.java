@@ -1,0 +1,19 @@
+package io.furrow.suite.page;
+
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** How long it takes is measured by {@code ./furrow soak page --only delay}. */
+@PageTest
+class DelayIT {
+    private static final int EVENTS = 40;
+
+    @Test
+    void showsEachEventOnTheMapAndOnItsCard(PageSuite suite) throws Exception {
+        Marks.Delays delays = Marks.measure(suite, EVENTS, 700);
+
+        assertThat(delays.canvas()).hasSizeGreaterThan(EVENTS * 9 / 10);
+        assertThat(delays.card()).hasSizeGreaterThan(EVENTS * 9 / 10);
+    }
+}

@@ -1,0 +1,34 @@
+package io.furrow.suite.page;
+
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** The frame around all views. */
+@PageTest
+class FrameIT {
+    @Test
+    void opensOnTheMapAndSaysThatWhatIsShownIsLive(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        assertThat(farm.page()).hasTitle("Furrow");
+        assertThat(farm.find(".mode")).hasText("Live");
+        assertThat(farm.find("furrow-map canvas").first()).isVisible();
+    }
+
+    /** A test of the page fails by errors of the window: they have to be heard. */
+    @Test
+    void hearsWhatThePolicyForbidsAndWhatNobodyCaught(PageSuite suite) {
+        FarmPage farm = suite.open("").expectingError(".");
+        farm.page()
+                .evaluate(
+                        "() => { setTimeout(() => { throw new Error('thrown by a test'); });"
+                                + " const script = document.createElement('script'); script.textContent = 'window.ran = true'; document.body.append(script); }");
+
+        farm.page()
+                .waitForCondition(() -> farm.allErrors().stream().anyMatch(error -> error.contains("thrown by a test"))
+                        && farm.allErrors().stream().anyMatch(error -> error.contains("policy forbids script-src")));
+        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("window.ran"))
+                .isNull();
+    }
+}

@@ -1,0 +1,193 @@
+package io.furrow.suite.page;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Page;
+import com.microsoft.playwright.assertions.LocatorAssertions;
+import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** From the map to a device and back. */
+@PageTest
+class MapIT {
+    private static final String ROBOT = "urn:ngsi-ld:Robot:1";
+    private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:1";
+    private static final int CRITICAL = 0xFF7A6B;
+    private static final int BORDER_OF_FIELDS = 0x4C7A58;
+
+    @Test
+    void drawsTheFieldsAndEveryDeviceWithinTenSeconds(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        farm.untilStore("store.fields.size === 4 && store.entities.size >= 17"
+                + " && ['field-1', 'field-2', 'field-3'].every((id) => store.fields.get(id).average)"
+                + " && store.entities.get('" + ROBOT + "').trail.length > 5");
+        farm.page().waitForCondition(() -> farm.mapPixels(BORDER_OF_FIELDS) > 300);
+        assertThat(farm.find("furrow-map .empty")).isHidden();
+    }
+
+    /** Red is on the map only while two devices are close to each other. */
+    @Test
+    void drawsAnEncounterWhileItLastsAndItsDistance(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        String lasting = "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase))";
+
+        farm.untilStore("store.encounters.size > 0");
+        farm.page()
+                .waitForCondition(
+                        () -> Boolean.TRUE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) > 200,
+                        FarmPage.TIMEOUT);
+        farm.page()
+                .waitForCondition(
+                        () -> Boolean.FALSE.equals(farm.store(lasting)) && farm.mapPixels(CRITICAL) == 0,
+                        FarmPage.TIMEOUT);
+    }
+
+    @Test
+    void selectsTheCardOfADeviceThatIsClicked(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed");
+        assertThat(farm.card(THERMOMETER)).not().hasClass(java.util.regex.Pattern.compile("selected"));
+
+        double[] spot = farm.spot(THERMOMETER);
+        farm.page().mouse().click(spot[0], spot[1]);
+
+        assertThat(farm.card(THERMOMETER)).hasClass(java.util.regex.Pattern.compile("selected"));
+        assertThat(farm.card(THERMOMETER)).isInViewport();
+    }
+
+    @Test
+    void bringsTheDeviceOfACardIntoTheMiddle(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.card(THERMOMETER).getByRole(AriaRole.BUTTON).first().click();
+
+        farm.untilStore("store.selection === '" + THERMOMETER + "'");
+        com.microsoft.playwright.options.BoundingBox map =
+                farm.find("furrow-map .map-target").boundingBox();
+        farm.page().waitForCondition(() -> {
+            double[] spot = farm.spot(THERMOMETER);
+            return Math.hypot(spot[0] - map.x - map.width / 2, spot[1] - map.y - map.height / 2) < 5;
+        });
+    }
+
+    @Test
+    void hasATableOfTheSameBesideTheMap(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.button("The map as a table").click();
+        Locator rows = farm.find(".map-table table[aria-label=Devices] tbody tr");
+
+        assertThat(rows).hasCount(((Number) farm.store("store.entities.size")).intValue());
+        Locator robot = rows.filter(new Locator.FilterOptions().setHasText("Robot 1"));
+        assertThat(robot).containsText("robot");
+        assertThat(robot).containsText("1.50 m/s");
+        robot.getByRole(AriaRole.BUTTON).click();
+        assertThat(farm.card(ROBOT)).hasClass(java.util.regex.Pattern.compile("selected"));
+
+        Locator upper = farm.find(".map-table table[aria-label=Fields] tbody tr")
+                .filter(new Locator.FilterOptions().setHasText("Upper field"));
+        assertThat(upper).containsText("°C");
+        assertThat(upper).containsText("Thermometer 4");
+        Locator close = farm.find(".map-table table[aria-label=Encounters] tbody tr")
+                .filter(new Locator.FilterOptions().setHasText("Robot 1 – Robot 2"));
+        assertThat(close).containsText("too close", new LocatorAssertions.ContainsTextOptions().setTimeout(60_000));
+    }
+
+    @Test
+    void gathersManyRobotsAndOpensWhatNoZoomTellsApart(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed && store.entities.size >= 17");
+        report(farm, 200, 40.312998, -3.483058);
+        farm.page().evaluate("document.querySelector('furrow-map').fit(0)");
+        farm.page()
+                .waitForCondition(() -> ((Number)
+                                        farm.page()
+                                                .evaluate(
+                                                        "Math.max(0, ...document.querySelector('furrow-map').devices.clusters.map((each) => each.count))"))
+                                .intValue()
+                        >= 200);
+        double[] spot = farm.spot("urn:ngsi-ld:Tractor:7");
+        farm.page().mouse().click(spot[0], spot[1]);
+
+        Locator list = farm.find(".map-list");
+        assertThat(list.getByText("200 devices in one spot")).isVisible();
+        farm.page().keyboard().press("Tab");
+        farm.page().keyboard().press("Enter");
+        assertThat(list).isHidden();
+        farm.untilStore("store.selection?.startsWith('urn:ngsi-ld:Tractor:')");
+    }
+
+    @Test
+    void opensOnTheFarmThoughOneDeviceIsFarAway(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed && store.entities.size >= 17");
+        farm.page()
+                .evaluate(
+                        "async () => { const { store } = await import('/core/store.js'); store.fields.clear(); store.tell('fields'); }");
+        report(farm, 1, -33.9, 18.4);
+        farm.page().evaluate("document.querySelector('furrow-map').fit(0)");
+
+        farm.page().waitForCondition(() -> zoom(farm) > 14);
+        double[] robot = farm.spot(ROBOT);
+        com.microsoft.playwright.options.BoundingBox map =
+                farm.find("furrow-map .map-target").boundingBox();
+        org.assertj.core.api.Assertions.assertThat(robot[0]).isBetween(map.x, map.x + map.width);
+        org.assertj.core.api.Assertions.assertThat(robot[1]).isBetween(map.y, map.y + map.height);
+    }
+
+    @Test
+    void drawsNothingBehindAnotherView(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed && store.entities.size >= 17");
+        farm.page()
+                .evaluate(
+                        "() => { window.drawn = 0; document.querySelector('furrow-map').map.on('postrender', () => window.drawn++); }");
+        farm.page().waitForCondition(() -> drawn(farm) > 5);
+
+        farm.go("Platform");
+        assertThat(farm.find("furrow-platform h1")).isVisible();
+        int before = drawn(farm);
+        double time = System.currentTimeMillis();
+        farm.untilStore("store.entities.get('" + ROBOT + "').time > " + (time + 1_500));
+        org.assertj.core.api.Assertions.assertThat(drawn(farm)).isEqualTo(before);
+        farm.go("Map");
+        farm.page().waitForCondition(() -> drawn(farm) > before);
+    }
+
+    private static int drawn(FarmPage farm) {
+        return ((Number) farm.page().evaluate("window.drawn")).intValue();
+    }
+
+    /** Reports that come to this window only. */
+    private static void report(FarmPage farm, int count, double latitude, double longitude) {
+        farm.page().evaluate("""
+                        async ([count, latitude, longitude]) => {
+                          const { store } = await import('/core/store.js');
+                          for (let number = 0; number < count; number++) {
+                            const id = `urn:ngsi-ld:Tractor:${number}`;
+                            store.takeEntity({ key: id, kind: 'event', time: Date.now(), headers: {},
+                              value: { id, type: 'Tractor', Latitude: { value: latitude }, Longitude: { value: longitude } } });
+                          }
+                        }""", java.util.List.of(count, latitude, longitude));
+    }
+
+    @Test
+    void isMovedAndZoomedByTheKeyboard(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed");
+        Locator map =
+                farm.page().getByRole(AriaRole.APPLICATION, new Page.GetByRoleOptions().setName("Map of the farm"));
+        map.focus();
+        double[] before = farm.spot(THERMOMETER);
+
+        farm.page().keyboard().press("ArrowRight");
+        farm.page().waitForCondition(() -> farm.spot(THERMOMETER)[0] < before[0] - 20);
+        double zoom = zoom(farm);
+        farm.page().keyboard().press("+");
+        farm.page().waitForCondition(() -> zoom(farm) > zoom + 0.4);
+    }
+
+    private static double zoom(FarmPage farm) {
+        return ((Number) farm.page().evaluate("document.querySelector('furrow-map').view.getZoom()")).doubleValue();
+    }
+}

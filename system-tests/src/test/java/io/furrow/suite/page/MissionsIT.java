@@ -1,0 +1,93 @@
+package io.furrow.suite.page;
+
+import java.nio.charset.StandardCharsets;
+
+import com.microsoft.playwright.Locator;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.topic.Topics;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** The life of a mission, and who commanded it. */
+@PageTest
+class MissionsIT {
+    @Test
+    void makesChecksStartsAndStopsAMission(PageSuite suite) {
+        // Of a mission that has just begun nothing is stored yet.
+        FarmPage farm = suite.open("#/missions").expectingError("status of 400.*recordings/again/timeline");
+        farm.button("New mission").click();
+        Locator dialog = farm.find("dialog[open]");
+        dialog.getByLabel("Name").fill("again");
+        dialog.getByLabel("Domain").selectOption("farm");
+        dialog.getByLabel("Template").selectOption("demo-scouting@1");
+        // Its devices are at work in another mission.
+        assertThat(dialog).containsText("need a look");
+        assertThat(dialog).containsText("runs in mission scouting");
+        dialog.getByLabel("Template").selectOption("thesis-demo@1");
+        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+                .click();
+
+        Locator detail = farm.find("furrow-missions .mission-detail");
+        assertThat(detail).containsText("again");
+        assertThat(detail.locator(".pill").first()).hasText("running");
+        assertThat(detail.locator(".device-table tbody tr").first()).isVisible();
+        detail.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        dialog.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        assertThat(detail.locator(".pill").first()).hasText("stopped");
+
+        assertThat(detail.locator("table").last()).containsText("mission start");
+        assertThat(detail.locator("table").last()).containsText("mission stop");
+        farm.page().getByText("Who commanded what").first().click();
+        assertThat(farm.find("#missions-panel tbody")).containsText("again");
+    }
+
+    @Test
+    void showsDomainsAndFields(PageSuite suite) {
+        FarmPage farm = suite.open("#/missions?tab=domains");
+
+        assertThat(farm.find("#missions-panel")).containsText("Demonstration farm");
+        assertThat(farm.find("#missions-panel")).containsText("River field");
+        assertThat(farm.find("#missions-panel")).containsText("zone without alarms");
+    }
+
+    @Test
+    void showsOlderCommandsOnRequestAndNewOnesAboveThem(PageSuite suite) throws Exception {
+        produceAudit(suite, 0, 450);
+        FarmPage farm = suite.open("#/missions?tab=audit&mission=long-ago");
+        Locator rows = farm.find("furrow-missions .audit-table tbody tr");
+
+        assertThat(rows).hasCount(200);
+        assertThat(rows.first()).containsText("command-449");
+        assertThat(rows.last()).containsText("command-250");
+        farm.button("Show older").click();
+        assertThat(rows).hasCount(400);
+        farm.button("Show older").click();
+        assertThat(rows).hasCount(450);
+        assertThat(rows.last()).containsText("command-0");
+        assertThat(farm.button("Show older")).hasCount(0);
+        assertThat(farm.find("furrow-missions")).containsText("There are no older ones.");
+
+        produceAudit(suite, 450, 451);
+        assertThat(rows).hasCount(451);
+        assertThat(rows.first()).containsText("command-450");
+        assertThat(rows.nth(1)).containsText("command-449");
+        assertThat(rows.last()).containsText("command-0");
+    }
+
+    private static void produceAudit(PageSuite suite, int from, int to) {
+        try (KafkaProducer<byte[], byte[]> producer = new KafkaProducer<>(
+                suite.running().suite().kafka().clientProperties(),
+                new ByteArraySerializer(),
+                new ByteArraySerializer())) {
+            for (int i = from; i < to; i++) {
+                String entry = """
+                        {"time":%d,"user":"olga","target":"device","command":"command-%d","about":{"mission":"long-ago"},"result":"sent"}""".formatted(1_700_000_000_000L + i, i);
+                producer.send(new ProducerRecord<>(Topics.AUDIT, entry.getBytes(StandardCharsets.UTF_8)));
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+package io.furrow.suite.page;
+
+import java.lang.management.ManagementFactory;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.concurrent.atomic.AtomicBoolean;
+
+import com.sun.management.OperatingSystemMXBean;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+/** The long checks of the page, and its pictures: {@code ./furrow soak page}. */
+public final class PageSoak {
+    private static final long HALF_A_SECOND = 500;
+    private static final double SHARE_OF_A_CORE = 0.02;
+    private static final int HIDDEN_TURNS = 10;
+    /** A hidden page lets go after ten seconds, and then the server of what nobody reads. */
+    private static final int LETS_GO_MILLIS = 15_000;
+
+    private static final double TIMES_BARE = 2;
+
+    private PageSoak() {}
+
+    /** {@code pictures FOLDER}, {@code delay EVENTS}, {@code heap DEVICES MINUTES}, {@code hidden SECONDS}, or {@code frames DEVICES TURNS SECONDS} without a suite. */
+    public static void main(String[] arguments) throws Exception {
+        boolean passed;
+        if (arguments[0].equals("frames")) {
+            System.exit(frames(number(arguments[1]), number(arguments[2]), number(arguments[3])) ? 0 : 1);
+        }
+        try (PageSuite suite = PageSuite.start()) {
+            passed = switch (arguments[0]) {
+                case "pictures" -> Pictures.take(suite, Path.of(arguments[1]));
+                case "delay" -> delay(suite, Integer.parseInt(arguments[1]));
+                case "heap" -> heap(suite, Integer.parseInt(arguments[1]), Integer.parseInt(arguments[2]));
+                case "hidden" -> hidden(suite, Integer.parseInt(arguments[1]));
+                default -> throw new IllegalArgumentException(arguments[0]);
+            };
+        }
+        System.exit(passed ? 0 : 1);
+    }
+
+    private static int number(String argument) {
+        return Integer.parseInt(argument);
+    }
+
+    /** The bare page and the map by turns, each first as often as the other. */
+    private static boolean frames(int devices, int turns, int seconds) {
+        List<Double> bare = new ArrayList<>();
+        List<Double> map = new ArrayList<>();
+        try (FrameTimes times = new FrameTimes(devices)) {
+            for (int turn = 0; turn < turns; turn++) {
+                for (boolean isMap : turn % 2 == 0 ? new boolean[] {false, true} : new boolean[] {true, false}) {
+                    (isMap ? map : bare).add(times.measure(isMap ? FrameTimes.MAP : FrameTimes.BARE, seconds));
+                }
+                say("a frame of the bare page %.1f ms, of the map %.1f ms", bare.get(turn), map.get(turn));
+            }
+        }
+        double ratio = median(map) / median(bare);
+        say(
+                "main thread for a frame of %d devices, median of %d turns: bare page %.1f ms, map %.1f ms, %.2f times",
+                devices, turns, median(bare), median(map), ratio);
+        return ratio <= TIMES_BARE;
+    }
+
+    private static double median(List<Double> values) {
+        List<Double> sorted = values.stream().sorted().toList();
+        return (sorted.get((sorted.size() - 1) / 2) + sorted.get(sorted.size() / 2)) / 2;
+    }
+
+    private static boolean delay(PageSuite suite, int events) throws Exception {
+        Marks.Delays delays = Marks.measure(suite, events, 700);
+        boolean passed = true;
+        for (boolean canvas : new boolean[] {true, false}) {
+            List<Long> of = canvas ? delays.canvas() : delays.card();
+            long high = Marks.Delays.percentile(of, 0.95);
+            say(
+                    "from Kafka to the %s: %d of %d events, median %d ms, p95 %d ms, most %d ms",
+                    canvas ? "pixel of the map" : "number on the card",
+                    of.size(),
+                    events,
+                    Marks.Delays.percentile(of, 0.5),
+                    high,
+                    of.get(of.size() - 1));
+            passed &= high <= HALF_A_SECOND && (!canvas || of.size() > events * 9 / 10);
+        }
+        return passed;
+    }
+
+    /** Devices that move, each once a second, on {@code data.raw}. */
+    private static Thread fleet(PageSuite suite, int devices, AtomicBoolean ends) {
+        Properties properties = suite.running().suite().kafka().clientProperties();
+        Thread thread = new Thread(
+                () -> {
+                    try (KafkaProducer<byte[], byte[]> producer =
+                            new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+                        for (long second = 0; !ends.get(); second++) {
+                            long due = System.currentTimeMillis() + 1000;
+                            for (int number = 0; number < devices && !ends.get(); number++) {
+                                producer.send(report(number, second));
+                                if (number % 50 == 49) {
+                                    Thread.sleep(Math.max(
+                                            0, (due - System.currentTimeMillis()) * 50L / (devices - number + 49)));
+                                }
+                            }
+                            Thread.sleep(Math.max(0, due - System.currentTimeMillis()));
+                        }
+                    } catch (InterruptedException e) {
+                        Thread.currentThread().interrupt();
+                    }
+                },
+                "fleet");
+        thread.setDaemon(true);
+        thread.start();
+        return thread;
+    }
+
+    private static ProducerRecord<byte[], byte[]> report(int number, long second) {
+        String id = "urn:ngsi-ld:Tractor:" + number;
+        double angle = (second + number) / 20.0;
+        String entity = """
+                {"id": "%s", "type": "Tractor", "Time": {"type": "Integer", "value": %d}, "speed": {"type": "Float", "value": %.2f},
+                 "heading": {"type": "Float", "value": %.1f}, "battery": {"type": "Float", "value": 0.8},
+                 "Latitude": {"type": "Float", "value": %.7f}, "Longitude": {"type": "Float", "value": %.7f}}""".formatted(
+                        id,
+                        System.currentTimeMillis(),
+                        1 + Math.sin(angle),
+                        Math.toDegrees(angle) % 360,
+                        40.31 + number / 40 * 0.0002 + 0.00005 * Math.sin(angle),
+                        -3.49 + number % 40 * 0.0003 + 0.00005 * Math.cos(angle));
+        return new ProducerRecord<>(
+                "data.raw", id.getBytes(StandardCharsets.UTF_8), entity.getBytes(StandardCharsets.UTF_8));
+    }
+
+    private static boolean heap(PageSuite suite, int devices, int minutes) throws Exception {
+        AtomicBoolean ends = new AtomicBoolean();
+        Thread fleet = fleet(suite, devices, ends);
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.entities.size >= " + devices);
+        List<Double> used = new ArrayList<>();
+        for (int minute = 1; minute <= minutes; minute++) {
+            farm.page().waitForTimeout(60_000);
+            used.add(farm.heap());
+            say(
+                    "minute %d: heap of the page after collection %.1f MiB, %s devices",
+                    minute, used.get(minute - 1), farm.store("store.entities.size"));
+        }
+        ends.set(true);
+        fleet.join();
+        double growth = used.get(minutes - 1) / used.get(0);
+        say("last minute by first: %.3f", growth);
+        return growth <= FarmPage.HEAP_GROWTH;
+    }
+
+    /** Processor time of the whole suite with a hidden page and without, by turns, each first as often as the other: what else the suite does goes up and down. */
+    private static boolean hidden(PageSuite suite, int seconds) throws Exception {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed");
+        List<Double> more = new ArrayList<>();
+        for (int turn = 0; turn < HIDDEN_TURNS; turn++) {
+            double without = turn % 2 == 0 ? shareWithout(farm, seconds) : 0;
+            farm.open("");
+            farm.untilStore("store.primed");
+            farm.hide();
+            farm.page().waitForTimeout(LETS_GO_MILLIS);
+            double with = share(farm, seconds);
+            without = turn % 2 == 0 ? without : shareWithout(farm, seconds);
+            more.add(with - without);
+            say("suite with a hidden page %.1f %%, without %.1f %% of a core", 100 * with, 100 * without);
+        }
+        double median = median(more);
+        say("a hidden page costs the suite %.1f %% of a core (median of %d turns)", 100 * median, more.size());
+        return median <= SHARE_OF_A_CORE;
+    }
+
+    private static double shareWithout(FarmPage farm, int seconds) {
+        farm.page().navigate("about:blank");
+        farm.page().waitForTimeout(LETS_GO_MILLIS);
+        return share(farm, seconds);
+    }
+
+    private static double share(FarmPage page, int seconds) {
+        OperatingSystemMXBean machine = (OperatingSystemMXBean) ManagementFactory.getOperatingSystemMXBean();
+        long before = machine.getProcessCpuTime();
+        long start = System.nanoTime();
+        page.page().waitForTimeout(Duration.ofSeconds(seconds).toMillis());
+        return (machine.getProcessCpuTime() - before) / (double) (System.nanoTime() - start);
+    }
+
+    static void say(String words, Object... values) {
+        System.out.println(words.formatted(values));
+    }
+}

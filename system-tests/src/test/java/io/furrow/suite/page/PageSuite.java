@@ -1,0 +1,128 @@
+package io.furrow.suite.page;
+
+import java.io.IOException;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.charset.StandardCharsets;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.microsoft.playwright.Browser;
+import com.microsoft.playwright.assertions.PlaywrightAssertions;
+import com.microsoft.playwright.options.ReducedMotion;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+
+import io.furrow.dashboard.Dashboard;
+import io.furrow.dashboard.DashboardSettings;
+import io.furrow.launcher.command.DemoFarm;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.suite.RunningSuite;
+
+/** A suite with the demonstration farm, its dashboard and a browser, for all tests of the page. */
+final class PageSuite implements AutoCloseable {
+    static final double TIMEOUT_MILLIS = 30_000;
+
+    private final RunningSuite running;
+    private final Chromium chromium;
+    private final List<FarmPage> pages = new ArrayList<>();
+
+    private PageSuite(RunningSuite running) {
+        this.running = running;
+        this.chromium = Chromium.start();
+    }
+
+    static PageSuite start() throws Exception {
+        PlaywrightAssertions.setDefaultAssertionTimeout(TIMEOUT_MILLIS);
+        RunningSuite running = RunningSuite.start(null);
+        DemoFarm.start(running.suite().control());
+        return new PageSuite(running);
+    }
+
+    RunningSuite running() {
+        return running;
+    }
+
+    /** Beside that of the suite, which all tests share. */
+    Dashboard ownDashboard(int port) throws IOException {
+        return Dashboard.start(DashboardSettings.of(
+                port,
+                running.suite().kafka().clientProperties(),
+                running.suite().control()));
+    }
+
+    /** Writes a record as anybody could who may write to Kafka. */
+    void produce(String topic, String key, byte[] value) throws Exception {
+        produce(topic, key, value, Instant.now());
+    }
+
+    void produce(String topic, String key, byte[] value, Instant time) throws Exception {
+        Properties properties = running.suite().kafka().clientProperties();
+        properties.setProperty("max.request.size", "10000000");
+        try (KafkaProducer<byte[], byte[]> producer =
+                new KafkaProducer<>(properties, new ByteArraySerializer(), new ByteArraySerializer())) {
+            producer.send(new ProducerRecord<>(
+                            topic, null, time.toEpochMilli(), key.getBytes(StandardCharsets.UTF_8), value))
+                    .get();
+        }
+    }
+
+    /** An answer of the control plane's REST API. */
+    JsonNode rest(String path) throws Exception {
+        HttpRequest request =
+                HttpRequest.newBuilder(running.suite().control().resolve(path)).build();
+        return NgsiJson.mapper()
+                .readTree(HttpClient.newHttpClient()
+                        .send(request, HttpResponse.BodyHandlers.ofByteArray())
+                        .body());
+    }
+
+    /** A new window with nothing remembered. */
+    FarmPage open(String place) {
+        return open(place, Look.DESK);
+    }
+
+    FarmPage open(String place, Look look) {
+        return open(running.suite().dashboard(), place, look);
+    }
+
+    FarmPage open(URI dashboard, String place, Look look) {
+        return window(dashboard, look).open(place);
+    }
+
+    /** With nothing in it yet. */
+    FarmPage window(URI dashboard, Look look) {
+        FarmPage page = new FarmPage(
+                dashboard,
+                chromium.browser()
+                        .newContext(new Browser.NewContextOptions()
+                                .setViewportSize(look.width(), look.height())
+                                .setColorScheme(look.scheme())
+                                .setReducedMotion(ReducedMotion.REDUCE)
+                                .setLocale("en-GB")
+                                .setTimezoneId("Europe/Madrid")));
+        pages.add(page);
+        return page;
+    }
+
+    List<FarmPage> pages() {
+        return List.copyOf(pages);
+    }
+
+    void closePages() {
+        pages.forEach(FarmPage::close);
+        pages.clear();
+    }
+
+    @Override
+    public void close() {
+        chromium.close();
+        running.close();
+    }
+}

@@ -1,0 +1,69 @@
+package io.furrow.suite.page;
+
+import java.nio.file.Path;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** Pictures of the main views, as the documentation shows them. */
+final class Pictures {
+    private static final String ENCOUNTER =
+            "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase) && each.distance < 4.8)";
+
+    private Pictures() {}
+
+    static boolean take(PageSuite suite, Path folder) {
+        live(suite, folder, "live-dark", Look.DESK);
+        live(suite, folder, "live-tablet", Look.TABLET);
+        live(suite, folder, "live-phone", Look.PHONE);
+        replay(suite, folder);
+        for (String view : new String[] {"missions", "replays", "analyses", "topics", "platform"}) {
+            view(suite, folder, view, Look.DESK, "-dark");
+        }
+        view(suite, folder, "analyses", Look.DESK_LIGHT, "-light");
+        view(suite, folder, "missions", Look.PHONE_LIGHT, "-phone");
+        return true;
+    }
+
+    private static void live(PageSuite suite, Path folder, String name, Look look) {
+        FarmPage farm = suite.open("", look);
+        farm.untilStore(
+                "store.fields.get('field-1')?.average && store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 40");
+        farm.untilStore(ENCOUNTER);
+        save(farm, folder, name);
+    }
+
+    private static void replay(PageSuite suite, Path folder) {
+        FarmPage farm = suite.open("#/replays", Look.DESK_LIGHT);
+        farm.untilStore("store.recordings.get('weeding')?.last - store.recordings.get('weeding')?.first > 90000");
+        farm.page().getByLabel("Choose weeding").check();
+        farm.page().getByLabel("Speed").first().selectOption("2");
+        farm.button("Start replay").click();
+        assertThat(farm.find(".mode")).containsText("Replay of weeding");
+        farm.untilStore("store.mode.position - store.mode.from > 20000 && store.entities.size > 4");
+        farm.untilStore(ENCOUNTER);
+        save(farm, folder, "replay-light");
+    }
+
+    private static void view(PageSuite suite, Path folder, String view, Look look, String suffix) {
+        FarmPage farm = suite.open("#/" + view, look);
+        farm.untilStore("store.entities.size >= 17");
+        if (view.equals("topics")) {
+            farm.find("[id='topic-data.farm.realtime.weeding']").check();
+            farm.find("[id='topic-data.collision']").check();
+            assertThat(farm.find("furrow-topics table tbody tr").nth(8)).isVisible();
+        }
+        if (view.equals("replays")) {
+            farm.page().getByLabel("Choose weeding").check();
+        }
+        assertThat(farm.find("furrow-" + view + " .skeleton:visible")).hasCount(0);
+        farm.page().waitForTimeout(2_000);
+        save(farm, folder, view + suffix);
+    }
+
+    private static void save(FarmPage farm, Path folder, String name) {
+        farm.page().mouse().move(2, 2);
+        farm.screenshot(folder.resolve(name + ".png"));
+        PageSoak.say("%s", folder.resolve(name + ".png"));
+        farm.close();
+    }
+}

@@ -1,0 +1,134 @@
+package io.furrow.suite.page;
+
+import java.util.List;
+import java.util.regex.Pattern;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.options.AriaRole;
+import com.microsoft.playwright.options.BoundingBox;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** From a recorded mission to its moments. */
+@PageTest
+class ReplaysIT {
+    /** Topics of a replay's results are made with the first of these. */
+    static final String NO_RESULTS_YET = "status of 404.*\\.replay\\.\\w+";
+
+    private static final String ROBOT = "urn:ngsi-ld:Robot:1";
+
+    @Test
+    void playsPausesSeeksStepsAndGoesBackToWhatIsLive(PageSuite suite) {
+        FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
+        start(farm);
+
+        assertThat(farm.find(".mode")).containsText("Replay of weeding");
+        assertThat(farm.find("furrow-app")).hasClass(Pattern.compile("replaying"));
+        assertThat(farm.card(ROBOT)).containsText("recorded, not sent");
+        assertThat(farm.card(ROBOT).getByText("Stop", new Locator.GetByTextOptions().setExact(true)))
+                .isDisabled();
+
+        farm.untilStore("store.mode.state === 'running' && store.mode.position > store.mode.from");
+        farm.find("body").press(" ");
+        farm.untilStore("store.mode.state === 'paused'");
+
+        BoundingBox track = farm.find("furrow-timeline .tl-track").boundingBox();
+        double middle = middle(farm);
+        farm.page().mouse().click(track.x + track.width / 2, track.y + track.height / 2);
+        farm.untilStore("Math.abs(store.mode.position - " + middle + ") < 3000");
+        // Each card shows its state at that moment: the newest report that had come by then.
+        farm.untilStore("store.entities.get('" + ROBOT + "')?.time < store.mode.position + 1000 && store.entities.get('"
+                + ROBOT + "').time > store.mode.position - 30000");
+        assertThat(farm.card("urn:ngsi-ld:Thermometer:4")).containsText("40.5 °C");
+
+        double before = position(farm);
+        farm.find("body").press("ArrowRight");
+        farm.page().waitForCondition(() -> position(farm) > before);
+        double after = position(farm);
+        farm.find("body").press("ArrowLeft");
+        farm.page().waitForCondition(() -> position(farm) < after);
+
+        farm.button("Back to live").click();
+        assertThat(farm.find(".mode")).hasText("Live");
+        farm.untilStore("Math.abs(store.entities.get('" + ROBOT + "')?.time - Date.now()) < 5000");
+        assertThat(farm.card(ROBOT)).not().containsText("recorded, not sent");
+    }
+
+    @Test
+    void loopsARangeThatBracketsSet(PageSuite suite) {
+        FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
+        start(farm);
+        farm.untilStore("store.mode.state === 'running' && store.mode.position > store.mode.from + 1000");
+        farm.find("body").press(" ");
+        farm.untilStore("store.mode.state === 'paused'");
+
+        farm.find("body").press("[");
+        farm.untilStore("store.mode.range !== null && store.mode.range !== undefined");
+        assertThat(farm.button("Loop")).hasAttribute("aria-pressed", "true");
+        farm.find("body").press("Shift+ArrowRight");
+        double from = position(farm);
+        farm.find("body").press("]");
+        farm.untilStore("store.mode.range.to - store.mode.range.from < 15000");
+        farm.find("body").press(" ");
+        farm.untilStore(
+                "store.mode.epoch > 1 && store.mode.position <= store.mode.range.to + 1000 && store.mode.position >= store.mode.range.from - 1000");
+        org.assertj.core.api.Assertions.assertThat(from).isPositive();
+    }
+
+    @Test
+    void leadsToAMomentByALink(PageSuite suite) {
+        FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
+        start(farm);
+        farm.untilStore("store.mode.position > store.mode.from");
+        List<?> moment = (List<?>)
+                farm.store("[store.mode.replay, new Date((store.mode.from + store.mode.to) / 2).toISOString()]");
+
+        FarmPage other = suite.open("#/map?replay=" + moment.get(0) + "&at=" + moment.get(1))
+                .expectingError(NO_RESULTS_YET);
+        assertThat(other.find(".mode")).containsText("Replay of weeding");
+        other.untilStore("Math.abs(store.mode.position - Date.parse('" + moment.get(1) + "')) < 15000");
+    }
+
+    @Test
+    void playsTwoMissionsOnOneClock(PageSuite suite) {
+        FarmPage farm = suite.open("#/replays").expectingError(NO_RESULTS_YET);
+        recorded(farm, "weeding");
+        recorded(farm, "scouting");
+        farm.page().getByLabel("Choose weeding").check();
+        farm.page().getByLabel("Choose scouting").check();
+        farm.button("Start replay").click();
+
+        assertThat(farm.find(".mode")).containsText(Pattern.compile("weeding \\+ scouting|scouting \\+ weeding"));
+        assertThat(farm.card(ROBOT)).isAttached();
+        assertThat(farm.card("urn:ngsi-ld:Camera:1")).isAttached();
+    }
+
+    private static void start(FarmPage farm) {
+        recorded(farm, "weeding");
+        farm.page().getByLabel("Choose weeding").check();
+        farm.page().getByLabel("Speed").first().selectOption("1");
+        farm.button("Start replay").click();
+        assertThat(farm.page()).hasURL(Pattern.compile("#/map"));
+    }
+
+    private static void recorded(FarmPage farm, String mission) {
+        farm.untilStore("store.recordings.get('" + mission + "')?.last - store.recordings.get('" + mission
+                + "')?.first > 20000");
+        assertThat(farm.find("table.recordings")
+                        .getByRole(AriaRole.CHECKBOX, new Locator.GetByRoleOptions().setName("Choose " + mission)))
+                .isVisible();
+    }
+
+    /** Of the times that the timeline shows, which grow while the mission goes on. */
+    private static double middle(FarmPage farm) {
+        Object time = farm.page()
+                .evaluate(
+                        "() => { const { from, to } = document.querySelector('furrow-timeline').scale; return (from + to) / 2; }");
+        return ((Number) time).doubleValue();
+    }
+
+    private static double position(FarmPage farm) {
+        return ((Number) farm.store("store.mode.position")).doubleValue();
+    }
+}

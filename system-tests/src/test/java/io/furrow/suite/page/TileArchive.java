@@ -1,0 +1,142 @@
+package io.furrow.suite.page;
+
+import java.awt.Color;
+import java.awt.Graphics2D;
+import java.awt.image.BufferedImage;
+import java.io.ByteArrayOutputStream;
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.nio.ByteOrder;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.SortedMap;
+import java.util.TreeMap;
+import java.util.zip.GZIPOutputStream;
+import javax.imageio.ImageIO;
+
+/** Writes a PMTiles file of version 3: pictures of one colour each, directories compressed and in two levels. */
+final class TileArchive {
+    private static final int HEADER = 127;
+    private static final int GZIP = 2;
+    private static final int NONE = 1;
+    private static final int PNG = 2;
+    private static final int SIDE = 256;
+
+    /** By their id; those with the same colour one after the other are one entry. */
+    private final SortedMap<Long, Integer> colours = new TreeMap<>();
+
+    private final ByteArrayOutputStream tiles = new ByteArrayOutputStream();
+
+    private record Entry(long id, long run, byte[] picture, long offset) {}
+
+    /** @param id as the specification counts them: 0 is the world, 1 to 4 are the tiles of zoom 1 */
+    TileArchive add(long id, int rgb) {
+        colours.put(id, rgb);
+        return this;
+    }
+
+    void write(Path file, int maxZoom, String attribution, int entriesOfLeaf) throws IOException {
+        List<Entry> entries = entries();
+        ByteArrayOutputStream leaves = new ByteArrayOutputStream();
+        List<long[]> root = new ArrayList<>();
+        for (int i = 0; i < entries.size(); i += entriesOfLeaf) {
+            List<Entry> part = entries.subList(i, Math.min(entries.size(), i + entriesOfLeaf));
+            byte[] leaf = gzip(directory(part.stream()
+                    .map(each -> new long[] {each.id(), each.run(), each.picture().length, each.offset()})
+                    .toList()));
+            root.add(new long[] {part.get(0).id(), 0, leaf.length, leaves.size()});
+            leaves.writeBytes(leaf);
+        }
+        byte[] first = gzip(directory(root));
+        byte[] metadata = gzip(("{\"attribution\":\"" + attribution + "\"}").getBytes(StandardCharsets.UTF_8));
+        ByteBuffer header = ByteBuffer.allocate(HEADER).order(ByteOrder.LITTLE_ENDIAN);
+        long at = HEADER;
+        header.put("PMTiles".getBytes(StandardCharsets.US_ASCII)).put((byte) 3);
+        for (int length : new int[] {first.length, metadata.length, leaves.size(), tiles.size()}) {
+            header.putLong(at).putLong(length);
+            at += length;
+        }
+        header.putLong(colours.size()).putLong(entries.size()).putLong(entries.size());
+        header.put((byte) 1)
+                .put((byte) GZIP)
+                .put((byte) NONE)
+                .put((byte) PNG)
+                .put((byte) 0)
+                .put((byte) maxZoom);
+        ByteArrayOutputStream all = new ByteArrayOutputStream();
+        all.writeBytes(header.array());
+        all.writeBytes(first);
+        all.writeBytes(metadata);
+        all.writeBytes(leaves.toByteArray());
+        all.writeBytes(tiles.toByteArray());
+        Files.write(file, all.toByteArray());
+    }
+
+    private List<Entry> entries() throws IOException {
+        List<Entry> entries = new ArrayList<>();
+        long last = -2;
+        int before = -1;
+        for (var each : colours.entrySet()) {
+            if (each.getKey() == last + 1 && each.getValue() == before) {
+                Entry longer = entries.remove(entries.size() - 1);
+                entries.add(new Entry(longer.id(), longer.run() + 1, longer.picture(), longer.offset()));
+            } else {
+                byte[] picture = picture(each.getValue());
+                entries.add(new Entry(each.getKey(), 1, picture, tiles.size()));
+                tiles.writeBytes(picture);
+            }
+            last = each.getKey();
+            before = each.getValue();
+        }
+        return entries;
+    }
+
+    static byte[] picture(int rgb) throws IOException {
+        BufferedImage image = new BufferedImage(SIDE, SIDE, BufferedImage.TYPE_INT_RGB);
+        Graphics2D graphics = image.createGraphics();
+        graphics.setColor(new Color(rgb));
+        graphics.fillRect(0, 0, SIDE, SIDE);
+        graphics.dispose();
+        ByteArrayOutputStream png = new ByteArrayOutputStream();
+        ImageIO.write(image, "png", png);
+        return png.toByteArray();
+    }
+
+    /** @param entries id, run, length and offset of each */
+    private static byte[] directory(List<long[]> entries) {
+        ByteArrayOutputStream out = new ByteArrayOutputStream();
+        varint(out, entries.size());
+        long last = 0;
+        for (long[] each : entries) {
+            varint(out, each[0] - last);
+            last = each[0];
+        }
+        entries.forEach(each -> varint(out, each[1]));
+        entries.forEach(each -> varint(out, each[2]));
+        for (int i = 0; i < entries.size(); i++) {
+            long[] before = i == 0 ? null : entries.get(i - 1);
+            boolean follows = before != null && before[2] + before[3] == entries.get(i)[3];
+            varint(out, follows ? 0 : entries.get(i)[3] + 1);
+        }
+        return out.toByteArray();
+    }
+
+    private static void varint(ByteArrayOutputStream out, long value) {
+        long rest = value;
+        for (; rest > 127; rest >>>= 7) {
+            out.write((int) (rest & 127 | 128));
+        }
+        out.write((int) rest);
+    }
+
+    private static byte[] gzip(byte[] bytes) throws IOException {
+        ByteArrayOutputStream out = new ByteArrayOutputStream();
+        try (GZIPOutputStream gzip = new GZIPOutputStream(out)) {
+            gzip.write(bytes);
+        }
+        return out.toByteArray();
+    }
+}

@@ -1,0 +1,69 @@
+package io.furrow.suite.page;
+
+import com.microsoft.playwright.Page;
+import org.junit.jupiter.api.Test;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** What came in lately, below the map. */
+@PageTest
+class TimelineIT {
+    private static final Page.WaitForConditionOptions AT_ONCE = new Page.WaitForConditionOptions().setTimeout(10_000);
+
+    /** Buckets in which the page shows other counts than Kafka has, of those that are over for two seconds; -1 while nothing is shown. */
+    private static final String WRONG = """
+            async () => {
+              const { live } = document.querySelector('furrow-timeline');
+              if (!live) {
+                return -1; // the page is still being put together
+              }
+              const shown = [...live.counts].filter(([, count]) => count > 0);
+              const [from, to] = [Math.min(...shown.map(([start]) => start)), Math.floor((Date.now() - 2000) / live.width) * live.width];
+              if (!shown.length || to <= from) {
+                return -1;
+              }
+              const before = new Map(live.counts);
+              const answer = await fetch(`/api/density/data.raw?from=${from}&to=${to}&width=${live.width}`);
+              const { counts } = await answer.json();
+              return counts.filter((count, index) => (before.get(from + index * live.width) ?? 0) !== count).length;
+            }""";
+
+    @Test
+    void showsWhatCameBeforeThePageWasOpenedWithoutAHole(PageSuite suite) {
+        FarmPage before = suite.open("");
+        // more than half a minute, which is how long the newest of a mission is not stored yet
+        before.untilStore("store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 45");
+        before.untilStore("store.encounters.size > 0");
+        before.close();
+
+        FarmPage farm = suite.open("");
+        farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
+        assertThat(
+                        number(
+                                farm.page()
+                                        .evaluate(
+                                                "() => [...document.querySelector('furrow-timeline').live.counts.values()].filter((count) => count > 0).length")))
+                .isGreaterThan(6);
+        farm.page()
+                .waitForCondition(
+                        () -> number(farm.page()
+                                        .evaluate("document.querySelector('furrow-timeline').encounters.length"))
+                                > 0,
+                        AT_ONCE);
+    }
+
+    @Test
+    void goesOnWithWhatComesAndCountsNothingTwice(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
+
+        double opened = System.currentTimeMillis();
+        farm.untilStore("Math.min(...['1', '2'].map((id) => store.entities.get(`urn:ngsi-ld:Robot:${id}`)?.time)) > "
+                + (opened + 20_000));
+        farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
+    }
+
+    private static int number(Object value) {
+        return ((Number) value).intValue();
+    }
+}

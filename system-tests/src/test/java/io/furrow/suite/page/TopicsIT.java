@@ -1,0 +1,65 @@
+package io.furrow.suite.page;
+
+import java.util.regex.Pattern;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Page;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** From domains and missions to records. */
+@PageTest
+class TopicsIT {
+    @Test
+    void showsDomainsWithTheirMissionsAndHowMuchFlows(PageSuite suite) {
+        FarmPage farm = suite.open("#/topics");
+
+        for (String topic : new String[] {
+            "data.collision",
+            "data.farm.realtime",
+            "data.farm.realtime.weeding",
+            "data.farm.realtime.scouting",
+            "data.canary.realtime.dummy"
+        }) {
+            assertThat(row(farm, topic)).isVisible();
+        }
+        assertThat(row(farm, "data.farm.realtime.weeding").locator(".topic-rate"))
+                .hasText(Pattern.compile("^([2-9]|1\\d)(\\.\\d)?/s$"));
+    }
+
+    @Test
+    void showsTheRecordsOfSeveralTopicsAtOnce(PageSuite suite) {
+        FarmPage farm = suite.open("#/topics");
+        check(farm, "data.farm.realtime.weeding");
+        check(farm, "data.canary.realtime.dummy");
+        Locator records = farm.find("furrow-topics table tbody tr");
+
+        assertThat(records.filter(new Locator.FilterOptions().setHasText("Robot:canary-1"))
+                        .first())
+                .isVisible();
+        assertThat(records.filter(new Locator.FilterOptions().setHasText("Thermometer:4"))
+                        .first())
+                .isVisible();
+    }
+
+    @Test
+    void showsOnlyAMissionOnTheMap(PageSuite suite) {
+        FarmPage farm = suite.open("#/topics");
+        farm.button("Show only scouting on the map").click();
+
+        assertThat(farm.page()).hasURL(Pattern.compile("#/map"));
+        assertThat(farm.card("urn:ngsi-ld:Camera:1")).isAttached();
+        assertThat(farm.card("urn:ngsi-ld:Robot:1")).hasCount(0);
+        assertThat(farm.find(".crumbs")).containsText("scouting");
+    }
+
+    private static Locator row(FarmPage farm, String topic) {
+        return farm.page()
+                .locator(".topic-row", new Page.LocatorOptions().setHas(farm.find("[id='topic-" + topic + "']")));
+    }
+
+    private static void check(FarmPage farm, String topic) {
+        farm.find("[id='topic-" + topic + "']").check();
+    }
+}

@@ -1,0 +1,97 @@
+package io.furrow.suite.page;
+
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.util.List;
+import java.util.Properties;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.dashboard.Dashboard;
+import io.furrow.dashboard.DashboardSettings;
+import io.furrow.embedded.FreePort;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** One who may look and not command, before a control plane that asks for tokens and comes after the dashboard. */
+@PageTest
+class ViewerIT {
+    private static final String TOKEN = "vera-looks-at-the-farm-0001";
+    private static final String ROBOT = "urn:ngsi-ld:Robot:1";
+
+    @TempDir
+    Path folder;
+
+    @Test
+    void waitsForTheControlPlaneSignsInSeesTheFarmAndCannotCommand(PageSuite suite) throws Exception {
+        Properties client = suite.running().suite().kafka().clientProperties();
+        int port = FreePort.orFree(0);
+        RestSettings settings = RestSettings.on(port)
+                .withTokens(Files.writeString(folder.resolve("tokens"), "vera %s viewer%n".formatted(TOKEN)));
+        try (Dashboard dashboard =
+                Dashboard.start(DashboardSettings.of(0, client, URI.create("http://127.0.0.1:" + port)))) {
+            FarmPage farm = suite.window(dashboard.uri(), Look.DESK)
+                    .expectingError("status of (401|403|502|503)|status of 404.*images");
+            farm.page().navigate(dashboard.uri().resolve("/").toString());
+            assertThat(farm.page().getByRole(AriaRole.ALERT)).containsText("The farm cannot be shown yet");
+
+            try (RestApi api = RestApi.start(ControlSettings.of(client), settings, new Readiness(Clock.systemUTC()))) {
+                await().until(api::isReady);
+                signIn(farm);
+                seeTheFarm(farm);
+                beRefused(farm);
+                farm.button("Settings").click();
+                farm.button("Sign out").click();
+                assertThat(farm.page().getByLabel("Access token")).isVisible();
+                farm.close();
+            }
+        }
+    }
+
+    private static void signIn(FarmPage farm) {
+        farm.page().getByLabel("Access token").fill("somebody-elses-token-000001");
+        farm.button("Sign in").click();
+        assertThat(farm.page().getByRole(AriaRole.ALERT)).hasText("The control plane does not know this token.");
+
+        farm.page().getByLabel("Access token").fill(TOKEN);
+        farm.button("Sign in").click();
+    }
+
+    private static void seeTheFarm(FarmPage farm) {
+        Locator card = farm.card(ROBOT);
+        assertThat(card).containsText("m/s");
+        assertThat(card.locator(".card-commands button").first()).isDisabled();
+        assertThat(card.locator(".card-outcome")).hasText("Commands need the role operator");
+
+        farm.go("Missions");
+        assertThat(farm.page().getByText("To command takes the role of an operator"))
+                .isVisible();
+        assertThat(farm.button("New mission").first()).isDisabled();
+    }
+
+    /** Who goes round the buttons is told the same. */
+    private static void beRefused(FarmPage farm) {
+        Object refusal = farm.page().evaluate("""
+                        async ([token, robot]) => {
+                          const answer = await fetch(`/api/devices/${robot}/commands`, {
+                            method: 'POST', headers: { Authorization: `Bearer ${token}`, 'Content-Type': 'application/json' },
+                            body: JSON.stringify({ command: 'Stop' }),
+                          });
+                          return `${answer.status} ${await answer.text()}`;
+                        }""", List.of(TOKEN, ROBOT));
+        org.assertj.core.api.Assertions.assertThat(refusal)
+                .asString()
+                .startsWith("403 ")
+                .contains("operator");
+    }
+}
