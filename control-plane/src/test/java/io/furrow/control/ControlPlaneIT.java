@@ -25,6 +25,7 @@ import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -105,6 +106,7 @@ class ControlPlaneIT {
     }
 
     /** Domains are one task and replays another: whichever of two instances is killed, it had one of them. */
+    @Tag("full")
     @Test
     void takesOverFromAnInstanceThatIsKilledWithRequestsUnderWay() throws Exception {
         Process first = run("first", 1);
@@ -135,6 +137,7 @@ class ControlPlaneIT {
         assertThat(records(Topics.REPLAYS)).hasSize(REQUESTS / 2);
     }
 
+    @Tag("full")
     @Test
     void handsItsWorkOverToAnotherInstance() throws Exception {
         Path one = directory.resolve("one");
@@ -157,6 +160,7 @@ class ControlPlaneIT {
         }
     }
 
+    @Tag("full")
     @Test
     void runsNoOldRequestAgainThoughKafkaHasForgottenWhatWasRead() throws Exception {
         Path state = directory.resolve("state");
@@ -188,6 +192,7 @@ class ControlPlaneIT {
         assertThat(records(Topics.DOMAINS)).hasSize(2);
     }
 
+    @Tag("full")
     @Test
     void putsTheCleanupPolicyOfItsTopicsRight() throws Exception {
         try (KafkaProducer<String, byte[]> producer = producer()) {

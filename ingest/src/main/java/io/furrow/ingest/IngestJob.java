@@ -1,5 +1,6 @@
 package io.furrow.ingest;
 
+import java.util.List;
 import java.util.Set;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -10,6 +11,7 @@ import io.furrow.flink.AheadLimit;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaOutput;
 import io.furrow.flink.KeyedLatenessOperator;
+import io.furrow.flink.KeyedTimelessBroadcastOperator;
 import io.furrow.flink.PassOnce;
 import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.device.ReadDevices;
@@ -54,10 +56,14 @@ public final class IngestJob {
 
         SingleOutputStreamOperator<ReportedEvent> assigned = recognized
                 .keyBy(ReportedEvent::identity)
-                .connect(devices.broadcast(AssignMission.DEVICES))
-                .process(new AssignMission(in.devicesAtStart(), options.assignment()))
-                .uid("assign-domain-and-mission")
-                .name("Assign domain and mission");
+                .connect(devices.broadcast())
+                .transform(
+                        "Assign domain and mission",
+                        TypeInformation.of(ReportedEvent.class),
+                        new KeyedTimelessBroadcastOperator<>(
+                                new AssignMission(in.devicesAtStart(), options.assignment()),
+                                List.of(AssignMission.DEVICES)))
+                .uid("assign-domain-and-mission");
 
         SingleOutputStreamOperator<ReportedEvent> once = IngestBranches.keyed(assigned)
                 .transform(

@@ -9,6 +9,7 @@ import org.apache.flink.api.common.JobStatus;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -122,6 +123,7 @@ class ReplayOnKafkaIT {
                 w.sequence());
     }
 
+    @Tag("full")
     @Test
     void leavesNoGapAndDoublesNothingWhereItIsKilledAndMoved() throws Exception {
         List<String> missions = List.of("a", "b", "c");
@@ -149,6 +151,7 @@ class ReplayOnKafkaIT {
         }
     }
 
+    @Tag("full")
     @Test
     void waitsForMongoAndFailsWhatIsUnknown() throws Exception {
         suite.store("m", 400, 100);

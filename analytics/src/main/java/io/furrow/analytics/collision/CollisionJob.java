@@ -1,5 +1,6 @@
 package io.furrow.analytics.collision;
 
+import java.util.List;
 import java.util.Set;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -16,6 +17,7 @@ import io.furrow.flink.DeadLetters;
 import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaInput;
 import io.furrow.flink.KafkaOutput;
+import io.furrow.flink.KeyedTimelessBroadcastOperator;
 import io.furrow.flink.Receipt;
 import io.furrow.flink.TopicRecord;
 import io.furrow.flink.device.DeviceChange;
@@ -78,11 +80,16 @@ public final class CollisionJob {
                 .name("Recognize devices");
 
         SingleOutputStreamOperator<PositionFix> carried = read.keyBy(PositionFix::device)
-                .connect(devices.broadcast(AssignCarriers.DEVICES))
-                .process(new AssignCarriers(
-                        in.devices().atStart(), options.inputTopics().replay().isPresent()))
-                .uid("assign-carriers")
-                .name("Assign carriers");
+                .connect(devices.broadcast())
+                .transform(
+                        "Assign carriers",
+                        TypeInformation.of(PositionFix.class),
+                        new KeyedTimelessBroadcastOperator<>(
+                                new AssignCarriers(
+                                        in.devices().atStart(),
+                                        options.inputTopics().replay().isPresent()),
+                                List.of(AssignCarriers.DEVICES)))
+                .uid("assign-carriers");
         // A device's positions stay where they are.
         KeyedStream<PositionFix, Device> fixes = DataStreamUtils.reinterpretAsKeyedStream(
                 carried, PositionFix::device, TypeInformation.of(Device.class));

@@ -1,5 +1,6 @@
 package io.furrow.analytics.temperature;
 
+import java.util.List;
 import java.util.Set;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -16,7 +17,9 @@ import io.furrow.flink.JobEnvironment;
 import io.furrow.flink.KafkaInput;
 import io.furrow.flink.KafkaOutput;
 import io.furrow.flink.KeyedLatenessOperator;
+import io.furrow.flink.KeyedTimelessBroadcastOperator;
 import io.furrow.flink.PassOnce;
+import io.furrow.flink.TimelessBroadcastOperator;
 import io.furrow.flink.TopicRecord;
 
 /** The job {@code temperature}: the average temperature of each field in event-time windows, one entity per field and window. */
@@ -68,10 +71,13 @@ public final class TemperatureJob {
                         TypeInformation.of(Reading.class),
                         new KeyedLatenessOperator<>(new PassOnce<Reading>(options.repeatWindow(), Reading::eventId)))
                 .uid("pass-once")
-                .connect(fields.broadcast(KnownFields.BROADCAST))
-                .process(new AssignFields(in.fields().atStart()))
-                .uid("assign-fields")
-                .name("Assign readings to fields");
+                .connect(fields.broadcast())
+                .transform(
+                        "Assign readings to fields",
+                        TypeInformation.of(FieldReading.class),
+                        new TimelessBroadcastOperator<>(
+                                new AssignFields(in.fields().atStart()), List.of(KnownFields.BROADCAST)))
+                .uid("assign-fields");
 
         SingleOutputStreamOperator<DeviceVote> votes = VoteStage.cast(fieldReadings, options);
 
@@ -93,10 +99,13 @@ public final class TemperatureJob {
     private static SingleOutputStreamOperator<FieldAverage> fillEmptyWindows(
             DataStream<FieldAverage> averages, DataStream<TopicRecord> fields, Inputs in, TemperatureOptions options) {
         return averages.keyBy(FieldAverage::fieldIdentity)
-                .connect(fields.broadcast(KnownFields.BROADCAST))
-                .process(new FillEmptyWindows(in.fields().atStart(), options))
-                .uid("fill-empty-windows")
-                .name("Fill empty windows");
+                .connect(fields.broadcast())
+                .transform(
+                        "Fill empty windows",
+                        TypeInformation.of(FieldAverage.class),
+                        new KeyedTimelessBroadcastOperator<>(
+                                new FillEmptyWindows(in.fields().atStart(), options), List.of(KnownFields.BROADCAST)))
+                .uid("fill-empty-windows");
     }
 
     private static DataStream<TopicRecord> reportSuspects(

@@ -3,12 +3,14 @@ package io.furrow.analytics.collision;
 import java.util.List;
 import java.util.Random;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class CollisionSimulationTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionSimulationTest.class);
     private static final int CASES = 1000;

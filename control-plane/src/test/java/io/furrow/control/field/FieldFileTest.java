@@ -11,6 +11,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -23,6 +24,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.assertj.core.api.Assertions.within;
 
 /** Files made by GDAL, see {@code make.sh} beside them: its positions are what ours are compared with. */
+@Tag("full")
 class FieldFileTest {
     static final ImportOptions PLAIN = new ImportOptions(null, null, null, null, null, Instant.EPOCH);
     private static final double METERS_PER_DEGREE = 111_195;

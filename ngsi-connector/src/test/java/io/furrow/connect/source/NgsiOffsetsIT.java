@@ -20,6 +20,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -46,6 +47,7 @@ class NgsiOffsetsIT {
         rig.close();
     }
 
+    @Tag("full")
     @Test
     void answersWhileItIsPausedAndWritesEachOnceWhenItIsResumed() throws Exception {
         SourceOnConnect source = create("paused");
@@ -87,6 +89,7 @@ class NgsiOffsetsIT {
         assertThat(keys("restarted")).containsExactlyInAnyOrderElementsOf(ids);
     }
 
+    @Tag("full")
     @Test
     void showsEachRecordOnceToWhoReadsCommittedWhenItIsRestartedUnderLoad() throws Exception {
         SourceOnConnect source = create("loaded");
@@ -110,6 +113,7 @@ class NgsiOffsetsIT {
         assertThat(keys("loaded")).doesNotHaveDuplicates().containsAll(answered);
     }
 
+    @Tag("full")
     @Test
     void repeatsFromAnEarlierRecordWithTheSameEventIds() throws Exception {
         SourceOnConnect source = create("earlier");
@@ -136,6 +140,7 @@ class NgsiOffsetsIT {
         assertThat(events).hasSize(5);
     }
 
+    @Tag("full")
     @Test
     void writesWhatComesLaterBehindAnOffsetBeyondTheEnd() throws Exception {
         SourceOnConnect source = create("beyond");
@@ -153,6 +158,7 @@ class NgsiOffsetsIT {
         assertThat(offset("beyond").path("offset").toString()).isEqualTo("{\"record\":1002}");
     }
 
+    @Tag("full")
     @Test
     void repeatsAllThatIsKeptAfterAReset() throws Exception {
         SourceOnConnect source = create("reset");
@@ -172,6 +178,7 @@ class NgsiOffsetsIT {
     }
 
     /** Connect makes 500 of whatever a connector says to this. */
+    @Tag("full")
     @Test
     void saysWhatIsWrongWithPartitionsAndOffsetsOfAnotherShape() throws Exception {
         create("malformed").take("taken", 1);
@@ -192,6 +199,7 @@ class NgsiOffsetsIT {
         });
     }
 
+    @Tag("full")
     @Test
     void drainsAndRemovesTheJournalOfATaskThatIsNoMore() throws Exception {
         int port = twoFreePorts();

@@ -7,6 +7,7 @@ import org.eclipse.paho.client.mqttv3.MqttClient;
 import org.eclipse.paho.client.mqttv3.MqttConnectOptions;
 import org.eclipse.paho.client.mqttv3.MqttException;
 import org.eclipse.paho.client.mqttv3.persist.MemoryPersistence;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.embedded.EmbeddedMqtt;
@@ -14,6 +15,7 @@ import io.furrow.embedded.EmbeddedMqtt;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
+@Tag("full")
 class MqttLinkTest {
     private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
 
