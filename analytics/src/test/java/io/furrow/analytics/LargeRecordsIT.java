@@ -19,6 +19,7 @@ import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.header.Header;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -45,6 +46,7 @@ import static org.awaitility.Awaitility.await;
 
 /** All three jobs on a broker that makes no topic by itself, where others take less than the input does. */
 @Timeout(180)
+@Tag("full")
 class LargeRecordsIT {
     private static final String INPUT = "reports";
     private static final String KAFKA_DEFAULT = "1048588";

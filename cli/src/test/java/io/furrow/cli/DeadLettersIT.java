@@ -21,6 +21,7 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -79,6 +80,7 @@ class DeadLettersIT {
                 .satisfies(record -> assertThat(record.value()).isNull());
     }
 
+    @Tag("full")
     @Test
     void countsThemOnlyInADryRun() {
         letter("dry.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
@@ -90,6 +92,7 @@ class DeadLettersIT {
                 .startsWith("sent 1 ");
     }
 
+    @Tag("full")
     @Test
     void leavesWhatWasNotAskedForOrIsNoLongerWhole() {
         letter("some.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
@@ -102,6 +105,7 @@ class DeadLettersIT {
         assertThat(recordsOf("elsewhere")).extracting(ConsumerRecord::value).containsExactly(new byte[] {1});
     }
 
+    @Tag("full")
     @Test
     void bringsThemAgainWhereAskedTo() {
         letter("again.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
@@ -111,6 +115,7 @@ class DeadLettersIT {
         assertThat(recordsOf("again")).hasSize(2);
     }
 
+    @Tag("full")
     @Test
     void bringsEachBackOnceWhicheverReasonsAreAskedForTogether() {
         letter("kinds.dead", "a", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
@@ -130,6 +135,7 @@ class DeadLettersIT {
                 .containsExactlyInAnyOrder((byte) 1, (byte) 2, (byte) 3, (byte) 4);
     }
 
+    @Tag("full")
     @Test
     void remembersEachTargetByItself() {
         letter("two.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
@@ -139,6 +145,7 @@ class DeadLettersIT {
         assertThat(redrive("--topic", "two.dead", "--to", "first")).startsWith("sent 0 ");
     }
 
+    @Tag("full")
     @Test
     void leavesLettersWhoseEventWentOnUnlessTheirStageIsNamed() {
         letterOf("ingest-images", "went.dead", 1, Reason.NOT_AN_IMAGE);
@@ -156,6 +163,7 @@ class DeadLettersIT {
         assertThat(recordsOf("went")).extracting(record -> record.value()[0]).containsExactly((byte) 3, (byte) 2);
     }
 
+    @Tag("full")
     @Test
     void bringsBackTheWholeOfWhatALetterStandsFor() {
         byte[] whole = new byte[2_000_000];
@@ -177,6 +185,7 @@ class DeadLettersIT {
         });
     }
 
+    @Tag("full")
     @Test
     void saysWhatIsMissing() {
         assertThat(redrive("--topic", "nowhere.dead")).contains("there is no topic nowhere.dead");

@@ -28,6 +28,7 @@ import org.apache.kafka.common.serialization.StringDeserializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -114,6 +115,7 @@ class ControlPlaneIT {
     }
 
     /** Domains are one task and replays another: whichever of two instances is killed, it had one of them. */
+    @Tag("full")
     @Test
     void takesOverFromAnInstanceThatIsKilledWithRequestsUnderWay() throws Exception {
         Process first = run("first", 1);
@@ -144,6 +146,7 @@ class ControlPlaneIT {
         assertThat(records(Topics.REPLAYS)).hasSize(REQUESTS / 2);
     }
 
+    @Tag("full")
     @Test
     void steersGroupsAsOneThoughTheInstanceThatDoesIsKilledAmongTheCommands() throws Exception {
         Process first = run("first", 1);
@@ -245,6 +248,7 @@ class ControlPlaneIT {
         }
     }
 
+    @Tag("full")
     @Test
     void runsNoOldRequestAgainThoughKafkaHasForgottenWhatWasRead() throws Exception {
         Path state = directory.resolve("state");
@@ -276,6 +280,7 @@ class ControlPlaneIT {
         assertThat(records(Topics.DOMAINS)).hasSize(2);
     }
 
+    @Tag("full")
     @Test
     void putsTheCleanupPolicyOfItsTopicsRight() throws Exception {
         try (KafkaProducer<String, byte[]> producer = producer()) {

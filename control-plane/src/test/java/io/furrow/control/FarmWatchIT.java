@@ -20,6 +20,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -107,6 +108,7 @@ class FarmWatchIT {
                 .doesNotHaveDuplicates();
     }
 
+    @Tag("full")
     @Test
     void deliversWhatOpenedAndClosedWhileTheWebhookAndThenTheWatchWereAway() throws Exception {
         hookIsUp = false;
@@ -142,6 +144,7 @@ class FarmWatchIT {
                 .containsExactly("collision-1:2", "collision-3:3");
     }
 
+    @Tag("full")
     @Test
     void stopsRobotsOnceAndRemembersAlarmsOverARestart() throws Exception {
         try (FarmWatch watch = watch("one")) {
@@ -180,6 +183,7 @@ class FarmWatchIT {
         assertThat(sent).hasSize(1);
     }
 
+    @Tag("full")
     @Test
     void goesOnWhereAnotherInstanceLeaves() throws Exception {
         try (FarmWatch second = watch("two")) {

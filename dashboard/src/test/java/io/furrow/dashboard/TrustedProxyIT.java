@@ -18,6 +18,7 @@ import org.apache.kafka.clients.admin.NewTopic;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -38,6 +39,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** Users that a proxy signs in, before a real REST API of the control plane. The test itself is the proxy. */
+@Tag("full")
 class TrustedProxyIT {
     private static final String OLGA = "olga-commands-000001";
     private static final String DASHBOARD = "the-dashboards-own-token";

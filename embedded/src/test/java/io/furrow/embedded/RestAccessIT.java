@@ -13,6 +13,7 @@ import java.util.stream.Stream;
 
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -23,6 +24,7 @@ import io.furrow.http.AllowedNames;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The access rule at the REST APIs of the real engines. */
+@Tag("full")
 class RestAccessIT {
     private static final String PAGE = "https://map.example.org";
     private static final int TIMEOUT_MS = 60_000;

@@ -1,5 +1,7 @@
 package io.furrow.ingest;
 
+import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
+import java.util.List;
 import java.util.Set;
 
 import org.apache.flink.api.common.typeinfo.TypeInformation;
@@ -54,10 +56,14 @@ public final class IngestJob {
 
         SingleOutputStreamOperator<ReportedEvent> assigned = recognized
                 .keyBy(ReportedEvent::identity)
-                .connect(devices.broadcast(AssignMission.DEVICES))
-                .process(new AssignMission(in.devicesAtStart(), options.assignment()))
-                .uid("assign-domain-and-mission")
-                .name("Assign domain and mission");
+                .connect(devices.broadcast())
+                .transform(
+                        "Assign domain and mission",
+                        TypeInformation.of(ReportedEvent.class),
+                        new KeyedTimelessBroadcastOperator<>(
+                                new AssignMission(in.devicesAtStart(), options.assignment()),
+                                List.of(AssignMission.DEVICES)))
+                .uid("assign-domain-and-mission");
 
         SingleOutputStreamOperator<ReportedEvent> once = IngestBranches.keyed(assigned)
                 .transform(

@@ -13,6 +13,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.config.ConfigResource;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -48,6 +49,7 @@ class IngestOnKafkaIT {
         suite.close();
     }
 
+    @Tag("full")
     @Test
     void makesTopicsWithTheConfiguredPartitionsReplicationAndRetention() throws Exception {
         suite.makeTopic("in-topics", 1);
@@ -82,6 +84,7 @@ class IngestOnKafkaIT {
         assertThat(config("data.latest").get("cleanup.policy").value()).isEqualTo("compact");
     }
 
+    @Tag("full")
     @Test
     void awaitsWhatIsKnownOfDevicesBeforeTheFirstEvent() throws Exception {
         suite.makeTopic("in-devices", 1);
@@ -105,6 +108,7 @@ class IngestOnKafkaIT {
         suite.cancel(job);
     }
 
+    @Tag("full")
     @Test
     void beginsWithTheNewestThatIsKnownWhereItHasNoState() throws Exception {
         suite.makeTopic("in-before", 1);

@@ -10,6 +10,7 @@ import org.apache.flink.api.common.JobID;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -21,6 +22,7 @@ import io.furrow.model.event.HeaderNames;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(180)
+@Tag("full")
 class TooLargeRecordsIT {
     private static final int SMALL = 2_000;
     private static final int EVENTS = 2_000;

@@ -13,6 +13,7 @@ import java.util.List;
 import java.util.concurrent.TimeUnit;
 
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -22,6 +23,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** The script {@code furrow} in a folder of its own, with a Maven and a Java that only say that they were called. */
+@Tag("full")
 class FirstStartIT {
     private static final Duration TIMEOUT = Duration.ofMinutes(2);
     private static final String BUILDS = """

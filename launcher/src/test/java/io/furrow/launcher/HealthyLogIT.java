@@ -6,6 +6,7 @@ import java.util.List;
 import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -15,6 +16,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** Who finds a warning in a log looks for its cause, so a run in which all is well must not write any. */
+@Tag("full")
 class HealthyLogIT {
     private static final Pattern TROUBLE = Pattern.compile("\\S+ +(WARN|ERROR|FATAL) .*");
     private static final Pattern AVERAGE = Pattern.compile("average +field-1 ");

@@ -12,6 +12,7 @@ import org.apache.logging.log4j.Level;
 import org.apache.logging.log4j.core.config.Configurator;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.connect.journal.FuzzJournal;
@@ -27,6 +28,7 @@ import static org.assertj.core.api.Assertions.assertThat;
  * What the fuzzer begins with and what it once found, in {@code src/test/resources/fuzz}, each of it whole, cut short and with
  * random bytes changed. The fuzzer itself: {@code ./furrow soak fuzz}.
  */
+@Tag("full")
 class FuzzRegressionTest {
     private static final Path FUZZ = Path.of("src/test/resources/fuzz");
     private static final List<String> LOGGERS =

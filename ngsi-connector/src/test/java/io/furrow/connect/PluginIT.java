@@ -10,6 +10,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -20,6 +21,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A worker with {@code plugin.discovery=hybrid_fail} knows both connectors and says which option is wrong. */
+@Tag("full")
 class PluginIT {
     private static final String SOURCE = "io.furrow.connect.source.NgsiSourceConnector";
     private static final String SINK = "io.furrow.connect.sink.NgsiSinkConnector";

@@ -9,6 +9,7 @@ import java.util.concurrent.TimeUnit;
 import java.util.regex.MatchResult;
 import java.util.regex.Pattern;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -20,6 +21,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** The three commands of the README bring the first record, run as they stand, on ports of the test. */
+@Tag("full")
 class ReadmeIT {
     private static final Pattern COMMAND = Pattern.compile("```\\n(curl.*?)\\n```", Pattern.DOTALL);
 

@@ -13,6 +13,7 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.embedded.EmbeddedMqtt;
@@ -25,6 +26,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 /** The MQTT broker of the one-command start with accounts that come and go. */
+@Tag("full")
 class EmbeddedBrokerTest {
     private static final LiveAccounts ACCOUNTS = new LiveAccounts();
     private static final String KEY = "/" + Wanted.SECRET.apiKey("hoeing");

@@ -10,6 +10,7 @@ import java.util.Properties;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -24,6 +25,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** An IoT Agent that forgets, refuses, fails or is slow. */
+@Tag("full")
 class ProvisioningFailuresTest {
     private static final Outcome DONE = new Outcome(Map.of(), null, true);
     private static final String KEY = FakeAgent.key("/iot/json", Wanted.SECRET.apiKey("hoeing"));

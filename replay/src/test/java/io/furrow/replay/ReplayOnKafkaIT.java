@@ -13,6 +13,7 @@ import org.apache.flink.api.common.JobStatus;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -195,6 +196,7 @@ class ReplayOnKafkaIT {
                 mission, Topics.replay(mission, "0a1b2c3d"), plan, 1, System.currentTimeMillis(), 1);
     }
 
+    @Tag("full")
     @Test
     void leavesNoGapAndDoublesNothingWhereItIsKilledAndMoved() throws Exception {
         List<String> missions = List.of("a", "b", "c");
@@ -223,6 +225,7 @@ class ReplayOnKafkaIT {
         }
     }
 
+    @Tag("full")
     @Test
     void waitsForMongoAndFailsWhatIsUnknown() throws Exception {
         suite.store("m", 400, 100);

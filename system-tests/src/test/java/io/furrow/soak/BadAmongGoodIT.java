@@ -3,6 +3,7 @@ package io.furrow.soak;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -11,6 +12,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The short form; the long one is {@code ./furrow soak bad-records}. */
 @Timeout(180)
+@Tag("soak")
 class BadAmongGoodIT {
     @TempDir
     Path directory;

@@ -13,6 +13,7 @@ import org.assertj.core.api.ThrowingConsumer;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
@@ -27,6 +28,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** What goes wrong in the field, each with its outcome; after each of them a good event still comes through. */
+@Tag("full")
 class BadInputIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final long MILLIS_2023 = 1_700_000_000_000L;

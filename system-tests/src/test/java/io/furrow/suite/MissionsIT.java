@@ -13,6 +13,7 @@ import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.admin.NewTopic;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestReporter;
 import org.junit.jupiter.api.io.TempDir;
@@ -28,6 +29,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** Missions on a whole suite: REST API, managers, IoT Agent, MQTT broker, simulated devices, and back to Kafka. */
+@Tag("full")
 class MissionsIT {
     private static final int DEVICES = 100;
     private static final Duration TIMEOUT = Duration.ofSeconds(60);

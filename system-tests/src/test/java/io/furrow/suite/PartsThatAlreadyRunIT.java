@@ -3,6 +3,7 @@ package io.furrow.suite;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -16,6 +17,7 @@ import io.furrow.launcher.suite.SuiteSettings;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
+@Tag("full")
 class PartsThatAlreadyRunIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
 

@@ -1,5 +1,7 @@
 package io.furrow.analytics.collision;
 
+import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
+import java.util.List;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
@@ -67,11 +69,16 @@ public final class CollisionJob {
                 .name("Recognize devices");
 
         SingleOutputStreamOperator<PositionFix> carried = read.keyBy(PositionFix::device)
-                .connect(devices.broadcast(AssignCarriers.DEVICES))
-                .process(new AssignCarriers(
-                        in.devices().atStart(), options.inputTopics().replay().isPresent()))
-                .uid("assign-carriers")
-                .name("Assign carriers");
+                .connect(devices.broadcast())
+                .transform(
+                        "Assign carriers",
+                        TypeInformation.of(PositionFix.class),
+                        new KeyedTimelessBroadcastOperator<>(
+                                new AssignCarriers(
+                                        in.devices().atStart(),
+                                        options.inputTopics().replay().isPresent()),
+                                List.of(AssignCarriers.DEVICES)))
+                .uid("assign-carriers");
         // A device's positions stay where they are.
         KeyedStream<PositionFix, Device> fixes = DataStreamUtils.reinterpretAsKeyedStream(
                 carried, PositionFix::device, TypeInformation.of(Device.class));

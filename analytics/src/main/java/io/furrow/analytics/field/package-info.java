@@ -12,8 +12,8 @@
  *         .uid("recognize-fields")
  *         .name("Recognize fields");
  *
- * fixes.connect(fields.broadcast(KnownFields.BROADCAST))
- *         .process(new JoinWithFields(in.fields().atStart()))
+ * fixes.connect(fields.broadcast())
+ *         .transform(name, type, new TimelessBroadcastOperator<>(new JoinWithFields(in.fields().atStart()), List.of(KnownFields.BROADCAST)))
  * }</pre>
  *
  * and its output takes {@code fields.getSideOutput(DeadLetters.TAG)} in. The function that joins is a {@code

@@ -1,5 +1,8 @@
 package io.furrow.analytics.temperature;
 
+import io.furrow.flink.time.TimelessBroadcastOperator;
+import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
+import java.util.List;
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
@@ -62,10 +65,13 @@ public final class TemperatureJob {
                         new KeyedLatenessOperator<>(
                                 new DeduplicateById<Reading>(options.repeatWindow(), Reading::eventId)))
                 .uid("deduplicate-by-id")
-                .connect(fields.broadcast(KnownFields.BROADCAST))
-                .process(new AssignFields(in.fields().atStart()))
-                .uid("assign-fields")
-                .name("Assign readings to fields");
+                .connect(fields.broadcast())
+                .transform(
+                        "Assign readings to fields",
+                        TypeInformation.of(FieldReading.class),
+                        new TimelessBroadcastOperator<>(
+                                new AssignFields(in.fields().atStart()), List.of(KnownFields.BROADCAST)))
+                .uid("assign-fields");
 
         SingleOutputStreamOperator<DeviceVote> votes = VoteStage.cast(fieldReadings, options);
 
@@ -87,10 +93,13 @@ public final class TemperatureJob {
     private static SingleOutputStreamOperator<FieldAverage> fillEmptyWindows(
             DataStream<FieldAverage> averages, DataStream<TopicRecord> fields, Inputs in, TemperatureOptions options) {
         return averages.keyBy(FieldAverage::fieldIdentity)
-                .connect(fields.broadcast(KnownFields.BROADCAST))
-                .process(new FillEmptyWindows(in.fields().atStart(), options))
-                .uid("fill-empty-windows")
-                .name("Fill empty windows");
+                .connect(fields.broadcast())
+                .transform(
+                        "Fill empty windows",
+                        TypeInformation.of(FieldAverage.class),
+                        new KeyedTimelessBroadcastOperator<>(
+                                new FillEmptyWindows(in.fields().atStart(), options), List.of(KnownFields.BROADCAST)))
+                .uid("fill-empty-windows");
     }
 
     private static DataStream<TopicRecord> reportSuspects(

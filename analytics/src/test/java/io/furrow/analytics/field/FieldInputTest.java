@@ -26,6 +26,7 @@ import org.apache.flink.test.junit5.MiniClusterExtension;
 import org.apache.flink.util.CloseableIterator;
 import org.apache.flink.util.Collector;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 import org.junit.jupiter.api.io.TempDir;
@@ -38,6 +39,7 @@ import io.furrow.flink.record.TopicRecord;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Where event time ends while the events are quiet, the first event after that, and all that follow, would be late. */
+@Tag("full")
 class FieldInputTest {
     private static final int EVENTS = 15;
 

@@ -5,6 +5,7 @@ import java.util.Map;
 import java.util.stream.LongStream;
 
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -24,6 +25,7 @@ import static org.assertj.core.api.Assertions.within;
  * job; those without late readings with one, two and four subtasks.
  */
 @Timeout(120)
+@Tag("full")
 class TemperatureOracleTest {
     private static final int CASES = Integer.getInteger("furrow.oracle.cases", 200);
     private static final int[] PARALLELISM = {1, 2, 4};

@@ -12,6 +12,7 @@ import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.environment.StreamExecutionEnvironment;
 import org.apache.flink.test.junit5.InjectMiniCluster;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.extension.RegisterExtension;
@@ -26,6 +27,7 @@ import io.furrow.model.ngsi.Entity;
 import io.furrow.model.topic.Topics;
 
 @Timeout(value = 10, unit = TimeUnit.HOURS)
+@Tag("full")
 class TemperatureRestartTest {
     @RegisterExtension
     static final MiniClusterExtension FLINK = Restarts.cluster();

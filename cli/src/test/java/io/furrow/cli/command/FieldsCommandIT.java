@@ -11,6 +11,7 @@ import java.util.List;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
@@ -23,6 +24,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class FieldsCommandIT {
     private static final String FEATURE = "{\"type\":\"Feature\",\"id\":\"%s\",\"properties\":{\"name\":\"Field"
             + " %1$s\"},\"geometry\":{\"type\":\"Polygon\","

@@ -8,6 +8,7 @@ import java.util.Map;
 import java.util.Random;
 import java.util.Set;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInfo;
 import org.junit.jupiter.api.TestReporter;
@@ -24,6 +25,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Random causes, ends, commands and passing time; after each step the alarms are sound. */
+@Tag("full")
 class AlarmPropertyTest {
     private static final int FARMS = 20;
     private static final int STEPS = 200;

@@ -10,6 +10,7 @@ import java.util.TreeMap;
 import java.util.function.Function;
 import java.util.stream.Collectors;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInfo;
 import org.junit.jupiter.api.TestReporter;
@@ -32,6 +33,7 @@ import io.furrow.model.topic.Topics;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Random silences, returns, closings, mutes, stops and restarts; whenever all has settled the alarms are those of the causes. */
+@Tag("full")
 class SilencePropertyTest {
     private static final int FARMS = 20;
     private static final int STEPS = 50;

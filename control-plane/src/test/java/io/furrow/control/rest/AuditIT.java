@@ -16,6 +16,7 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.apache.kafka.common.serialization.StringSerializer;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
@@ -29,6 +30,7 @@ import static org.awaitility.Awaitility.await;
 
 /** The audit back to its beginning: more entries than the API holds, and more than one request reads. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
+@Tag("full")
 class AuditIT {
     private static final int ENTRIES = AuditHistory.READ + 3 * ServiceView.AUDITED;
     private static final Pattern NEXT = Pattern.compile("<(/[^>]+)>; ?rel=\"next\"");

@@ -12,6 +12,7 @@ import java.util.List;
 
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
@@ -24,6 +25,7 @@ import static org.awaitility.Awaitility.await;
 
 /** What the API does not let pass. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
+@Tag("full")
 class RestApiAccessIT {
     private Path directory;
     private RunningApi running;

@@ -16,6 +16,7 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
 import org.junit.jupiter.api.io.TempDir;
@@ -31,6 +32,7 @@ import static org.awaitility.Awaitility.await;
 
 /** Every operation of the description with every role. */
 @TestInstance(TestInstance.Lifecycle.PER_CLASS)
+@Tag("full")
 class RolesIT {
     private final Map<Role, ApiClient> callers = new EnumMap<>(Role.class);
     private Path tokens;

@@ -16,6 +16,7 @@ import io.furrow.fiware.MqttDevice;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
+@Tag("full")
 class MqttLinkTest {
     private static final Map<String, String> PASSWORDS = Map.of("agent", "secret", "device", "hidden");
 

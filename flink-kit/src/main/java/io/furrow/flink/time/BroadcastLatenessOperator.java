@@ -6,11 +6,10 @@ import org.apache.flink.api.common.state.MapStateDescriptor;
 import org.apache.flink.runtime.state.StateInitializationContext;
 import org.apache.flink.runtime.state.StateSnapshotContext;
 import org.apache.flink.streaming.api.functions.co.KeyedBroadcastProcessFunction;
-import org.apache.flink.streaming.api.operators.co.CoBroadcastWithKeyedOperator;
 import org.apache.flink.streaming.api.watermark.Watermark;
 
-/** The same as {@link KeyedLatenessOperator} for a function that takes a broadcast stream too. */
-public final class BroadcastLatenessOperator<K, I, B, O> extends CoBroadcastWithKeyedOperator<K, I, B, O> {
+/** The same as {@link KeyedLatenessOperator} for a function that takes a broadcast stream without event time too. */
+public final class BroadcastLatenessOperator<K, I, B, O> extends KeyedTimelessBroadcastOperator<K, I, B, O> {
     private static final long serialVersionUID = 1L;
 
     private transient EventTimeReached reached;

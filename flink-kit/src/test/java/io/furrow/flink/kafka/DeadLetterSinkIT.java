@@ -15,6 +15,7 @@ import org.apache.kafka.clients.admin.TopicDescription;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -30,6 +31,7 @@ import io.furrow.model.event.DeadLetter;
 import static org.assertj.core.api.Assertions.assertThat;
 
 @Timeout(120)
+@Tag("full")
 class DeadLetterSinkIT {
     @TempDir
     private Path directory;

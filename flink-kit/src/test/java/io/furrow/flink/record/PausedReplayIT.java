@@ -19,6 +19,7 @@ import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.TopicPartition;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -37,6 +38,7 @@ import static org.awaitility.Awaitility.await;
 
 /** A replay on two partitions, read by a job of two subtasks with an idle timeout of 200 ms. */
 @Timeout(180)
+@Tag("full")
 class PausedReplayIT {
     private static final String REPLAY = "data.hoeing.replay.0a1b2c3d";
     private static final TopicPartition SEEN = new TopicPartition("seen", 0);

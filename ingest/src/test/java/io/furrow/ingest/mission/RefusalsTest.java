@@ -10,6 +10,7 @@ import java.util.stream.Stream;
 import com.mongodb.client.MongoClient;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
@@ -22,6 +23,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 /** What becomes of documents that the server does not take, by its code. */
+@Tag("full")
 class RefusalsTest {
     private static final int FOR_EVER = Integer.MAX_VALUE;
     private static final int FEW = 4;

@@ -9,6 +9,7 @@ import java.util.Map;
 
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -21,6 +22,7 @@ import io.furrow.launcher.suite.Suite;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class ScenarioCommandIT {
     private static final String SCENARIO = """
             {"seed": 7, "apiKey": "secret", "missions": [{"domain": "farm", "mission": "weeding", "devices": [

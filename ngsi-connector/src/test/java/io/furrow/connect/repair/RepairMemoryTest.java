@@ -4,11 +4,13 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.util.concurrent.TimeUnit;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class RepairMemoryTest {
     /** A page of 60 MiB, an entity that takes 300 MiB when it is read, 400,000 entities and as many forged subscriptions. */
     @Test

@@ -12,6 +12,7 @@ import java.util.Random;
 import java.util.TreeMap;
 import java.util.TreeSet;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -31,6 +32,7 @@ import static org.assertj.core.api.Assertions.assertThat;
  * <p>{@code -Dfurrow.repair.runs=N} and {@code -Dfurrow.repair.seed=S} run others; run i has the seed S + i. {@code
  * -Dfurrow.repair.report=FILE} writes what was done.
  */
+@Tag("full")
 class RepairModelTest {
     private static final int RUNS = Integer.getInteger("furrow.repair.runs", 300);
     private static final long SEED = Long.getLong("furrow.repair.seed", new Random().nextInt(Integer.MAX_VALUE));

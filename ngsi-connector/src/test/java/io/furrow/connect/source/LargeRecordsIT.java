@@ -21,6 +21,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.common.config.ConfigResource;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -32,6 +33,7 @@ import io.furrow.model.event.DeadLetter;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A real topic that takes 1 MiB, and records of 2 MiB, each with a small one behind it. */
+@Tag("full")
 class LargeRecordsIT {
     private static final String MIB = Integer.toString(1024 * 1024);
     private static final String LARGE = "x".repeat(2 * 1024 * 1024);

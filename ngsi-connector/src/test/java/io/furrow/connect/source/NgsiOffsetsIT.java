@@ -20,6 +20,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -47,6 +48,7 @@ class NgsiOffsetsIT {
         rig.close();
     }
 
+    @Tag("full")
     @Test
     void answersWhileItIsPausedAndWritesEachOnceWhenItIsResumed() throws Exception {
         SourceOnConnect source = create("paused");
@@ -88,6 +90,7 @@ class NgsiOffsetsIT {
         assertThat(keys("restarted")).containsExactlyInAnyOrderElementsOf(ids);
     }
 
+    @Tag("full")
     @Test
     void showsEachRecordOnceToWhoReadsCommittedWhenItIsRestartedUnderLoad() throws Exception {
         SourceOnConnect source = create("loaded");
@@ -111,6 +114,7 @@ class NgsiOffsetsIT {
         assertThat(keys("loaded")).doesNotHaveDuplicates().containsAll(answered);
     }
 
+    @Tag("full")
     @Test
     void repeatsFromAnEarlierRecordWithTheSameEventIds() throws Exception {
         SourceOnConnect source = create("earlier");
@@ -137,6 +141,7 @@ class NgsiOffsetsIT {
         assertThat(events).hasSize(5);
     }
 
+    @Tag("full")
     @Test
     void writesWhatComesLaterBehindAnOffsetBeyondTheEnd() throws Exception {
         SourceOnConnect source = create("beyond");
@@ -154,6 +159,7 @@ class NgsiOffsetsIT {
         assertThat(offset("beyond").path("offset").toString()).isEqualTo("{\"record\":1002}");
     }
 
+    @Tag("full")
     @Test
     void repeatsAllThatIsKeptAfterAReset() throws Exception {
         SourceOnConnect source = create("reset");
@@ -173,6 +179,7 @@ class NgsiOffsetsIT {
     }
 
     /** Connect makes 500 of whatever a connector says to this. */
+    @Tag("full")
     @Test
     void saysWhatIsWrongWithPartitionsAndOffsetsOfAnotherShape() throws Exception {
         create("malformed").take("taken", 1);
@@ -193,6 +200,7 @@ class NgsiOffsetsIT {
         });
     }
 
+    @Tag("full")
     @Test
     void drainsAndRemovesTheJournalOfATaskThatIsNoMore() throws Exception {
         int port = twoFreePorts();

@@ -14,6 +14,7 @@ import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -103,6 +104,7 @@ class NgsiRepairIT {
         }
     }
 
+    @Tag("full")
     @Test
     void hasOneSubscriptionThroughRestartsAndMovesAndMakesItAgainWhenItIsRemoved() {
         source("kept", FreePort.orFree(0));

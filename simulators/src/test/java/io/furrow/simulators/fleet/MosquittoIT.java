@@ -10,6 +10,7 @@ import java.time.Instant;
 
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -25,6 +26,7 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 /** A fleet and a real Mosquitto with password file and TLS. */
+@Tag("full")
 class MosquittoIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String FARM = """

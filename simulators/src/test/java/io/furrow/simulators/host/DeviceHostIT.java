@@ -9,6 +9,7 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -78,6 +79,7 @@ class DeviceHostIT {
                         .hasSizeGreaterThan(3));
     }
 
+    @Tag("full")
     @Test
     void beginsAnewAfterAFailureThatNobodyForesaw() throws Exception {
         String device = run("anew", 1);
@@ -95,6 +97,7 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
+    @Tag("full")
     @Test
     void stopsWhatIsNoLongerWantedAndForgetsWhatIsDeleted() throws Exception {
         String stopped = run("end", 1);
@@ -117,6 +120,7 @@ class DeviceHostIT {
         bench.delete(goesOn);
     }
 
+    @Tag("full")
     @Test
     void goesOnAfterARestartAndTakesBackWhatIsGone() throws Exception {
         String device = run("again", 1);
@@ -138,6 +142,7 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
+    @Tag("full")
     @Test
     void saysWhichSettingIsWrongAndTriesAgainWhenTheFieldComes() throws Exception {
         String device = entity("Thermometer", "field", 1);
@@ -159,6 +164,7 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
+    @Tag("full")
     @Test
     void carriesADeviceOnARobotThatComesLater() throws Exception {
         String robot = entity("Robot", "carry", 1);
@@ -187,6 +193,7 @@ class DeviceHostIT {
         bench.delete(robot);
     }
 
+    @Tag("full")
     @Test
     void restartsADeviceAndSaysWhenItIsBack() throws Exception {
         String device = run("restart", 1);
@@ -207,6 +214,7 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
+    @Tag("full")
     @Test
     void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
         String device = run("stolen", 1);
@@ -224,6 +232,7 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
+    @Tag("full")
     @Test
     void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
         String device = run("rotated", 1);

@@ -3,6 +3,7 @@ package io.furrow.soak.control;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestReporter;
 import org.junit.jupiter.api.Timeout;
@@ -12,6 +13,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The short form of the soak; {@code -Dfurrow.seed=N} repeats the choices of a seed. */
 @Timeout(900)
+@Tag("soak")
 class ControlChaosIT {
     @TempDir
     Path folder;

@@ -15,6 +15,7 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestReporter;
 import org.junit.jupiter.api.Timeout;
@@ -33,6 +34,7 @@ import static org.awaitility.Awaitility.await;
 
 /** A thousand extreme requests at a control plane with a heap of 512 MB; {@code -Dfurrow.seed=N} repeats those of a seed. */
 @Timeout(300)
+@Tag("soak")
 class ExtremeRequestsIT {
     private static final int REQUESTS = 1000;
     private static final int UNDER_WAY = 50;

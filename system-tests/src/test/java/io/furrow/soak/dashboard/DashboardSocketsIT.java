@@ -3,6 +3,7 @@ package io.furrow.soak.dashboard;
 import java.nio.file.Path;
 import java.time.Duration;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -11,6 +12,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** The short form of the soak. */
 @Timeout(600)
+@Tag("soak")
 class DashboardSocketsIT {
     @TempDir
     Path folder;

@@ -4,6 +4,7 @@ import java.nio.file.Path;
 import java.util.Random;
 
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
@@ -12,6 +13,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** All that the job leaves in topics, collections and files is what a run without faults leaves; long form: {@code ingest-kill}. */
 @Timeout(300)
+@Tag("soak")
 class IngestFaultsIT {
     private static final int RECORDS = 9_000;
     private static final int PER_SECOND = 1_500;

@@ -2,6 +2,7 @@ package io.furrow.soak.source;
 
 import java.nio.file.Path;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
@@ -9,6 +10,7 @@ import org.junit.jupiter.params.provider.ValueSource;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** The short form of the soak. */
+@Tag("soak")
 class SourceKillIT {
     @ParameterizedTest
     @ValueSource(booleans = {true, false})

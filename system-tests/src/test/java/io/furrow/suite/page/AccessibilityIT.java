@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.junit.jupiter.api.Tag;
 import java.util.List;
 import java.util.Set;
 import java.util.stream.Stream;
@@ -13,6 +14,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** Each view by axe-core's rules of WCAG 2.2, levels A and AA: nothing serious. */
 @PageTest
+@Tag("full")
 class AccessibilityIT {
     private static final List<String> RULES =
             List.of("wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice");

@@ -2,12 +2,14 @@ package io.furrow.suite.page;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 /** From an alarm to who takes care of it. */
 @PageTest
+@Tag("full")
 class AlarmsIT {
     @Test
     void mutesAndAcknowledgesAnAlarm(PageSuite suite) throws Exception {

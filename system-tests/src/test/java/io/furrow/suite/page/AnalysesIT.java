@@ -5,12 +5,14 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.BoundingBox;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 /** What analytics found, and the way from it to its moment. */
 @PageTest
+@Tag("full")
 class AnalysesIT {
     @Test
     void showsAveragesAsAChartAndAsATableWithItsSuspects(PageSuite suite) {

@@ -8,12 +8,14 @@ import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 /** What a card says of its device, and what it does to it. */
 @PageTest
+@Tag("full")
 class CardsIT {
     private static final String DEFECTIVE = "urn:ngsi-ld:Thermometer:4";
     private static final String STATION = "urn:ngsi-ld:WeatherStation:1";

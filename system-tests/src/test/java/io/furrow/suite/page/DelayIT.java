@@ -1,11 +1,13 @@
 package io.furrow.suite.page;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** How long it takes is measured by {@code ./furrow soak page --only delay}. */
 @PageTest
+@Tag("full")
 class DelayIT {
     private static final int EVENTS = 40;
 

@@ -3,12 +3,14 @@ package io.furrow.suite.page;
 import java.util.List;
 import java.util.Map;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What the page says of each device before a mission starts, from what it knows of the farm. */
 @PageTest
+@Tag("full")
 class DeviceCheckIT {
     private static final String KNOWN = """
             { now: 1000000000, mission: 'new',

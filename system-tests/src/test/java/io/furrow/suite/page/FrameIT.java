@@ -1,11 +1,13 @@
 package io.furrow.suite.page;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 /** The frame around all views. */
 @PageTest
+@Tag("full")
 class FrameIT {
     @Test
     void opensOnTheMapAndSaysThatWhatIsShownIsLive(PageSuite suite) {

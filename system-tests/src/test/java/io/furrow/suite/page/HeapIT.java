@@ -2,12 +2,14 @@ package io.furrow.suite.page;
 
 import java.util.Map;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Memory of a page that is left open. With more devices, in their own time: {@code ./furrow soak page --only heap}. */
 @PageTest
+@Tag("full")
 class HeapIT {
     private static final int DEVICES = 400;
 

@@ -4,12 +4,14 @@ import java.util.List;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.atomic.AtomicInteger;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** A tab that nobody sees. What it costs is measured by {@code ./furrow soak page --only hidden}. */
 @PageTest
+@Tag("full")
 class HiddenIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 

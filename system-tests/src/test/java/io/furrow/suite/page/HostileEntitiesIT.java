@@ -8,6 +8,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.ngsi.NgsiJson;
@@ -16,6 +17,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** What anybody could write to Kafka: shown as text or cut, never run, and the page lives on. */
 @PageTest
+@Tag("full")
 class HostileEntitiesIT {
     private static final String SCRIPT = "<img src=x onerror='window.ran = true'><script>window.ran = true</script>";
 

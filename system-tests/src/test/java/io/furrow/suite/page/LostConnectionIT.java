@@ -1,5 +1,6 @@
 package io.furrow.suite.page;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.dashboard.Dashboard;
@@ -8,6 +9,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** The dashboard is gone, and comes back. */
 @PageTest
+@Tag("full")
 class LostConnectionIT {
     @Test
     void keepsWhatItShowedSaysSoAndGoesOn(PageSuite suite) throws Exception {

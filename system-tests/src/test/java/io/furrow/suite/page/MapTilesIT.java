@@ -4,6 +4,7 @@ import java.nio.file.Path;
 import java.util.List;
 import java.util.Map;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -16,6 +17,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 
 /** Map tiles out of a PMTiles file. */
 @PageTest
+@Tag("full")
 class MapTilesIT {
     private static final int NOWHERE = 0x2040FF;
     private static final int FARM = 0xC01080;

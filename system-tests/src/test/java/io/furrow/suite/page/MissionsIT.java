@@ -6,6 +6,7 @@ import com.microsoft.playwright.Locator;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.topic.Topics;
@@ -14,6 +15,7 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** The life of a mission, and who commanded it. */
 @PageTest
+@Tag("full")
 class MissionsIT {
     @Test
     void makesChecksStartsAndStopsAMission(PageSuite suite) {

@@ -6,12 +6,14 @@ import java.util.regex.Pattern;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 /** From a recorded mission to its moments. */
 @PageTest
+@Tag("full")
 class ReplaysIT {
     /** Topics of a replay's results are made with the first of these. */
     static final String NO_RESULTS_YET = "status of 404.*\\.replay\\.\\w+";

@@ -1,12 +1,14 @@
 package io.furrow.suite.page;
 
 import com.microsoft.playwright.Page;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What came in lately, below the map. */
 @PageTest
+@Tag("full")
 class TimelineIT {
     private static final Page.WaitForConditionOptions AT_ONCE = new Page.WaitForConditionOptions().setTimeout(10_000);
 

@@ -4,12 +4,14 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
 /** From domains and missions to records. */
 @PageTest
+@Tag("full")
 class TopicsIT {
     @Test
     void showsDomainsWithTheirMissionsAndHowMuchFlows(PageSuite suite) {

@@ -9,6 +9,7 @@ import java.util.Properties;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -25,6 +26,7 @@ import static org.awaitility.Awaitility.await;
 
 /** One who may look and not command, before a control plane that asks for tokens and comes after the dashboard. */
 @PageTest
+@Tag("full")
 class ViewerIT {
     private static final String TOKEN = "vera-looks-at-the-farm-0001";
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";

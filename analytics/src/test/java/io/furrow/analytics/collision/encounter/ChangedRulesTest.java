@@ -9,6 +9,7 @@ import java.util.Random;
 import java.util.Set;
 import java.util.TreeSet;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -29,6 +30,7 @@ import io.furrow.analytics.position.PositionFix;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** Stages that are restored with other rules than those by which their state was made. */
+@Tag("full")
 class ChangedRulesTest {
     private static final Logger LOG = LoggerFactory.getLogger(ChangedRulesTest.class);
     private static final long BOUND = 1500;

@@ -3,6 +3,7 @@ package io.furrow.analytics.collision.position;
 import java.util.List;
 import java.util.Random;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -15,6 +16,7 @@ import io.furrow.analytics.position.PositionFix;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class CollisionSimulationTest {
     private static final Logger LOG = LoggerFactory.getLogger(CollisionSimulationTest.class);
     private static final int CASES = 1000;
