@@ -1,6 +1,5 @@
 package io.furrow.ingest;
 
-import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import java.util.List;
 import java.util.Set;
 
@@ -15,6 +14,7 @@ import io.furrow.flink.kafka.KafkaOutput;
 import io.furrow.flink.record.DeduplicateById;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedLatenessOperator;
+import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import io.furrow.ingest.image.ImageStage;
 import io.furrow.ingest.route.AssignMission;
 import io.furrow.ingest.route.RecognizeEvents;

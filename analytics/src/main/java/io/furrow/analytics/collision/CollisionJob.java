@@ -1,7 +1,7 @@
 package io.furrow.analytics.collision;
 
-import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import java.util.List;
+
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.DataStreamUtils;
@@ -23,6 +23,7 @@ import io.furrow.flink.record.DeadLetters;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
+import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 
 /** The job {@code collision}: encounters of devices, from the first instant at which they are close to the last. */
 public final class CollisionJob {

@@ -1,8 +1,7 @@
 package io.furrow.analytics.temperature;
 
-import io.furrow.flink.time.TimelessBroadcastOperator;
-import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
 import java.util.List;
+
 import org.apache.flink.api.common.typeinfo.TypeInformation;
 import org.apache.flink.streaming.api.datastream.DataStream;
 import org.apache.flink.streaming.api.datastream.SingleOutputStreamOperator;
@@ -25,6 +24,8 @@ import io.furrow.flink.record.DeduplicateById;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.time.AheadLimit;
 import io.furrow.flink.time.KeyedLatenessOperator;
+import io.furrow.flink.time.KeyedTimelessBroadcastOperator;
+import io.furrow.flink.time.TimelessBroadcastOperator;
 
 /** The job {@code temperature}: the average temperature of each field in event-time windows, one entity per field and window. */
 public final class TemperatureJob {
