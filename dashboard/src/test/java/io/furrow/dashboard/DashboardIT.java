@@ -39,6 +39,7 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -216,6 +217,7 @@ class DashboardIT {
                         .toList());
     }
 
+    @Tag("full")
     @Test
     void deliversValuesAsTheyAreUnlessMoreIsAskedFor() throws Exception {
         SocketClient client = open(TOPIC);
@@ -289,6 +291,7 @@ class DashboardIT {
         assertThat(error("/api/history/data.nothing?from=0", VERA)).isEqualTo("404 unknown-topic");
     }
 
+    @Tag("full")
     @Test
     void countsTheRecordsOfATopicBucketByBucket() throws Exception {
         String topic = "data.canary.realtime";
@@ -461,6 +464,7 @@ class DashboardIT {
     }
 
     /** Such as one that asks for what the server cannot do: its ticket is used, and no socket reports its end. */
+    @Tag("full")
     @Test
     void freesTheStreamOfAHandshakeThatFailed() throws Exception {
         URI socket = socket(TOPIC, OLGA);
@@ -529,6 +533,7 @@ class DashboardIT {
         return ((WebSocketHandshakeException) failure.getCause()).getResponse().statusCode();
     }
 
+    @Tag("full")
     @Test
     void limitsTicketsStreamsAndMessagesOfAClient() throws Exception {
         restart(settings().withLimits(limits(2_000, 2)));
@@ -619,6 +624,7 @@ class DashboardIT {
         }
     }
 
+    @Tag("full")
     @Test
     void cutsAValueThatIsTooLong() throws Exception {
         restart(settings().withLimits(limits(2_000, 50)));
@@ -631,6 +637,7 @@ class DashboardIT {
         assertThat(record.path("cut").asInt()).isEqualTo(20_002);
     }
 
+    @Tag("full")
     @Test
     void freesEverythingWhenSocketsAreDropped() throws Exception {
         for (int round = 0; round < 10; round++) {
@@ -651,6 +658,7 @@ class DashboardIT {
         open(TOPIC).close(); // and it continues
     }
 
+    @Tag("full")
     @Test
     void sharesOneConsumerAmongAllSocketsOfATopic() throws Exception {
         List<SocketClient> clients = new ArrayList<>();
@@ -727,6 +735,7 @@ class DashboardIT {
                 .isPresent();
     }
 
+    @Tag("full")
     @Test
     void saysThatTheControlPlaneIsAway() throws Exception {
         restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:1")));
@@ -735,6 +744,7 @@ class DashboardIT {
         assertThat(error("/api/register/" + TOPIC, VERA)).isEqualTo("503 control-plane-away");
     }
 
+    @Tag("full")
     @Test
     void saysHowItIsAndWhatItDid() throws Exception {
         await().atMost(TIMEOUT).until(() -> get("/ready", null).statusCode() == 200);
@@ -776,6 +786,7 @@ class DashboardIT {
                 .orElse(-1);
     }
 
+    @Tag("full")
     @Test
     void isNotReadyWithoutTheControlPlane() throws Exception {
         restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:1")));
@@ -793,6 +804,7 @@ class DashboardIT {
     }
 
     /** More requests than the server has threads wait for a control plane that is silent. */
+    @Tag("full")
     @Test
     void saysHowItIsAndGivesThePageOutWhileTheControlPlaneIsSilent() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 500, InetAddress.getLoopbackAddress())) {
@@ -816,6 +828,7 @@ class DashboardIT {
     }
 
     /** By what it knows already: nobody waits to find it out. */
+    @Tag("full")
     @Test
     void refusesAtOnceWhileKafkaIsAway() throws Exception {
         try (ServerSocket silent = new ServerSocket(0, 50, InetAddress.getLoopbackAddress())) {
@@ -835,6 +848,7 @@ class DashboardIT {
         }
     }
 
+    @Tag("full")
     @Test
     void forgetsATicketThatIsOld() throws Exception {
         ProxyLimits usual = ProxyLimits.DEFAULT;
@@ -849,6 +863,7 @@ class DashboardIT {
                 .satisfies(failure -> assertThat(status(failure)).isEqualTo(403));
     }
 
+    @Tag("full")
     @Test
     void tellsLagAndTheDeadLettersThatAreStillThere() throws Exception {
         String topic = "counted";

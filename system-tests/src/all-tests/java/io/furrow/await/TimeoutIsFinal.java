@@ -2,21 +2,31 @@ package io.furrow.await;
 
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
 import org.junit.jupiter.api.extension.BeforeAllCallback;
 import org.junit.jupiter.api.extension.BeforeEachCallback;
 import org.junit.jupiter.api.extension.ExtensionContext;
 import org.junit.jupiter.api.extension.LifecycleMethodExecutionExceptionHandler;
+import org.junit.jupiter.api.extension.PreInterruptCallback;
+import org.junit.jupiter.api.extension.PreInterruptContext;
 import org.junit.jupiter.api.extension.TestExecutionExceptionHandler;
 
-/** A test that JUnit has ended because it hung is not run again: each further run would hang as long. */
+/**
+ * A test that JUnit has ended because it hung is not run again: each further run would hang as long. One that ignores the interrupt ends
+ * its JVM, which Surefire's own limit does not do (SUREFIRE-1722).
+ */
 public final class TimeoutIsFinal
         implements BeforeAllCallback,
                 BeforeEachCallback,
+                PreInterruptCallback,
                 TestExecutionExceptionHandler,
                 LifecycleMethodExecutionExceptionHandler {
+    private static final int GRACE_SECONDS = 30;
     private static final Map<String, Throwable> TIMEOUTS = new ConcurrentHashMap<>();
+    private static final Map<String, CountDownLatch> INTERRUPTED = new ConcurrentHashMap<>();
 
     /** Made by JUnit. */
     public TimeoutIsFinal() {}
@@ -29,6 +39,26 @@ public final class TimeoutIsFinal
     @Override
     public void beforeEach(ExtensionContext context) {
         refuse(context);
+    }
+
+    @Override
+    public void beforeThreadInterrupt(PreInterruptContext interrupt, ExtensionContext context) {
+        CountDownLatch returned = new CountDownLatch(1);
+        INTERRUPTED.put(context.getUniqueId(), returned);
+        Thread watchdog = new Thread(() -> haltUnless(returned, context.getUniqueId()), "interrupted-test-watchdog");
+        watchdog.setDaemon(true);
+        watchdog.start();
+    }
+
+    private static void haltUnless(CountDownLatch returned, String test) {
+        try {
+            if (!returned.await(GRACE_SECONDS, TimeUnit.SECONDS)) {
+                System.err.println(test + " ignored the interrupt for " + GRACE_SECONDS + " s: ending this JVM");
+                Runtime.getRuntime().halt(1);
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
     }
 
     @Override
@@ -46,7 +76,21 @@ public final class TimeoutIsFinal
         throw noted(context, failure);
     }
 
+    @Override
+    public void handleAfterEachMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
+        throw noted(context, failure);
+    }
+
+    @Override
+    public void handleAfterAllMethodExecutionException(ExtensionContext context, Throwable failure) throws Throwable {
+        throw noted(context, failure);
+    }
+
     private static Throwable noted(ExtensionContext context, Throwable failure) {
+        CountDownLatch returned = INTERRUPTED.remove(context.getUniqueId());
+        if (returned != null) {
+            returned.countDown();
+        }
         // JUnit's own, not that of a future.
         if (failure instanceof TimeoutException
                 && String.valueOf(failure.getMessage()).contains(" timed out after ")) {

@@ -9,10 +9,12 @@ import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.HeaderNames;
+import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class RecognizeEventsTest {
     private static final String ROBOT = "{\"id\":\"r\",\"type\":\"Robot\",\"n\":{\"value\":%d}}";
@@ -33,6 +35,15 @@ class RecognizeEventsTest {
         assertThat(first).isNotBlank().isEqualTo(id(ROBOT.formatted(1), empty));
         assertThat(id(ROBOT.formatted(2), empty)).isNotEqualTo(first);
         assertThat(id(null, empty)).isNotBlank().isNotEqualTo(first);
+    }
+
+    @Test
+    void saysWhatIsNoEvent() {
+        TopicRecord nothing = TopicRecord.of(Topics.RAW, 1_700_000_000_000L, "", null, Map.of());
+
+        assertThatThrownBy(() -> RecognizeEvents.recognize(nothing))
+                .isInstanceOfSatisfying(
+                        UnreadableException.class, why -> assertThat(why.reason()).isEqualTo(Reason.NOT_AN_EVENT));
     }
 
     private static String id(String value, String borne) throws UnreadableException {

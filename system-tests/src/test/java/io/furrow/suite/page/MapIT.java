@@ -4,6 +4,7 @@ import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
@@ -57,6 +58,7 @@ class MapIT {
         assertThat(farm.card(THERMOMETER)).isInViewport();
     }
 
+    @Tag("full")
     @Test
     void bringsTheDeviceOfACardIntoTheMiddle(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -93,6 +95,7 @@ class MapIT {
         assertThat(close).containsText("too close", new LocatorAssertions.ContainsTextOptions().setTimeout(60_000));
     }
 
+    @Tag("full")
     @Test
     void gathersManyRobotsAndOpensWhatNoZoomTellsApart(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -117,6 +120,7 @@ class MapIT {
         farm.untilStore("store.selection?.startsWith('urn:ngsi-ld:Tractor:')");
     }
 
+    @Tag("full")
     @Test
     void opensOnTheFarmThoughOneDeviceIsFarAway(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -135,6 +139,7 @@ class MapIT {
         org.assertj.core.api.Assertions.assertThat(robot[1]).isBetween(map.y, map.y + map.height);
     }
 
+    @Tag("full")
     @Test
     void drawsNothingBehindAnotherView(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -171,6 +176,7 @@ class MapIT {
                         }""", java.util.List.of(count, latitude, longitude));
     }
 
+    @Tag("full")
     @Test
     void isMovedAndZoomedByTheKeyboard(PageSuite suite) {
         FarmPage farm = suite.open("");
