@@ -39,7 +39,8 @@ import io.furrow.simulators.load.LoadPlan;
             ReplayBench.class,
             ControlBench.class,
             FleetBench.class,
-            MissionBench.class
+            MissionBench.class,
+            WholeBench.class
         })
 public final class BenchCommand {
     private static final String DOMAIN = "bench";

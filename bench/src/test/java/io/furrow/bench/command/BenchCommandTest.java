@@ -17,7 +17,8 @@ class BenchCommandTest {
         "bench load --help, --devices",
         "bench notifications --help, --new-connections",
         "bench sink --help, --stand-in",
-        "bench control --help, --outstanding"
+        "bench control --help, --outstanding",
+        "bench whole --help, --against"
     })
     void explainsItself(String words, String mentioned) {
         StringWriter out = new StringWriter();

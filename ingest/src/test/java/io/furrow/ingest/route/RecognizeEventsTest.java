@@ -43,7 +43,8 @@ class RecognizeEventsTest {
 
         assertThatThrownBy(() -> RecognizeEvents.recognize(nothing))
                 .isInstanceOfSatisfying(
-                        UnreadableException.class, why -> assertThat(why.reason()).isEqualTo(Reason.NOT_AN_EVENT));
+                        UnreadableException.class,
+                        why -> assertThat(why.reason()).isEqualTo(Reason.NOT_AN_EVENT));
     }
 
     private static String id(String value, String borne) throws UnreadableException {

@@ -1,0 +1,101 @@
+package io.furrow.bench.whole;
+
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Predicate;
+
+/** {@code ./furrow} as a process of its own, seen from outside: what it prints, and what the system says of it (Linux). */
+final class SuiteProcess implements AutoCloseable {
+    private static final long STOP_SECONDS = 20;
+
+    private final Process process;
+    private final BufferedReader printed;
+
+    private SuiteProcess(Process process) {
+        this.process = process;
+        this.printed = process.inputReader();
+    }
+
+    static SuiteProcess start(Checkout checkout, List<String> arguments) throws IOException {
+        List<String> command =
+                new ArrayList<>(List.of(checkout.home().resolve("furrow").toString()));
+        command.addAll(arguments);
+        return new SuiteProcess(new ProcessBuilder(command)
+                .directory(checkout.home().toFile())
+                .redirectErrorStream(true)
+                .start());
+    }
+
+    /**
+     * Reads on to a line.
+     *
+     * @throws IOException if the process ends before it prints one; with its last lines
+     */
+    String awaitLine(Predicate<String> wanted) throws IOException {
+        List<String> last = new ArrayList<>();
+        for (String line = printed.readLine(); line != null; line = printed.readLine()) {
+            if (wanted.test(line)) {
+                return line;
+            }
+            last.add(line);
+        }
+        throw new IOException("the suite ended early: "
+                + String.join("\n", last.subList(Math.max(0, last.size() - 5), last.size())));
+    }
+
+    /** Reads on in the background, so that the process never waits for a reader. */
+    void discardOutput() {
+        Thread reader = new Thread(
+                () -> {
+                    try {
+                        awaitLine(line -> false);
+                    } catch (IOException e) {
+                        // It ended.
+                    }
+                },
+                "suite-output");
+        reader.setDaemon(true);
+        reader.start();
+    }
+
+    /** Processor time by now. */
+    Duration processorTime() throws IOException {
+        return process.info().totalCpuDuration().orElseThrow(() -> new IOException("the suite has ended"));
+    }
+
+    long threads() throws IOException {
+        return status("Threads:");
+    }
+
+    long residentMb() throws IOException {
+        return status("VmRSS:") / 1024;
+    }
+
+    private long status(String name) throws IOException {
+        Path status = Path.of("/proc", Long.toString(process.pid()), "status");
+        return Files.readAllLines(status).stream()
+                .filter(line -> line.startsWith(name))
+                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")))
+                .findFirst()
+                .orElseThrow(() -> new IOException(status + " has no line " + name));
+    }
+
+    @Override
+    public void close() {
+        process.destroy();
+        try {
+            if (process.waitFor(STOP_SECONDS, TimeUnit.SECONDS)) {
+                return;
+            }
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+        process.destroyForcibly();
+    }
+}
