@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.suite;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -24,7 +24,7 @@ class HealthyLogIT {
     private static final long WINDOWS = 3;
 
     private static final List<String> PORTS =
-            List.of("kafka", "connect", "flink", "notify", "mqtt", "orion", "iot-agent", "mongo", "control", "health");
+            List.of("kafka", "connect", "flink", "notify", "mqtt", "orion", "iot-agent", "mongo", "control", "health", "dashboard");
 
     @TempDir
     Path directory;

@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.suite;
 
 import java.io.IOException;
 import java.lang.management.ManagementFactory;
@@ -8,6 +8,8 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
+
+import io.furrow.bench.command.BenchCommand;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -38,7 +40,7 @@ final class FurrowProcess implements AutoCloseable {
                 "-Dfurrow.plugins=" + System.getProperty("furrow.plugins"),
                 "-cp",
                 System.getProperty("java.class.path"),
-                Furrow.class.getName()));
+                BenchCommand.class.getName()));
         command.addAll(List.of(words));
         Path output = temporary.resolveSibling(temporary.getFileName() + ".out");
         Process process = new ProcessBuilder(command)

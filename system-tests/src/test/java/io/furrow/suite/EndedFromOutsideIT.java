@@ -1,4 +1,4 @@
-package io.furrow.launcher;
+package io.furrow.suite;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
