@@ -102,12 +102,15 @@ final class Moves {
         return next.done();
     }
 
-    /** @param start epoch ms; null for the replay's beginning */
-    static PlaybackState nextEpoch(PlaybackState s, Long start) {
+    /**
+     * @param start epoch ms; null for the replay's beginning
+     * @param used greatest epoch that is known to be used
+     */
+    static PlaybackState nextEpoch(PlaybackState s, Long start, long used) {
         Moves next = new Moves(s);
         next.phase = Phase.OPENING;
         next.reason = null;
-        next.epoch++;
+        next.epoch = Math.max(s.epoch(), used) + 1;
         next.number = 0;
         next.start = start;
         next.cursor = Cursor.START;

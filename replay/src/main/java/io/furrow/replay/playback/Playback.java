@@ -48,6 +48,9 @@ public final class Playback {
     /** Whether it is in the pass of a loop that the group's clock comes to next. */
     private boolean aheadOfClock;
 
+    /** Greatest epoch that its topic had records of when it went on after a restart. */
+    private long used;
+
     private String waiting;
     private long passBegan;
     private long lateness;
@@ -93,6 +96,11 @@ public final class Playback {
             long wait = startAt == null ? 0 : Math.max(0, startAt - today);
             timeline = new Timeline(now + wait, position, wanted.speed(), isHeld());
         }
+    }
+
+    /** After a restart the topic may have epochs that its state does not know; their numbers are not used again. */
+    public void skipEpochsTo(long epoch) {
+        used = epoch;
     }
 
     private boolean isOfGroup() {
@@ -168,11 +176,11 @@ public final class Playback {
     }
 
     private void begin(Long start, long now) {
-        if (at.epoch() >= Epochs.LAST) {
+        if (Math.max(at.epoch(), used) >= Epochs.LAST) {
             at = Moves.over(at, Phase.FAILED, NO_EPOCH_LEFT);
             return;
         }
-        at = Moves.nextEpoch(at, start);
+        at = Moves.nextEpoch(at, start, used);
         aheadOfClock = false;
         passBegan = now;
         startOver(now);

@@ -2,6 +2,9 @@ package io.furrow.replay.source;
 
 import java.io.IOException;
 import java.io.Serializable;
+import java.util.Properties;
+
+import org.apache.kafka.clients.consumer.ConsumerConfig;
 
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TopicOptions;
@@ -24,6 +27,14 @@ public interface ReplayTopics extends Serializable {
          */
         int prepare(String topic) throws IOException, InterruptedException;
 
+        /**
+         * The greatest epoch that the topic has records of, committed or not; from any thread.
+         *
+         * @return {@link NewestEpoch#NONE} if there is none
+         * @throws IOException if that cannot be read now
+         */
+        long newestEpoch(String topic) throws IOException, InterruptedException;
+
         /** The record, or what is written in its place because the topic does not take it. */
         TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
 
@@ -33,11 +44,13 @@ public interface ReplayTopics extends Serializable {
 
     /** The topics of a job on Kafka. */
     static ReplayTopics of(JobOptions options, TopicOptions.Settings settings) {
-        return new OnKafka(new EnsureTopics(options, settings));
+        Properties client = options.kafkaProperties();
+        client.setProperty(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
+        return new OnKafka(new EnsureTopics(options, settings), new NewestEpoch(client));
     }
 
     /** Topics are made as the job's options say. */
-    record OnKafka(EnsureTopics topics) implements ReplayTopics {
+    record OnKafka(EnsureTopics topics, NewestEpoch newest) implements ReplayTopics {
         @Override
         public Writing open() {
             WritableRecords records = topics.writable();
@@ -45,6 +58,11 @@ public interface ReplayTopics extends Serializable {
                 @Override
                 public int prepare(String topic) throws IOException, InterruptedException {
                     return records.prepare(topic);
+                }
+
+                @Override
+                public long newestEpoch(String topic) throws IOException, InterruptedException {
+                    return newest.of(topic);
                 }
 
                 @Override

@@ -44,6 +44,12 @@ final class RunningReplay {
     private boolean removed;
     /** Whether it is over and nothing is read for it. */
     private boolean rests;
+    /** Whether it goes on after a restart, and first has to know which epochs its topic has. */
+    private final boolean restored;
+
+    private boolean asked;
+    /** Valid as soon as the partitions are known. */
+    private volatile long newestEpoch = NewestEpoch.NONE;
     /** Of its topic; 0 until that is known. */
     private volatile int partitions;
 
@@ -64,6 +70,7 @@ final class RunningReplay {
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
         this.refusedAt = split.state();
+        this.restored = split.state().sequence() >= 0;
         this.wanted = split.wanted();
         take(split.wanted(), now);
     }
@@ -91,9 +98,6 @@ final class RunningReplay {
                 answers.add(answer);
                 reading.wakeUp().run();
             });
-            if (playback.hasBegun()) { // before a restart; perhaps no page is read any more
-                pages.prepareSoon();
-            }
             return Optional.empty();
         } catch (UnreadableException e) {
             refusal = "the record of service.replays cannot be read: " + e.getMessage();
@@ -102,13 +106,31 @@ final class RunningReplay {
     }
 
     private void prepare(WantedReplay replay) throws IOException, InterruptedException {
-        partitions = reading.topics().prepare(replay.topic());
+        int found = reading.topics().prepare(replay.topic());
+        if (restored) {
+            newestEpoch = reading.topics().newestEpoch(replay.topic());
+        }
+        partitions = found;
         reading.wakeUp().run();
     }
 
-    /** Whether a wish can be taken: what ends an epoch that began before a restart goes to every partition. */
-    private boolean canTakeWishes() {
-        return playback == null || partitions > 0 || !playback.hasBegun();
+    /**
+     * After a restart a replay goes on only when its topic is known: what ends an epoch goes to every partition, and the next one's number
+     * must be new. One that is over needs that not before it is requested again.
+     */
+    private boolean awaitsTopic() {
+        if (!restored || playback == null || partitions > 0 || playback.isOver() && !isWished()) {
+            return false;
+        }
+        if (!asked) {
+            asked = true;
+            pages.prepareSoon();
+        }
+        return true;
+    }
+
+    private boolean isWished() {
+        return wishes.stream().anyMatch(wish -> wish != REMOVED);
     }
 
     /**
@@ -118,7 +140,14 @@ final class RunningReplay {
      * @return when it wants to be called again; not after now where more is to be done
      */
     long run(long now, int most, Consumer<TopicRecord> out) {
-        while (!wishes.isEmpty() && canTakeWishes()) {
+        if (awaitsTopic()) {
+            reports.report(playback, now, out);
+            return reports.due(playback);
+        }
+        if (restored && playback != null) {
+            playback.skipEpochsTo(newestEpoch);
+        }
+        while (!wishes.isEmpty()) {
             byte[] wish = wishes.remove();
             if (wish == REMOVED) {
                 remove(now, out);

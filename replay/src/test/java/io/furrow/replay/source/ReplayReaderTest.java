@@ -33,11 +33,11 @@ class ReplayReaderTest {
     private final MemoryRecordings missions = new MemoryRecordings();
     private final List<TopicRecord> records = new ArrayList<>();
     private final List<Long> times = new ArrayList<>();
+    private final OnePartition topics = new OnePartition();
     private ReplayReader reader = newReader();
 
     private ReplayReader newReader() {
-        ReplayReader fresh =
-                new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), new OnePartition());
+        ReplayReader fresh = new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics);
         fresh.start();
         return fresh;
     }
@@ -205,6 +205,25 @@ class ReplayReaderTest {
         assertThat(played("m", "event"))
                 .extracting(record -> record.headers().get(HeaderNames.REPLAY_SEQUENCE))
                 .containsExactly("0", "1", "2", "3");
+    }
+
+    /** What was written after the checkpoint is on the topic: two seeks, of which only the later one is still known. */
+    @Test
+    void usesNoEpochAgainThatIsOnItsTopic() throws Exception {
+        missions.with("m", TIME, TIME + 10, TIME + 100_000);
+        WantedReplay started = wanted("m", 1, State.RUNNING, 1);
+        start(started);
+        play("m", "event", 2);
+
+        topics.newestEpoch = 2;
+        restart();
+        wish(started.seeking(TIME + 5, 3));
+        play("m", "event", 3);
+
+        assertThat(played("m", "end"))
+                .extracting(record -> record.headers().get(HeaderNames.REPLAY_EPOCH))
+                .containsExactly("0");
+        assertThat(played("m", "event").get(2).headers()).containsEntry(HeaderNames.REPLAY_EPOCH, "3");
     }
 
     private void restart() throws Exception {

@@ -1,0 +1,84 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.io.Serializable;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+
+import org.apache.kafka.clients.consumer.ConsumerConfig;
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.common.KafkaException;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.InterruptException;
+import org.apache.kafka.common.header.Header;
+import org.apache.kafka.common.serialization.ByteArrayDeserializer;
+
+import io.furrow.model.event.HeaderNames;
+
+/**
+ * The greatest epoch at the end of a replay's topic, whether its transaction was committed or not. A checkpoint may be older than what was
+ * written since, and an epoch's number must not be used for two contents.
+ *
+ * @param client settings of Kafka clients, {@code bootstrap.servers} among them
+ */
+record NewestEpoch(Properties client) implements Serializable {
+    static final long NONE = -1;
+
+    private static final Duration POLL = Duration.ofMillis(200);
+    /** The last offsets of a partition may be those of transaction markers, which are no records. */
+    private static final long LOOK_BACK = 100;
+
+    /**
+     * {@link #NONE} if no record has one.
+     *
+     * @throws IOException if Kafka cannot be asked now
+     */
+    long of(String topic) throws IOException, InterruptedException {
+        Properties settings = new Properties();
+        settings.putAll(client);
+        settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_uncommitted");
+        settings.setProperty(ConsumerConfig.ENABLE_AUTO_COMMIT_CONFIG, "false");
+        settings.setProperty(ConsumerConfig.ALLOW_AUTO_CREATE_TOPICS_CONFIG, "false");
+        settings.remove(ConsumerConfig.GROUP_ID_CONFIG);
+        try (KafkaConsumer<byte[], byte[]> consumer =
+                new KafkaConsumer<>(settings, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
+            List<TopicPartition> partitions = consumer.partitionsFor(topic).stream()
+                    .map(info -> new TopicPartition(topic, info.partition()))
+                    .toList();
+            consumer.assign(partitions);
+            long newest = NONE;
+            Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions);
+            Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
+            for (TopicPartition partition : partitions) {
+                consumer.assign(List.of(partition));
+                consumer.seek(partition, Math.max(begins.get(partition), ends.get(partition) - LOOK_BACK));
+                while (consumer.position(partition) < ends.get(partition)) {
+                    for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
+                        newest = Math.max(newest, epoch(record));
+                    }
+                }
+            }
+            return newest;
+        } catch (InterruptException e) {
+            Thread.interrupted(); // Kafka sets it again
+            InterruptedException interrupted = new InterruptedException("interrupted while the newest epoch was read");
+            interrupted.initCause(e);
+            throw interrupted;
+        } catch (KafkaException e) {
+            throw new IOException("The newest epoch of topic " + topic + " cannot be read: " + e.getMessage(), e);
+        }
+    }
+
+    private static long epoch(ConsumerRecord<byte[], byte[]> record) {
+        Header header = record.headers().lastHeader(HeaderNames.REPLAY_EPOCH);
+        try {
+            return header == null ? NONE : Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
+        } catch (NumberFormatException e) { // not written by a replay
+            return NONE;
+        }
+    }
+}
