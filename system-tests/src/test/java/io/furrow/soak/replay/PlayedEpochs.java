@@ -1,6 +1,7 @@
 package io.furrow.soak.replay;
 
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.BitSet;
 import java.util.List;
 import java.util.SortedMap;
@@ -62,6 +63,22 @@ final class PlayedEpochs {
             }
         });
         return gaps;
+    }
+
+    /** Sequences under which there are different events: a number of an epoch that was used again. */
+    List<String> changed() {
+        List<String> changed = new ArrayList<>();
+        epochs.forEach((epoch, sequences) -> sequences.forEach((sequence, entries) -> {
+            long[] numbers = entries.stream()
+                    .filter(entry -> entry.kind().equals(EVENT))
+                    .mapToLong(Entry::number)
+                    .distinct()
+                    .toArray();
+            if (numbers.length > 1) {
+                changed.add("epoch %d: %d has the events %s".formatted(epoch, sequence, Arrays.toString(numbers)));
+            }
+        }));
+        return changed;
     }
 
     /** What must not be where each record is written exactly once. */

@@ -61,6 +61,16 @@ class PlayedEpochsTest {
     }
 
     @Test
+    void findsAnEpochThatWasUsedAgain() {
+        event(0, 0, 4);
+        event(0, 1, 5);
+        event(0, 0, 4);
+        event(0, 1, 9);
+
+        assertThat(epochs.changed()).containsExactly("epoch 0: 1 has the events [5, 9]");
+    }
+
+    @Test
     void findsAnEventThatIsNotTheNextOfItsMission() {
         event(0, 0, 4);
         event(0, 1, 6);

@@ -58,6 +58,7 @@ public final class PlayedTopics {
                     entry(record));
         }
         List<String> faults = new ArrayList<>(epochs.gaps());
+        faults.addAll(epochs.changed());
         if (exactlyOnce) {
             faults.addAll(epochs.faultsOfExactlyOnce(partitions));
         }
