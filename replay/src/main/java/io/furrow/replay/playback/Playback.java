@@ -54,6 +54,8 @@ public final class Playback {
     private String waiting;
     private long passBegan;
     private long lateness;
+    /** Of the epoch, since the last restart. */
+    private long slip;
 
     /**
      * @param wanted what was applied last; of a fresh state what is requested first
@@ -182,6 +184,7 @@ public final class Playback {
         }
         at = Moves.nextEpoch(at, start, used);
         aheadOfClock = false;
+        slip = 0;
         passBegan = now;
         startOver(now);
     }
@@ -244,6 +247,7 @@ public final class Playback {
     private void resumeAfterStall(boolean stood, long now) {
         StoredEvent next = next();
         if (stood && next != null && !isOfGroup() && !isHeld() && now - timeline.due(next.time()) > STALL) {
+            slip += now - timeline.due(next.time());
             anchor(now, next.time());
         }
     }
@@ -441,7 +445,7 @@ public final class Playback {
     public ReplayStatus status(long now, long worst, double rate) {
         long position = waiting == null ? position(now) : at.position();
         return new ReplayStatus(
-                at.sequence(), state(), at.reason(), false, at.progress(position, worst, rate, awaited(now)));
+                at.sequence(), state(), at.reason(), false, at.progress(position, worst, slip, rate, awaited(now)));
     }
 
     /** What it waits for; null if it waits for nothing. */

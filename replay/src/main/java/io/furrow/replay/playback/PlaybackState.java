@@ -72,9 +72,9 @@ public record PlaybackState(
         }
     }
 
-    ReplayStatus.Progress progress(long reached, long lateness, double rate, String waiting) {
+    ReplayStatus.Progress progress(long reached, long lateness, long slip, double rate, String waiting) {
         return new ReplayStatus.Progress(
-                epoch, reached, first, last, offset, lateness, rate, events, primes, skipped, waiting);
+                epoch, reached, first, last, offset, lateness, slip, rate, events, primes, skipped, waiting);
     }
 
     /** A replay that was never played. */

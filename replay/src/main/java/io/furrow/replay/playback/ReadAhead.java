@@ -16,7 +16,10 @@ final class ReadAhead {
     private final Deque<StoredEvent> events = new ArrayDeque<>();
     private Cursor loaded;
     private int newest;
+    /** Whether the newest page was the last one of the recording when it was read. */
     private boolean complete;
+    /** Whether there was still no more when all had been played: a mission may be recorded while it is replayed. */
+    private boolean confirmed;
 
     /**
      * @param devices ids of the entities whose events count; empty for all
@@ -29,6 +32,7 @@ final class ReadAhead {
 
     /** @return how many of its records are no events that can be played */
     long add(Page page) {
+        boolean drained = complete && events.isEmpty();
         long skipped = page.skipped().stream().mapToLong(Skipped::count).sum();
         newest = 0;
         for (StoredEvent event : page.events()) {
@@ -41,6 +45,7 @@ final class ReadAhead {
         }
         loaded = page.next();
         complete = page.last();
+        confirmed = drained && complete && newest == 0;
         return skipped;
     }
 
@@ -54,7 +59,10 @@ final class ReadAhead {
      * @param to epoch ms, after the last event that is requested
      */
     boolean wantsMore(long to) {
-        return !complete && loaded.time() < to && events.size() <= newest;
+        if (complete) {
+            return !confirmed && events.isEmpty() && loaded.time() < to;
+        }
+        return loaded.time() < to && events.size() <= newest;
     }
 
     Cursor loaded() {
@@ -73,7 +81,7 @@ final class ReadAhead {
     /** Whether nothing comes any more before this event time, epoch ms. */
     boolean isOver(long to) {
         return events.isEmpty()
-                ? complete || loaded.time() >= to
+                ? confirmed || loaded.time() >= to
                 : events.peek().time() >= to;
     }
 }

@@ -30,7 +30,7 @@ record NewestEpoch(Properties client) implements Serializable {
 
     private static final Duration POLL = Duration.ofMillis(200);
     /** The last offsets of a partition may be those of transaction markers, which are no records. */
-    private static final long LOOK_BACK = 100;
+    private static final long TAIL_OFFSETS = 100;
 
     /**
      * {@link #NONE} if no record has one.
@@ -55,7 +55,7 @@ record NewestEpoch(Properties client) implements Serializable {
             Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
             for (TopicPartition partition : partitions) {
                 consumer.assign(List.of(partition));
-                consumer.seek(partition, Math.max(begins.get(partition), ends.get(partition) - LOOK_BACK));
+                consumer.seek(partition, Math.max(begins.get(partition), ends.get(partition) - TAIL_OFFSETS));
                 while (consumer.position(partition) < ends.get(partition)) {
                     for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
                         newest = Math.max(newest, epoch(record));

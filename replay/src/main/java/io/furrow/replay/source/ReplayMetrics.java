@@ -9,7 +9,7 @@ import org.apache.flink.runtime.metrics.groups.AbstractMetricGroup;
 
 /**
  * Gauges of a reader: {@code replaysRunning}, and of each replay, as its newest status says, {@code state} (0 running, 1 paused, 2
- * ended, 3 stopped, 4 failed; −1 before the first), {@code position} in epoch ms of event time, {@code lateness} in ms and {@code
+ * ended, 3 stopped, 4 failed; −1 before the first), {@code position} in epoch ms of event time, {@code lateness} and {@code slip} in ms, and {@code
  * eventsPerSecond}.
  */
 final class ReplayMetrics {
@@ -33,10 +33,12 @@ final class ReplayMetrics {
         Gauge<Integer> state = replay.reports()::state;
         Gauge<Long> position = replay.reports()::position;
         Gauge<Long> lateness = replay.reports()::lateness;
+        Gauge<Long> slip = replay.reports()::slip;
         Gauge<Double> rate = replay.reports()::rate;
         group.gauge("state", state);
         group.gauge("position", position);
         group.gauge("lateness", lateness);
+        group.gauge("slip", slip);
         group.gauge("eventsPerSecond", rate);
         groups.put(replay.name(), group);
     }

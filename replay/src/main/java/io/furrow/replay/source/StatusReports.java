@@ -61,6 +61,12 @@ final class StatusReports {
         return Math.max(lateness, worst);
     }
 
+    /** By how much the epoch's schedule was moved when it was last reported, ms; 0 where none was. */
+    long slip() {
+        ReplayStatus last = told;
+        return last == null || last.progress() == null ? 0 : last.progress().slipMillis();
+    }
+
     /** Events per second, until the last report. */
     double rate() {
         return rate;

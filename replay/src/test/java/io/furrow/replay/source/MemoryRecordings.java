@@ -1,10 +1,10 @@
 package io.furrow.replay.source;
 
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.CopyOnWriteArrayList;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
@@ -27,7 +27,14 @@ final class MemoryRecordings implements Recordings {
 
     /** Events of the entity {@code urn:x} at these times. */
     MemoryRecordings with(String mission, long... times) {
-        List<StoredEvent> events = new ArrayList<>();
+        missions.put(mission, new CopyOnWriteArrayList<>());
+        add(mission, times);
+        return this;
+    }
+
+    /** Later ones. */
+    void add(String mission, long... times) {
+        List<StoredEvent> events = missions.get(mission);
         for (long time : times) {
             events.add(new StoredEvent(
                     mission + "-" + events.size(),
@@ -36,8 +43,6 @@ final class MemoryRecordings implements Recordings {
                     Map.of(),
                     JsonNodeFactory.instance.objectNode().put("id", "urn:x").put("type", "X")));
         }
-        missions.put(mission, events);
-        return this;
     }
 
     void setAway(boolean isAway) {

@@ -97,7 +97,7 @@ class ReplayEnumeratorTest {
 
     @Test
     void goesOnWithEpochsOfReplaysThatNoCheckpointKnows() {
-        ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, null);
+        ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, 0, null);
         script.told = List.of(
                 new Told("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)),
                 new Told("b.0a1b2c3d", new ReplayStatus(1, State.ENDED, null, true, progress)));

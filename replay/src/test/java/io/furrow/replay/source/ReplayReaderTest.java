@@ -192,6 +192,18 @@ class ReplayReaderTest {
     }
 
     @Test
+    void playsWhatIsRecordedWhileItPlays() throws Exception {
+        missions.with("m", TIME, TIME + 10);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+
+        missions.add("m", TIME + 20);
+        play("m", "end", 1);
+
+        assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20);
+    }
+
+    @Test
     void goesOnWhereACheckpointWas() throws Exception {
         missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 100_000);
         start(wanted("m", 1, State.RUNNING, 1));

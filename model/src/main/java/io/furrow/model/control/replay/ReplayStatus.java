@@ -56,6 +56,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
      * @param to event time of the mission's last event, epoch ms
      * @param offset ms that record timestamps are ahead of original times
      * @param latenessMillis by which an event was behind its schedule, the most since the status before
+     * @param slipMillis by which the epoch's schedule was moved, because the recording was away; lateness is that behind the moved one
      * @param eventsPerSecond since the status before
      * @param events that were played
      * @param primes that were played
@@ -69,6 +70,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
             long to,
             long offset,
             long latenessMillis,
+            long slipMillis,
             double eventsPerSecond,
             long events,
             long primes,
@@ -82,6 +84,7 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
                     json.path("to").asLong(),
                     json.path("offset").asLong(),
                     json.path("lateness").asLong(),
+                    json.path("slip").asLong(),
                     json.path("rate").asDouble(),
                     json.path("events").asLong(),
                     json.path("primes").asLong(),
@@ -91,8 +94,11 @@ public record ReplayStatus(long sequence, State state, String reason, boolean se
 
         private void describe(ObjectNode json) {
             json.put("epoch", epoch).put("position", position).put("from", from).put("to", to);
-            json.put("offset", offset).put("lateness", latenessMillis).put("rate", eventsPerSecond);
-            json.put("events", events).put("primes", primes).put("skipped", skipped);
+            json.put("offset", offset).put("lateness", latenessMillis).put("slip", slipMillis);
+            json.put("rate", eventsPerSecond)
+                    .put("events", events)
+                    .put("primes", primes)
+                    .put("skipped", skipped);
             DeviceGroup.put(json, "waiting", Limits.reason(waiting));
         }
     }

@@ -14,7 +14,7 @@ class ReplayStatusTest {
                 ReplayStatus.State.ENDED,
                 "mission deleted",
                 false,
-                new ReplayStatus.Progress(2, 30, 10, 40, 5, 3, 17.5, 100, 9, 1, "MongoDB is away"));
+                new ReplayStatus.Progress(2, 30, 10, 40, 5, 3, 1_400, 17.5, 100, 9, 1, "MongoDB is away"));
 
         assertThat(ReplayStatus.read(status.toBytes())).isEqualTo(status);
     }
