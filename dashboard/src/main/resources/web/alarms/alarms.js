@@ -115,6 +115,9 @@ class FurrowAlarms extends HTMLElement {
 
   /** Those that are new since the page was opened. */
   announce(open) {
+    if (!store.alarmsKnown) {
+      return;
+    }
     const ids = new Set(open.map((each) => each.alarm));
     if (this.known) {
       for (const alarm of open.filter((each) => !this.known.has(each.alarm))) {
@@ -154,8 +157,9 @@ function show(alarm) {
   device && store.select(device, { reveal: true });
 }
 
+/** Who sees the page needs no notification. */
 function tell(alarm) {
-  if ('Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
+  if (document.hidden && 'Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
     const shown = new Notification(t('alarms.notification', { severity: alarm.severity }), { body: textOf(alarm), tag: alarm.alarm });
     shown.onclick = () => { window.focus(); show(alarm); };
   }

@@ -22,7 +22,7 @@ class Feeds {
     store.feeds = this;
     this.shared = [
       this.feed('service.fields', 'all', (record) => store.takeField(record)),
-      this.feed('service.alarms', 'all', (record) => store.takeAlarm(record), { known: () => store.alarmsRead() }),
+      this.feed('service.alarms', 'all', (record) => store.takeAlarm(record), { known: () => store.alarmsRead(), whileHidden: mayNotify }),
       this.feed('service.replays', 'all', (record) => this.takeReplay(record)),
       this.feed('service.replays.status', 'latest', (record) => this.takeStatus(record)),
     ];
@@ -33,10 +33,10 @@ class Feeds {
   }
 
   /** A topic whose records one function takes, with its figures in `store.topics`. */
-  feed(topic, mode, take, { main = false, known = null } = {}) {
+  feed(topic, mode, take, { main = false, known = null, whileHidden } = {}) {
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
     store.topics.set(topic, figures);
-    const stream = streams.subscribe(topic, { mode, prime: true }, {
+    const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
       records: (records, merged) => {
         for (const record of records) {
           take(record);
@@ -230,6 +230,11 @@ class Feeds {
       this.live();
     }
   }
+}
+
+/** Alarms that the browser shows while the page is hidden have to arrive then. */
+function mayNotify() {
+  return 'Notification' in window && Notification.permission === 'granted';
 }
 
 export const feeds = new Feeds();

@@ -30,6 +30,8 @@ class Store {
     this.primed = false;
     this.fields = new Map();
     this.clearShown();
+    // the frame that was waited for is not drawn in a hidden tab
+    document.addEventListener('visibilitychange', () => document.hidden && this.scheduled && setTimeout(() => this.flush(), 1000));
   }
 
   /** What belongs to one run of time: all goes when a replay begins, jumps or ends. */

@@ -3,7 +3,7 @@ import { api } from './api.js';
 
 const FIRST_WAIT = 500;
 const LONGEST_WAIT = 15_000;
-/** A hidden tab keeps its streams for as long, since many are only looked away from. */
+/** A hidden tab keeps its streams for as long, since many are only looked away from; those that are needed `whileHidden` stay. */
 const HIDDEN_AFTER = 10_000;
 
 /**
@@ -26,7 +26,8 @@ class Stream {
     this.state = 'connecting';
     this.wait = FIRST_WAIT;
     this.sequence = null;
-    this.hidden = document.hidden;
+    this.whileHidden = options.whileHidden ?? (() => false);
+    this.hidden = document.hidden && !this.whileHidden();
     this.onVisibility = () => this.visibility();
     document.addEventListener('visibilitychange', this.onVisibility);
     if (!this.hidden) {
@@ -39,7 +40,7 @@ class Stream {
   visibility() {
     clearTimeout(this.hiding);
     if (document.hidden) {
-      this.hiding = setTimeout(() => this.pause(), HIDDEN_AFTER);
+      this.hiding = setTimeout(() => this.whileHidden() || this.pause(), HIDDEN_AFTER);
     } else if (this.hidden) {
       this.hidden = false;
       this.connect();
@@ -146,7 +147,7 @@ class Stream {
 export const streams = {
   /**
    * @param {string} topic
-   * @param {{mode: ('all'|'latest')=, prime: boolean=}} options
+   * @param {{mode: ('all'|'latest')=, prime: boolean=, whileHidden: (function(): boolean)=}} options
    * @param {{records: function(TopicRecord[], number)=, primed: function()=, state: function(string, string=)=,
    *     gap: function(number)=, refused: function(string)=}} handlers state is `connecting`, `open`, `waiting` (for the next attempt), `refused` or `paused`
    * @returns {{close: function(), state: string}} connects again by itself, and then tells once more what is known
