@@ -35,7 +35,7 @@ class App extends HTMLElement {
     this.alarms = h('a.alarm-count', { href: linkTo('map') });
     this.find = h('input', {
       type: 'search', placeholder: t('app.find'), 'aria-label': t('app.find'), autocomplete: 'off', spellcheck: 'false',
-      on: { input: () => this.findChanged(), keydown: (event) => event.key === 'Escape' && this.clearFind() },
+      on: { input: () => this.findChanged(), keydown: (event) => this.findKey(event) },
     });
     const narrow = matchMedia('(max-width: 560px)');
     const place = () => (this.find.placeholder = t(narrow.matches ? 'app.findShort' : 'app.find'));
@@ -191,6 +191,16 @@ class App extends HTMLElement {
     this.finding = setTimeout(() => store.setFilter(this.find.value), 120);
     if (route.view !== 'map' && this.find.value) {
       navigate('map');
+    }
+  }
+
+  findKey({ key }) {
+    if (key === 'Escape') {
+      this.clearFind();
+    } else if (key === 'Enter' && this.find.value.trim()) {
+      clearTimeout(this.finding);
+      store.setFilter(this.find.value);
+      this.map.find?.();
     }
   }
 

@@ -80,13 +80,13 @@ export const texts = {
     outcomes: { pending: '{command} sent {ago}, no answer yet', ok: '✓ {command}, {ago}', failed: '✗ {command} failed {ago}. {info}', unanswered: '{command}: no answer since {ago}' },
     none: 'No devices yet', noneHint: 'As soon as a device reports, its card is here.',
     noneYet: 'Nothing yet at this moment', noneYetHint: 'The replay has not reached a report, or none is in it.',
-    noMatch: 'Nothing matches', noMatchHint: 'Clear the search or the chips above to see all devices.',
+    noMatch: 'No device matches', noMatchHint: 'Clear the search or the chips above to see all devices.',
   },
 
   // ------------------------------------------------------------------------------------------------------------------
 
   alarms: {
-    title: 'Alarms', reading: 'Alarms are being read …', open: '{count} open', none: 'No open alarms', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'These are live, not of the replay.',
+    title: 'Alarms', reading: 'Alarms are being read …', open: '{count} open', none: 'No open alarms', noMatch: 'No open alarm matches the search.', quiet: '{count} acknowledged, muted or explained by another', liveInReplay: 'These are live, not of the replay.',
     acknowledge: 'Acknowledge', more: 'Mute or close', mute10: 'Mute for 10 minutes', mute60: 'Mute for an hour', mute480: 'Mute for 8 hours', unmute: 'Unmute', close: 'Close',
     seen: '{count} times', affected: '{count} of {total}', by: 'acknowledged by {user}', mutedUntil: 'muted until {time}', inhibited: 'another alarm says more',
     announced: 'New alarm, {severity}: {text}', notify: 'Tell me when this page is in the background', notification: 'Furrow: {severity} alarm',

@@ -327,12 +327,13 @@ class Store {
 
   /** Whether a name, type or attribute holds what is searched for. */
   matches(entity) {
+    return this.isFound(entity.name, entity.id, entity.type, entity.mission ?? '');
+  }
+
+  /** Whether one of the texts holds what is searched for. */
+  isFound(...texts) {
     const wanted = this.filter.trim().toLowerCase();
-    return wanted === ''
-      || entity.name.toLowerCase().includes(wanted)
-      || entity.id.toLowerCase().includes(wanted)
-      || entity.type.toLowerCase().includes(wanted)
-      || (entity.mission ?? '').toLowerCase().includes(wanted);
+    return texts.some((each) => each.toLowerCase().includes(wanted));
   }
 
   select(id, { reveal = false } = {}) {

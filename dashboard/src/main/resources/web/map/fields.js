@@ -23,10 +23,10 @@ export class FieldDrawing {
     return outline;
   }
 
-  /** @returns {number[]|null} min x, min y, max x, max y over all fields */
-  extent() {
+  /** @returns {number[]|null} min x, min y, max x, max y over fields */
+  extent(fields = store.fields.values()) {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const field of store.fields.values()) {
+    for (const field of fields) {
       for (const ring of this.outlineOf(field).rings) {
         for (const [x, y] of ring) {
           box[0] = Math.min(box[0], x);
@@ -75,6 +75,7 @@ export class FieldDrawing {
       if (!spot) {
         continue;
       }
+      context.globalAlpha = isFound(field) ? 1 : 0.3;
       context.font = `600 14px ${palette.family}`;
       drawText(context, field.name, spot.x, spot.y, field.exclusion ? palette.muted : palette.text, palette.field);
       places.block(spot.x - 4, spot.y - 10, spot.x + wide + 4, spot.y + 10);
@@ -84,7 +85,13 @@ export class FieldDrawing {
         places.block(spot.x - 4, spot.y + 8, spot.x + second + 4, spot.y + 28);
       }
     }
+    context.globalAlpha = 1;
   }
+}
+
+/** Whether the search is for this field. */
+export function isFound(field) {
+  return store.isFound(field.name, field.id);
 }
 
 function averageOf(field, now) {

@@ -6,6 +6,7 @@ import java.util.concurrent.atomic.AtomicInteger;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.assertions.LocatorAssertions;
+import com.microsoft.playwright.options.AriaRole;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -55,6 +56,20 @@ class AlarmsIT {
         assertThat(farm.find(ANNOUNCED)).containsText(ENCOUNTER, TIMEOUT);
         assertThat(farm.find(".alarm-count"))
                 .hasAttribute("aria-label", java.util.regex.Pattern.compile("[1-9]\\d* open alarms"));
+    }
+
+    @Test
+    void findsAlarmsByWhatTheySay(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
+        farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
+        Locator search = farm.page().getByRole(AriaRole.SEARCHBOX);
+
+        search.fill("no such alarm");
+        assertThat(farm.find(".alarm-none")).containsText("No open alarm matches the search.", TIMEOUT);
+        assertThat(open).hasCount(0);
+        search.fill("robot");
+        assertThat(open.first()).containsText("Robot", TIMEOUT);
     }
 
     /** The streams of a hidden page close, but not that of alarms. */

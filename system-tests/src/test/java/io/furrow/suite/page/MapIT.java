@@ -178,6 +178,23 @@ class MapIT {
 
     @Tag("full")
     @Test
+    void movesToTheFieldThatIsSearchedFor(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.fields.size === 4 && store.primed");
+        String resolution = "document.querySelector('furrow-map').view.getResolution()";
+        double whole = ((Number) farm.page().evaluate(resolution)).doubleValue();
+
+        farm.page().getByRole(AriaRole.SEARCHBOX).fill("river field");
+        farm.page().getByRole(AriaRole.SEARCHBOX).press("Enter");
+
+        farm.page()
+                .waitForCondition(
+                        () -> ((Number) farm.page().evaluate(resolution)).doubleValue() < whole * 0.9);
+        assertThat(farm.find("furrow-cards .empty")).containsText("No device matches");
+    }
+
+    @Tag("full")
+    @Test
     void isMovedAndZoomedByTheKeyboard(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed");
