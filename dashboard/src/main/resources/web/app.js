@@ -22,6 +22,8 @@ const MODULES = {
   'furrow-topics': './views/topics.js',
   'furrow-platform': './views/platform.js',
 };
+/** How long it is said that the connection was away, ms. */
+const BACK_SHOWN = 10_000;
 /** Views beside which the timeline stays. */
 const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
 
@@ -153,7 +155,7 @@ class App extends HTMLElement {
   showTime() {
     const now = store.now();
     replace(this.time, h('strong', null, clock(now)), ` ${zone(now)}`);
-    store.connection.state === 'lost' && this.showConnection();
+    this.notice.hidden || this.showConnection();
   }
 
   showAlarms() {
@@ -171,11 +173,15 @@ class App extends HTMLElement {
   }
 
   showConnection() {
-    const { state, since, lastRecord, reason } = store.connection;
+    const { state, since, lastRecord, reason, awayFrom, missed } = store.connection;
     const lost = state === 'lost';
+    const back = state === 'open' && awayFrom !== null && Date.now() - since < BACK_SHOWN;
     this.classList.toggle('lost', lost);
-    this.notice.hidden = !lost;
-    if (lost) {
+    this.notice.hidden = !lost && !back;
+    if (back) {
+      const words = [t('app.away', { from: clock(awayFrom), to: clock(since) }), missed > 0 && t('app.gap', { count: missed })].filter(Boolean).join(' ');
+      this.notice.textContent === words || replace(this.notice, icon('info'), words);
+    } else if (lost) {
       const away = duration(Date.now() - since);
       replace(this.notice, icon('warning'),
         lastRecord ? t('app.lost', { duration: away, time: clock(lastRecord) }) : t('app.lostNever', { duration: away, reason: reason ?? '' }));

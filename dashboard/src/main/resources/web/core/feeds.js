@@ -55,7 +55,11 @@ class Feeds {
           store.isReplay || this.readPast();
         }
       },
-      gap: (missed) => (figures.gap += missed),
+      gap: (missed) => {
+        figures.gap += missed;
+        store.connection.missed += missed;
+        store.tell('connection');
+      },
       state: (state, reason) => {
         Object.assign(figures, { state, reason });
         store.tell('topics');
@@ -68,7 +72,9 @@ class Feeds {
   connection(state, reason) {
     const next = state === 'open' || state === 'paused' ? 'open' : state === 'connecting' && store.connection.state !== 'lost' ? 'connecting' : 'lost';
     if (next !== store.connection.state) {
-      Object.assign(store.connection, { state: next, since: Date.now() });
+      const { state, since, lastRecord } = store.connection;
+      const back = next === 'open' && state === 'lost' && lastRecord;
+      Object.assign(store.connection, { state: next, since: Date.now(), ...(back ? { awayFrom: since, missed: 0 } : {}) });
     }
     store.connection.reason = reason;
     store.tell('connection');

@@ -20,7 +20,7 @@ class Store {
     this.topics = new Map();
     this.me = { user: null, role: null };
     this.config = {};
-    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null };
+    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null, awayFrom: null, missed: 0 };
     this.mode = { kind: 'live' };
     this.scope = { domain: null, mission: null };
     this.selection = null;

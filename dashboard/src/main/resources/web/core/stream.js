@@ -49,6 +49,7 @@ class Stream {
 
   pause() {
     this.hidden = true;
+    this.sequence = null;
     this.disconnect();
     this.say('paused');
   }
@@ -79,7 +80,7 @@ class Stream {
     const socket = (this.socket = new WebSocket(url));
     socket.onopen = () => {
       this.wait = FIRST_WAIT;
-      this.sequence = null;
+      this.isFirst = true;
       this.say('open');
     };
     socket.onmessage = (message) => this.take(JSON.parse(message.data));
@@ -93,15 +94,7 @@ class Stream {
 
   take(frame) {
     if (frame.records) {
-      let missed = 0;
-      for (const record of frame.records) {
-        if (record.sequence !== undefined) {
-          if (this.sequence !== null && this.query.get('mode') === 'all') {
-            missed += Math.max(0, record.sequence - this.sequence - 1);
-          }
-          this.sequence = Math.max(record.sequence, this.sequence ?? 0);
-        }
-      }
+      const missed = frame.records.reduce((sum, record) => sum + this.missedBefore(record), 0);
       missed && this.handlers.gap?.(missed);
       this.handlers.records?.(frame.records, frame.merged ?? 0);
     } else if (frame.primed) {
@@ -109,6 +102,17 @@ class Stream {
     } else if (frame.status === 'error') {
       this.handlers.refused?.(frame.reason ?? frame.error);
     }
+  }
+
+  /** How many records are missing between the one before and this. After a lost connection the server may count anew, then that is not known. */
+  missedBefore({ sequence }) {
+    if (sequence === undefined) {
+      return 0;
+    }
+    const missed = this.sequence !== null && this.query.get('mode') === 'all' ? Math.max(0, sequence - this.sequence - 1) : 0;
+    this.sequence = this.isFirst ? sequence : Math.max(sequence, this.sequence);
+    this.isFirst = false;
+    return missed;
   }
 
   failed(error) {

@@ -181,15 +181,12 @@ class MapIT {
     void movesToTheFieldThatIsSearchedFor(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.fields.size === 4 && store.primed");
-        String resolution = "document.querySelector('furrow-map').view.getResolution()";
-        double whole = ((Number) farm.page().evaluate(resolution)).doubleValue();
+        double whole = zoom(farm);
 
         farm.page().getByRole(AriaRole.SEARCHBOX).fill("river field");
         farm.page().getByRole(AriaRole.SEARCHBOX).press("Enter");
 
-        farm.page()
-                .waitForCondition(
-                        () -> ((Number) farm.page().evaluate(resolution)).doubleValue() < whole * 0.9);
+        farm.page().waitForCondition(() -> zoom(farm) > whole + 0.2);
         assertThat(farm.find("furrow-cards .empty")).containsText("No device matches");
     }
 
