@@ -58,7 +58,7 @@ class App extends HTMLElement {
       h('header.topbar', null,
         h('a.brand', { href: linkTo('map'), 'aria-label': t('app.title') }, icon('furrow', 22), h('span', null, t('app.title'))),
         this.crumbs, this.mode, this.leave, h('span.spacer'),
-        h('div.find', { role: 'search' }, this.find, h('kbd', { 'aria-hidden': 'true' }, '/')),
+        h('div.find', { role: 'search' }, icon('search', 18), this.find, h('kbd', { 'aria-hidden': 'true' }, '/')),
         this.time, this.alarms, settingsMenu()),
       this.notice, this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
 
@@ -154,7 +154,8 @@ class App extends HTMLElement {
 
   showTime() {
     const now = store.now();
-    replace(this.time, h('strong', null, clock(now)), ` ${zone(now)}`);
+    const time = clock(now);
+    replace(this.time, h('strong', null, time.slice(0, 5), h('span', null, time.slice(5))), h('span', null, ` ${zone(now)}`));
     this.notice.hidden || this.showConnection();
   }
 
@@ -168,8 +169,10 @@ class App extends HTMLElement {
   showScope() {
     const { domain, mission } = store.scope;
     replace(this.crumbs,
-      h('a', { href: linkTo('topics'), 'aria-current': domain ? null : 'true' }, domain ?? t('app.allDomains')),
-      mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span', { 'aria-current': 'true' }, mission)]);
+      h('a.cut', { href: linkTo('topics'), 'aria-current': domain ? null : 'true' }, domain ?? t('app.allDomains')),
+      mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span.cut', { 'aria-current': 'true' }, mission)],
+      domain && h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('topics.showAll'), title: t('topics.showAll'), on: { click: () => store.setScope({}) } }, icon('close', 16)));
+    this.classList.toggle('scoped', Boolean(domain));
   }
 
   showConnection() {

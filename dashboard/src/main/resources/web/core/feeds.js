@@ -72,9 +72,8 @@ class Feeds {
   connection(state, reason) {
     const next = state === 'open' || state === 'paused' ? 'open' : state === 'connecting' && store.connection.state !== 'lost' ? 'connecting' : 'lost';
     if (next !== store.connection.state) {
-      const { state, since, lastRecord } = store.connection;
-      const back = next === 'open' && state === 'lost' && lastRecord;
-      Object.assign(store.connection, { state: next, since: Date.now(), ...(back ? { awayFrom: since, missed: 0 } : {}) });
+      const back = state === 'open' && store.connection.state === 'lost' && store.connection.lastRecord;
+      Object.assign(store.connection, { state: next, since: Date.now() }, back ? { awayFrom: store.connection.since, missed: 0 } : { awayFrom: null });
     }
     store.connection.reason = reason;
     store.tell('connection');

@@ -56,6 +56,18 @@ class TopicsIT {
         assertThat(farm.find(".crumbs")).containsText("scouting");
     }
 
+    @Test
+    void saysOnASmallScreenThatNotAllIsShown(PageSuite suite) {
+        FarmPage farm = suite.open("#/topics", Look.PHONE);
+        assertThat(farm.find(".crumbs")).isHidden();
+        farm.button("Show only scouting on the map").click();
+
+        assertThat(farm.find(".crumbs")).containsText("scouting");
+        farm.button("Show everything on the map again").click();
+        assertThat(farm.find(".crumbs")).isHidden();
+        farm.untilStore("store.scope.domain === null");
+    }
+
     private static Locator row(FarmPage farm, String topic) {
         return farm.page()
                 .locator(".topic-row", new Page.LocatorOptions().setHas(farm.find("[id='topic-" + topic + "']")));
