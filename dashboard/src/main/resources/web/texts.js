@@ -59,7 +59,7 @@ export const texts = {
     controls: 'Map', zoomIn: 'Zoom in', zoomOut: 'Zoom out', fit: 'Show the whole farm', layers: 'What is shown', table: 'The map as a table', closeTable: 'Close the table',
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
-    legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}',
+    legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
     devices: '{count} devices', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },

@@ -68,9 +68,12 @@ function textOf(encounter) {
   if (encounter.phase === 'predicted') {
     return t('map.predicted', { distance: distance(encounter.minDistance), time: Math.max(0, Math.round(encounter.tcpa ?? 0)) });
   }
-  return encounter.phase === 'ended' || encounter.phase === 'crossed'
-    ? t('map.ended', { distance: distance(encounter.minDistance) })
-    : distance(currentDistance(encounter));
+  if (encounter.phase === 'ended' || encounter.phase === 'crossed') {
+    return t('map.ended', { distance: distance(encounter.minDistance) });
+  }
+  // once they move apart, how near they were says more than how far they are
+  const current = currentDistance(encounter);
+  return current > encounter.distance ? t('map.closest', { distance: distance(encounter.minDistance) }) : distance(current);
 }
 
 /** Between the newest positions, which are newer than what was told of the encounter. */
