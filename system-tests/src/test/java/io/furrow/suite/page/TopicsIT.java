@@ -4,6 +4,7 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
+import com.microsoft.playwright.Route;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -28,6 +29,18 @@ class TopicsIT {
         }
         assertThat(row(farm, "data.farm.realtime.weeding").locator(".topic-rate"))
                 .hasText(Pattern.compile("^([2-9]|1\\d)(\\.\\d)?/s$"));
+    }
+
+    @Test
+    void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        farm.page().route("**/api/topics", route -> route.fulfill(new Route.FulfillOptions()
+                .setContentType("application/json")
+                .setBody("[]")));
+        farm.open("#/topics");
+
+        assertThat(row(farm, "data.collision")).containsText("no records yet");
+        assertThat(row(farm, "canary")).containsText("no records yet");
     }
 
     @Test
