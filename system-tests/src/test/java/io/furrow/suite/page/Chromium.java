@@ -44,7 +44,7 @@ final class Chromium implements AutoCloseable {
                 .findFirst()
                 .orElseThrow(
                         () -> new IllegalStateException(
-                                "There is no chromium on the PATH; install the Debian packages chromium and fonts-dejavu-core."));
+                                "There is no chromium on the PATH; install it: apt-get install chromium fonts-dejavu-core"));
     }
 
     @Override
