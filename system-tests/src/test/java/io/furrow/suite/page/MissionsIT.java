@@ -77,7 +77,8 @@ class MissionsIT {
 
         JsonNode fields = suite.rest("/api/fields");
         dialog.getByLabel("File").setInputFiles(file("farm.geojson", fields.toString()));
-        assertThat(dialog).containsText("Areas in the file: " + fields.path("features").size());
+        assertThat(dialog)
+                .containsText("Areas in the file: " + fields.path("features").size());
         action.click();
         assertThat(dialog).containsText(Pattern.compile("Imported: \\d\\. Unchanged: \\d"));
         action.click();

@@ -34,9 +34,12 @@ class TopicsIT {
     @Test
     void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
         FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
-        farm.page().route("**/api/topics", route -> route.fulfill(new Route.FulfillOptions()
-                .setContentType("application/json")
-                .setBody("[]")));
+        farm.page()
+                .route(
+                        "**/api/topics",
+                        route -> route.fulfill(new Route.FulfillOptions()
+                                .setContentType("application/json")
+                                .setBody("[]")));
         farm.open("#/topics");
 
         assertThat(row(farm, "data.collision")).containsText("no records yet");
