@@ -57,7 +57,7 @@ for number in "$events" "$devices" "$minutes" "$seconds" "$turns"; do
     [[ $number =~ ^[1-9][0-9]{0,4}$ ]] || fail "--events, --devices, --minutes, --seconds and --turns are whole numbers from 1, not '$number'."
 done
 [[ -z $only || $only =~ ^(delay|heap|hidden|frames)$ ]] || fail "--only is one of delay, heap, hidden and frames, not '$only'."
-command -v chromium >/dev/null 2>&1 || fail "There is no chromium. Install the Debian packages chromium and fonts-dejavu-core."
+command -v chromium >/dev/null 2>&1 || fail "There is no chromium. Install it: apt-get install chromium fonts-dejavu-core"
 [[ -z $pictures ]] || { mkdir -p "$pictures" && pictures=$(cd "$pictures" && pwd); }
 
 prepare_source page

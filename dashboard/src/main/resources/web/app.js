@@ -22,6 +22,8 @@ const MODULES = {
   'furrow-topics': './views/topics.js',
   'furrow-platform': './views/platform.js',
 };
+/** How long it is said that the connection was away, ms. */
+const BACK_SHOWN = 10_000;
 /** Views beside which the timeline stays. */
 const WITH_TIMELINE = new Set(['map', 'replays', 'analyses']);
 
@@ -35,7 +37,7 @@ class App extends HTMLElement {
     this.alarms = h('a.alarm-count', { href: linkTo('map') });
     this.find = h('input', {
       type: 'search', placeholder: t('app.find'), 'aria-label': t('app.find'), autocomplete: 'off', spellcheck: 'false',
-      on: { input: () => this.findChanged(), keydown: (event) => event.key === 'Escape' && this.clearFind() },
+      on: { input: () => this.findChanged(), keydown: (event) => this.findKey(event) },
     });
     const narrow = matchMedia('(max-width: 560px)');
     const place = () => (this.find.placeholder = t(narrow.matches ? 'app.findShort' : 'app.find'));
@@ -56,7 +58,7 @@ class App extends HTMLElement {
       h('header.topbar', null,
         h('a.brand', { href: linkTo('map'), 'aria-label': t('app.title') }, icon('furrow', 22), h('span', null, t('app.title'))),
         this.crumbs, this.mode, this.leave, h('span.spacer'),
-        h('div.find', { role: 'search' }, this.find, h('kbd', { 'aria-hidden': 'true' }, '/')),
+        h('div.find', { role: 'search' }, icon('search', 18), this.find, h('kbd', { 'aria-hidden': 'true' }, '/')),
         this.time, this.alarms, settingsMenu()),
       this.notice, this.rail, this.middle, this.side, this.timelinePlace, this.announcer);
 
@@ -152,8 +154,9 @@ class App extends HTMLElement {
 
   showTime() {
     const now = store.now();
-    replace(this.time, h('strong', null, clock(now)), ` ${zone(now)}`);
-    store.connection.state === 'lost' && this.showConnection();
+    const time = clock(now);
+    replace(this.time, h('strong', null, time.slice(0, 5), h('span', null, time.slice(5))), h('span', null, ` ${zone(now)}`));
+    this.notice.hidden || this.showConnection();
   }
 
   showAlarms() {
@@ -166,16 +169,22 @@ class App extends HTMLElement {
   showScope() {
     const { domain, mission } = store.scope;
     replace(this.crumbs,
-      h('a', { href: linkTo('topics'), 'aria-current': domain ? null : 'true' }, domain ?? t('app.allDomains')),
-      mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span', { 'aria-current': 'true' }, mission)]);
+      h('a.cut', { href: linkTo('topics'), 'aria-current': domain ? null : 'true' }, domain ?? t('app.allDomains')),
+      mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span.cut', { 'aria-current': 'true' }, mission)],
+      domain && h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('topics.showAll'), title: t('topics.showAll'), on: { click: () => store.setScope({}) } }, icon('close', 16)));
+    this.classList.toggle('scoped', Boolean(domain));
   }
 
   showConnection() {
-    const { state, since, lastRecord, reason } = store.connection;
+    const { state, since, lastRecord, reason, awayFrom, missed } = store.connection;
     const lost = state === 'lost';
+    const back = state === 'open' && awayFrom !== null && Date.now() - since < BACK_SHOWN;
     this.classList.toggle('lost', lost);
-    this.notice.hidden = !lost;
-    if (lost) {
+    this.notice.hidden = !lost && !back;
+    if (back) {
+      const words = [t('app.away', { from: clock(awayFrom), to: clock(since) }), missed > 0 && t('app.gap', { count: missed })].filter(Boolean).join(' ');
+      this.notice.textContent === words || replace(this.notice, icon('info'), words);
+    } else if (lost) {
       const away = duration(Date.now() - since);
       replace(this.notice, icon('warning'),
         lastRecord ? t('app.lost', { duration: away, time: clock(lastRecord) }) : t('app.lostNever', { duration: away, reason: reason ?? '' }));
@@ -191,6 +200,16 @@ class App extends HTMLElement {
     this.finding = setTimeout(() => store.setFilter(this.find.value), 120);
     if (route.view !== 'map' && this.find.value) {
       navigate('map');
+    }
+  }
+
+  findKey({ key }) {
+    if (key === 'Escape') {
+      this.clearFind();
+    } else if (key === 'Enter' && this.find.value.trim()) {
+      clearTimeout(this.finding);
+      store.setFilter(this.find.value);
+      this.map.find?.();
     }
   }
 

@@ -24,7 +24,7 @@ class FurrowAlarms extends HTMLElement {
     this.notify = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => this.askForNotifications() } }, icon('bell', 16), t('alarms.notify'));
     replace(this, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.liveNote, this.none, this.list, this.fold, this.notify, this.polite, this.assertive);
     this.rows = new Map();
-    this.offs = [store.on('alarms', () => this.draw()), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
+    this.offs = [...['alarms', 'filter'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
 
@@ -33,12 +33,14 @@ class FurrowAlarms extends HTMLElement {
   }
 
   draw() {
-    const { open, quiet } = arrange(store.alarms.values(), Date.now());
+    const all = arrange(store.alarms.values(), Date.now());
+    const [open, quiet] = [all.open.filter(isFound), all.quiet.filter(isFound)];
+    const others = all.open.length - open.length;
     this.none.hidden = open.length > 0;
-    this.none.classList.toggle('is-reading', !store.alarmsKnown);
-    setText(this.none.lastChild, t(store.alarmsKnown ? 'alarms.none' : 'alarms.reading'));
+    this.none.classList.toggle('is-reading', !store.alarmsKnown || others > 0);
+    setText(this.none.lastChild, t(!store.alarmsKnown ? 'alarms.reading' : others > 0 ? 'alarms.noMatch' : 'alarms.none'));
     this.liveNote.hidden = !store.isReplay;
-    setText(this.count, store.alarmsKnown ? t('alarms.open', { count: open.length }) : '');
+    setText(this.count, store.alarmsKnown ? t('alarms.open', { count: all.open.length }) : '');
     const used = new Set();
     this.fill(this.list, open.slice(0, SHOWN), used);
     this.fill(this.fold.lastChild, quiet.slice(0, SHOWN), used);
@@ -48,7 +50,7 @@ class FurrowAlarms extends HTMLElement {
       used.has(id) || this.rows.delete(id);
     }
     this.notify.hidden = !('Notification' in window) || Notification.permission !== 'default';
-    this.announce(open);
+    this.announce(all.open);
   }
 
   /** Rows stay the elements that they are, so that a focused button is not taken away. */
@@ -115,6 +117,9 @@ class FurrowAlarms extends HTMLElement {
 
   /** Those that are new since the page was opened. */
   announce(open) {
+    if (!store.alarmsKnown) {
+      return;
+    }
     const ids = new Set(open.map((each) => each.alarm));
     if (this.known) {
       for (const alarm of open.filter((each) => !this.known.has(each.alarm))) {
@@ -137,6 +142,10 @@ function textOf(alarm) {
   return readable(alarm.text).replace(/\bfield ([\w-]+)/g, (words, id) => store.fields.get(id)?.name ?? words);
 }
 
+function isFound(alarm) {
+  return store.isFound(textOf(alarm), label(alarm.kind.replaceAll('-', ' ')), alarm.subject ?? '');
+}
+
 function lineOf(alarm) {
   const now = Date.now();
   const parts = [label(alarm.kind.replaceAll('-', ' ')), age(now - alarm.raised)];
@@ -154,8 +163,9 @@ function show(alarm) {
   device && store.select(device, { reveal: true });
 }
 
+/** Who sees the page needs no notification. */
 function tell(alarm) {
-  if ('Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
+  if (document.hidden && 'Notification' in window && Notification.permission === 'granted' && (alarm.severity === 'critical' || alarm.severity === 'major')) {
     const shown = new Notification(t('alarms.notification', { severity: alarm.severity }), { body: textOf(alarm), tag: alarm.alarm });
     shown.onclick = () => { window.focus(); show(alarm); };
   }

@@ -1,4 +1,4 @@
-/** The devices of the side panel: what needs a look first, then by name. */
+/** The devices of the side panel: what needs a look first, then robots, cameras and all others, by name. */
 import { h, replace, setText } from '../core/dom.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
@@ -110,8 +110,8 @@ class FurrowCards extends HTMLElement {
         found.push(entity);
       }
     }
-    const order = { robot: 0, camera: 2 };
-    return found.sort((a, b) => RANK[a.state] - RANK[b.state] || (order[a.kind] ?? 1) - (order[b.kind] ?? 1) || byName.compare(a.name, b.name));
+    const order = { robot: 0, camera: 1 };
+    return found.sort((a, b) => RANK[a.state] - RANK[b.state] || (order[a.kind] ?? 2) - (order[b.kind] ?? 2) || byName.compare(a.name, b.name));
   }
 
   make(entity) {

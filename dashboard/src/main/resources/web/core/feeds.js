@@ -22,7 +22,7 @@ class Feeds {
     store.feeds = this;
     this.shared = [
       this.feed('service.fields', 'all', (record) => store.takeField(record)),
-      this.feed('service.alarms', 'all', (record) => store.takeAlarm(record), { known: () => store.alarmsRead() }),
+      this.feed('service.alarms', 'all', (record) => store.takeAlarm(record), { known: () => store.alarmsRead(), whileHidden: mayNotify }),
       this.feed('service.replays', 'all', (record) => this.takeReplay(record)),
       this.feed('service.replays.status', 'latest', (record) => this.takeStatus(record)),
     ];
@@ -33,10 +33,10 @@ class Feeds {
   }
 
   /** A topic whose records one function takes, with its figures in `store.topics`. */
-  feed(topic, mode, take, { main = false, known = null } = {}) {
+  feed(topic, mode, take, { main = false, known = null, whileHidden } = {}) {
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
     store.topics.set(topic, figures);
-    const stream = streams.subscribe(topic, { mode, prime: true }, {
+    const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
       records: (records, merged) => {
         for (const record of records) {
           take(record);
@@ -55,7 +55,11 @@ class Feeds {
           store.isReplay || this.readPast();
         }
       },
-      gap: (missed) => (figures.gap += missed),
+      gap: (missed) => {
+        figures.gap += missed;
+        store.connection.missed += missed;
+        store.tell('connection');
+      },
       state: (state, reason) => {
         Object.assign(figures, { state, reason });
         store.tell('topics');
@@ -68,7 +72,8 @@ class Feeds {
   connection(state, reason) {
     const next = state === 'open' || state === 'paused' ? 'open' : state === 'connecting' && store.connection.state !== 'lost' ? 'connecting' : 'lost';
     if (next !== store.connection.state) {
-      Object.assign(store.connection, { state: next, since: Date.now() });
+      const back = state === 'open' && store.connection.state === 'lost' && store.connection.lastRecord;
+      Object.assign(store.connection, { state: next, since: Date.now() }, back ? { awayFrom: store.connection.since, missed: 0 } : { awayFrom: null });
     }
     store.connection.reason = reason;
     store.tell('connection');
@@ -230,6 +235,11 @@ class Feeds {
       this.live();
     }
   }
+}
+
+/** Alarms that the browser shows while the page is hidden have to arrive then. */
+function mayNotify() {
+  return 'Notification' in window && Notification.permission === 'granted';
 }
 
 export const feeds = new Feeds();

@@ -20,7 +20,7 @@ class Store {
     this.topics = new Map();
     this.me = { user: null, role: null };
     this.config = {};
-    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null };
+    this.connection = { state: 'connecting', since: Date.now(), lastRecord: null, awayFrom: null, missed: 0 };
     this.mode = { kind: 'live' };
     this.scope = { domain: null, mission: null };
     this.selection = null;
@@ -30,6 +30,8 @@ class Store {
     this.primed = false;
     this.fields = new Map();
     this.clearShown();
+    // the frame that was waited for is not drawn in a hidden tab
+    document.addEventListener('visibilitychange', () => document.hidden && this.scheduled && setTimeout(() => this.flush(), 1000));
   }
 
   /** What belongs to one run of time: all goes when a replay begins, jumps or ends. */
@@ -325,12 +327,13 @@ class Store {
 
   /** Whether a name, type or attribute holds what is searched for. */
   matches(entity) {
+    return this.isFound(entity.name, entity.id, entity.type, entity.mission ?? '');
+  }
+
+  /** Whether one of the texts holds what is searched for. */
+  isFound(...texts) {
     const wanted = this.filter.trim().toLowerCase();
-    return wanted === ''
-      || entity.name.toLowerCase().includes(wanted)
-      || entity.id.toLowerCase().includes(wanted)
-      || entity.type.toLowerCase().includes(wanted)
-      || (entity.mission ?? '').toLowerCase().includes(wanted);
+    return texts.some((each) => each.toLowerCase().includes(wanted));
   }
 
   select(id, { reveal = false } = {}) {

@@ -3,7 +3,7 @@ import { api } from './api.js';
 
 const FIRST_WAIT = 500;
 const LONGEST_WAIT = 15_000;
-/** A hidden tab keeps its streams for as long, since many are only looked away from. */
+/** A hidden tab keeps its streams for as long, since many are only looked away from; those that are needed `whileHidden` stay. */
 const HIDDEN_AFTER = 10_000;
 
 /**
@@ -26,7 +26,8 @@ class Stream {
     this.state = 'connecting';
     this.wait = FIRST_WAIT;
     this.sequence = null;
-    this.hidden = document.hidden;
+    this.whileHidden = options.whileHidden ?? (() => false);
+    this.hidden = document.hidden && !this.whileHidden();
     this.onVisibility = () => this.visibility();
     document.addEventListener('visibilitychange', this.onVisibility);
     if (!this.hidden) {
@@ -39,7 +40,7 @@ class Stream {
   visibility() {
     clearTimeout(this.hiding);
     if (document.hidden) {
-      this.hiding = setTimeout(() => this.pause(), HIDDEN_AFTER);
+      this.hiding = setTimeout(() => this.whileHidden() || this.pause(), HIDDEN_AFTER);
     } else if (this.hidden) {
       this.hidden = false;
       this.connect();
@@ -48,6 +49,7 @@ class Stream {
 
   pause() {
     this.hidden = true;
+    this.sequence = null;
     this.disconnect();
     this.say('paused');
   }
@@ -78,7 +80,7 @@ class Stream {
     const socket = (this.socket = new WebSocket(url));
     socket.onopen = () => {
       this.wait = FIRST_WAIT;
-      this.sequence = null;
+      this.isFirst = true;
       this.say('open');
     };
     socket.onmessage = (message) => this.take(JSON.parse(message.data));
@@ -92,15 +94,7 @@ class Stream {
 
   take(frame) {
     if (frame.records) {
-      let missed = 0;
-      for (const record of frame.records) {
-        if (record.sequence !== undefined) {
-          if (this.sequence !== null && this.query.get('mode') === 'all') {
-            missed += Math.max(0, record.sequence - this.sequence - 1);
-          }
-          this.sequence = Math.max(record.sequence, this.sequence ?? 0);
-        }
-      }
+      const missed = frame.records.reduce((sum, record) => sum + this.missedBefore(record), 0);
       missed && this.handlers.gap?.(missed);
       this.handlers.records?.(frame.records, frame.merged ?? 0);
     } else if (frame.primed) {
@@ -108,6 +102,17 @@ class Stream {
     } else if (frame.status === 'error') {
       this.handlers.refused?.(frame.reason ?? frame.error);
     }
+  }
+
+  /** How many records are missing between the one before and this. After a lost connection the server may count anew, then that is not known. */
+  missedBefore({ sequence }) {
+    if (sequence === undefined) {
+      return 0;
+    }
+    const missed = this.sequence !== null && this.query.get('mode') === 'all' ? Math.max(0, sequence - this.sequence - 1) : 0;
+    this.sequence = this.isFirst ? sequence : Math.max(sequence, this.sequence);
+    this.isFirst = false;
+    return missed;
   }
 
   failed(error) {
@@ -146,7 +151,7 @@ class Stream {
 export const streams = {
   /**
    * @param {string} topic
-   * @param {{mode: ('all'|'latest')=, prime: boolean=}} options
+   * @param {{mode: ('all'|'latest')=, prime: boolean=, whileHidden: (function(): boolean)=}} options
    * @param {{records: function(TopicRecord[], number)=, primed: function()=, state: function(string, string=)=,
    *     gap: function(number)=, refused: function(string)=}} handlers state is `connecting`, `open`, `waiting` (for the next attempt), `refused` or `paused`
    * @returns {{close: function(), state: string}} connects again by itself, and then tells once more what is known

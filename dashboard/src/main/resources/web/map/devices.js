@@ -2,7 +2,7 @@
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
-import { drawEncounters } from './encounters.js';
+import { drawEncounter, placeEncounters } from './encounters.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colourOf } from './palette.js';
 import { isOnMap, project, projectPoint } from './projection.js';
@@ -45,15 +45,16 @@ export class DeviceDrawing {
     // names of fields keep clear of what stands still, and do not run away from what moves
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
     standing.forEach((spot) => blockSymbol(places, spot));
-    this.fields.drawLabels(frame, palette, places);
+    const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
+    this.fields.drawLabels(frame, palette, places, encounters);
     moving.forEach((spot) => blockSymbol(places, spot));
-    drawEncounters(frame, palette, places, (id) => this.byId.get(id));
+    encounters.forEach((each) => drawEncounter(context, each, palette, places));
     for (const each of clusters) {
       each.radius = drawCluster(context, each, palette);
       places.block(each.x - each.radius, each.y - each.radius, each.x + each.radius, each.y + each.radius);
     }
     this.drawSymbols(context, single, palette, ratio);
-    options.labels && this.drawLabels(frame, single, places, palette);
+    options.labels && this.drawLabels(frame, single, places, palette, close);
   }
 
   /** Which devices of the scope are in view of this frame, and where. */
@@ -95,7 +96,7 @@ export class DeviceDrawing {
       return;
     }
     const moving = [...store.entities.values()].filter((entity) =>
-      entity.position && isOnMap(...entity.position) && store.inScope(entity) && entity.trail.length > 1 && (entity.kind === 'robot' || entity.trail.length > 3));
+      entity.position && isOnMap(...entity.position) && store.inScope(entity) && entity.trail.length > 1 && (entity.kind === 'robot' || (entity.kind !== 'camera' && entity.trail.length > 3)));
     const length = Math.max(2, Math.min(120, Math.floor(TRAIL_POINTS / Math.max(1, moving.length))));
     context.lineCap = 'round';
     context.lineJoin = 'round';
@@ -121,10 +122,10 @@ export class DeviceDrawing {
     }
   }
 
-  drawLabels(frame, spots, places, palette) {
+  drawLabels(frame, spots, places, palette, close) {
     const { context } = frame;
     const rank = ({ entity }) =>
-      (entity.id === store.selection) * 16 + (entity.id === store.hovered) * 8 + (entity.state === 'look') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
+      (entity.id === store.selection) * 32 + (entity.id === store.hovered) * 16 + close.has(entity.id) * 8 + (entity.state === 'look') * 4 + (entity.kind === 'robot') * 2 + (entity.state !== 'stale');
     const narrow = frame.width < NARROW;
     const wanted = spots.filter(({ entity }) => !dimmed(entity) && (!narrow || rank({ entity }) > 1)).sort((a, b) => rank(b) - rank(a) || (a.entity.id < b.entity.id ? -1 : 1)).slice(0, MOST_LABELS);
     for (const { entity, x, y } of wanted) {

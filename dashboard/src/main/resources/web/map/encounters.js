@@ -5,17 +5,32 @@ import { t } from '../texts.js';
 import { isOnMap, project } from './projection.js';
 
 const FADING = 10_000;
+/** Height of what is written above a ring, with its gap, px. */
+const PILL = 26;
 /** How long after its moment a prediction that did not come true stays, ms: nothing says that it is over. */
 const PREDICTION_STAYS = 3_000;
 
-/** @param {function(string): ({x: number, y: number}|undefined)} spotOf where a device is drawn */
-export function drawEncounters(frame, palette, places, spotOf) {
+/**
+ * @param {function(string): ({x: number, y: number}|undefined)} spotOf where a device is drawn
+ * @returns {Object[]} the encounters that are drawn: where, how large, and how they look
+ */
+export function placeEncounters(frame, palette, spotOf) {
+  const placed = [];
   for (const encounter of store.encounters.values()) {
-    const ends = [spotOf(encounter.a) ?? reported(frame, encounter.at[0]), spotOf(encounter.b) ?? reported(frame, encounter.at[1])];
-    if (ends[0] && ends[1]) {
-      drawEncounter(frame.context, encounter, ends, palette, places);
+    const from = spotOf(encounter.a) ?? reported(frame, encounter.at[0]);
+    const to = spotOf(encounter.b) ?? reported(frame, encounter.at[1]);
+    const look = lookOf(encounter, palette);
+    if (from && to && look.alpha > 0) {
+      const radius = Math.max(26, Math.hypot(to.x - from.x, to.y - from.y) / 2 + 20);
+      placed.push({ encounter, from, to, x: (from.x + to.x) / 2, y: (from.y + to.y) / 2, radius, look });
     }
   }
+  return placed;
+}
+
+/** Whether the ring, or the pill above it, covers a part of a box. */
+export function covers({ x, y, radius }, left, top, right, bottom) {
+  return left < x + radius && right > x - radius && top < y + radius && bottom > y - radius - PILL;
 }
 
 function reported(frame, [lon, lat]) {
@@ -26,13 +41,7 @@ function reported(frame, [lon, lat]) {
   return { x: frame.x(x, y), y: frame.y(x, y) };
 }
 
-function drawEncounter(context, encounter, [from, to], palette, places) {
-  const look = lookOf(encounter, palette);
-  if (look.alpha <= 0) {
-    return;
-  }
-  const middle = { x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 };
-  const radius = Math.max(26, Math.hypot(to.x - from.x, to.y - from.y) / 2 + 20);
+export function drawEncounter(context, { encounter, from, to, x, y, radius, look }, palette, places) {
   context.globalAlpha = look.alpha;
   context.strokeStyle = look.colour;
   context.lineWidth = 3;
@@ -44,10 +53,10 @@ function drawEncounter(context, encounter, [from, to], palette, places) {
   context.lineWidth = 1.5;
   context.setLineDash([4, 4]);
   context.beginPath();
-  context.arc(middle.x, middle.y, radius, 0, 2 * Math.PI);
+  context.arc(x, y, radius, 0, 2 * Math.PI);
   context.stroke();
   context.setLineDash([]);
-  drawPill(context, textOf(encounter), middle.x, middle.y - radius - 14, look, palette, places);
+  drawPill(context, textOf(encounter), x, y - radius - 14, look, palette, places);
   context.globalAlpha = 1;
 }
 
@@ -68,9 +77,12 @@ function textOf(encounter) {
   if (encounter.phase === 'predicted') {
     return t('map.predicted', { distance: distance(encounter.minDistance), time: Math.max(0, Math.round(encounter.tcpa ?? 0)) });
   }
-  return encounter.phase === 'ended' || encounter.phase === 'crossed'
-    ? t('map.ended', { distance: distance(encounter.minDistance) })
-    : distance(currentDistance(encounter));
+  if (encounter.phase === 'ended' || encounter.phase === 'crossed') {
+    return t('map.ended', { distance: distance(encounter.minDistance) });
+  }
+  // once they move apart, how near they were says more than how far they are
+  const current = currentDistance(encounter);
+  return current > encounter.distance ? t('map.closest', { distance: distance(encounter.minDistance) }) : distance(current);
 }
 
 /** Between the newest positions, which are newer than what was told of the encounter. */

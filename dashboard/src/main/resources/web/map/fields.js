@@ -2,6 +2,7 @@
 import { age, temperature } from '../core/format.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
+import { covers } from './encounters.js';
 import { groundScale, isOnMap, project } from './projection.js';
 import { drawText, widthOf } from './labels.js';
 
@@ -23,10 +24,10 @@ export class FieldDrawing {
     return outline;
   }
 
-  /** @returns {number[]|null} min x, min y, max x, max y over all fields */
-  extent() {
+  /** @returns {number[]|null} min x, min y, max x, max y over fields */
+  extent(fields = store.fields.values()) {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const field of store.fields.values()) {
+    for (const field of fields) {
       for (const ring of this.outlineOf(field).rings) {
         for (const [x, y] of ring) {
           box[0] = Math.min(box[0], x);
@@ -58,9 +59,10 @@ export class FieldDrawing {
   }
 
   /** Names and averages; they change by time, so they are drawn with the devices. */
-  drawLabels(frame, palette, places) {
+  drawLabels(frame, palette, places, encounters) {
     const { context } = frame;
     const now = store.now();
+    const isFree = (...box) => places.isFree(...box) && !encounters.some((each) => covers(each, ...box));
     for (const field of store.fields.values()) {
       const rings = this.outlineOf(field).rings.map((ring) => ring.map(([x, y]) => [frame.x(x, y), frame.y(x, y)]));
       if (!rings.length || !isInView(rings, frame)) {
@@ -71,10 +73,11 @@ export class FieldDrawing {
       const line = averageOf(field, now);
       context.font = `400 12px ${palette.family}`;
       const second = widthOf(context, line.text);
-      const spot = spotIn(rings[0], Math.max(wide, second), 28, frame, places) ?? spotIn(rings[0], wide, 10, frame, places);
+      const spot = spotIn(rings[0], Math.max(wide, second), 28, frame, isFree) ?? spotIn(rings[0], wide, 10, frame, isFree);
       if (!spot) {
         continue;
       }
+      context.globalAlpha = isFound(field) ? 1 : 0.3;
       context.font = `600 14px ${palette.family}`;
       drawText(context, field.name, spot.x, spot.y, field.exclusion ? palette.muted : palette.text, palette.field);
       places.block(spot.x - 4, spot.y - 10, spot.x + wide + 4, spot.y + 10);
@@ -84,7 +87,13 @@ export class FieldDrawing {
         places.block(spot.x - 4, spot.y + 8, spot.x + second + 4, spot.y + 28);
       }
     }
+    context.globalAlpha = 1;
   }
+}
+
+/** Whether the search is for this field. */
+export function isFound(field) {
+  return store.isFound(field.name, field.id);
 }
 
 function averageOf(field, now) {
@@ -192,8 +201,8 @@ function drawZone(context, rings, palette) {
   context.setLineDash([]);
 }
 
-/** Where a text may begin inside an outline: near its top, where a line of it is wide enough and covers no symbol. */
-function spotIn(ring, width, below, frame, places) {
+/** Where a text may begin inside an outline: near its top, where a line of it is wide enough and covers no symbol and no encounter. */
+function spotIn(ring, width, below, frame, isFree) {
   const [, top, , bottom] = boxOf(ring);
   const from = Math.max(top, 0);
   const to = Math.min(bottom, frame.height);
@@ -204,7 +213,7 @@ function spotIn(ring, width, below, frame, places) {
       for (const [lowLeft, lowRight] of lower) {
         const start = Math.max(left, lowLeft, 0) + 14;
         const room = Math.min(right, lowRight, frame.width) - start - 8;
-        if (room >= width && places.isFree(start - 4, y - 10, start + width + 4, y + below)) {
+        if (room >= width && isFree(start - 4, y - 10, start + width + 4, y + below)) {
           return { x: start, y, below };
         }
       }

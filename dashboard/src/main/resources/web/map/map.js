@@ -6,7 +6,7 @@ import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { CELL } from './clusters.js';
 import { DeviceDrawing } from './devices.js';
-import { FieldDrawing } from './fields.js';
+import { FieldDrawing, isFound } from './fields.js';
 import { legend } from './legend.js';
 import { readPalette } from './palette.js';
 import { canvasLayer, isOnMap, project } from './projection.js';
@@ -162,6 +162,17 @@ class FurrowMap extends HTMLElement {
       this.moved = true;
       const near = this.view.getResolution() > 2 ? { zoom: 18 } : {};
       this.view.animate({ center, ...near, duration: reducedMotion.matches ? 0 : 350 });
+    }
+  }
+
+  /** Moves to the first device that matches the search; to the first field where no device does. */
+  find() {
+    const [device] = [...store.entities.values()].filter((each) => store.inScope(each) && store.matches(each)).sort((a, b) => (a.name < b.name ? -1 : 1));
+    const extent = this.fields.extent([...store.fields.values()].filter(isFound).slice(0, 1));
+    if (device) {
+      store.select(device.id, { reveal: true });
+    } else if (extent) {
+      this.open(extent);
     }
   }
 

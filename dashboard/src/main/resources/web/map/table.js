@@ -100,7 +100,7 @@ function row(entity, now) {
     h('td', null, t(`kinds.${entity.kind}`)),
     h('td', null, t(`states.${entity.state}`)),
     h('td.numbers', null, place(entity)),
-    h('td.numbers', null, entity.speed === null ? '–' : `${number(entity.speed)} m/s`),
+    h('td.numbers', null, entity.speed === null ? '–' : t('map.speed', { speed: number(entity.speed) })),
     h('td.numbers', null, age(now - entity.time)));
 }
 

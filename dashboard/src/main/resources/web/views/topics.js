@@ -76,13 +76,14 @@ class FurrowTopics extends HTMLElement {
     const open = new Set([...this.tree.querySelectorAll('details[open]')].map((each) => each.dataset.name));
     const focused = this.tree.contains(document.activeElement) ? document.activeElement.id : null;
     this.rows.clear();
+    const rowOf = (name) => h('li', null, this.row(tree.absent.includes(name) ? null : name, name));
     const section = (name, topics) => topics.length > 0 && (FOLDED.has(name)
-      ? h('details', { data: { name }, open: open.has(name) }, h('summary.section-title', null, h('span', null, t(`topics.sections.${name}`)), h('span.numbers', null, topics.length)), h('ul', null, topics.map((each) => h('li', null, this.row(each, each)))))
-      : h('section', null, h('h2.section-title', null, t(`topics.sections.${name}`)), h('ul', null, topics.map((each) => h('li', null, this.row(each, each))))));
+      ? h('details', { data: { name }, open: open.has(name) }, h('summary.section-title', null, h('span', null, t(`topics.sections.${name}`)), h('span.numbers', null, topics.length)), h('ul', null, topics.map(rowOf)))
+      : h('section', null, h('h2.section-title', null, t(`topics.sections.${name}`)), h('ul', null, topics.map(rowOf))));
     replace(this.tree,
       section('results', tree.results),
       h('section', null, h('h2.section-title', null, t('topics.sections.domains')),
-        tree.domains.length ? h('ul', null, tree.domains.map((each) => this.domain(each))) : h('p.small.muted', null, t('topics.noDomains'))),
+        h('ul', null, tree.domains.map((each) => this.domain(each))), tree.domains.length === 1 && h('p.small.muted', null, t('topics.noDomains'))),
       section('all', tree.all), section('replays', tree.replays), section('service', tree.service), section('other', tree.other));
     focused && this.tree.querySelector(`#${CSS.escape(focused)}`)?.focus();
   }

@@ -75,7 +75,7 @@ export class AveragesChart {
       scales: { x: { time: true }, y: { range: (plot, low, high) => roomy(low, high) } },
       axes: [
         { ...axis, space: 72, size: 26, values: (plot, times) => times.map((time) => clock(time * 1000).slice(0, times.length > 1 && times[1] - times[0] < 60 ? 8 : 5)) },
-        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} °C`) },
+        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} ${t('analyses.celsius')}`) },
       ],
       series: [{}, ...this.fields.map((field, index) => ({
         label: this.nameOf(field), stroke: this.colors[index], width: 2, dash: LINES[index % LINES.length][1], show: !this.hidden.has(field), points: { show: false },

@@ -84,7 +84,7 @@ export async function createMission() {
 
   try {
     const templates = await api.get('/api/templates');
-    template.append(...templates.map((each) => h('option', { value: `${each.template}@${each.version}` }, `${each.template}, version ${each.version}`)));
+    template.append(...templates.map((each) => h('option', { value: `${each.template}@${each.version}` }, t('missions.templateVersion', { template: each.template, version: each.version }))));
   } catch (error) {
     replace(about, t('missions.noTemplateList', { reason: error.message }));
   }

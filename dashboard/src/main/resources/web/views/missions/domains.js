@@ -16,6 +16,13 @@ export class Domains {
     this.fields = h('div.stack');
     this.element = h('div.domain-columns', null,
       h('section.panel.stack', { 'aria-label': t('missions.domains') }, this.domains), h('section.panel.stack', { 'aria-label': t('missions.fields') }, this.fields));
+    this.element.addEventListener('dragover', (event) => isFile(event) && event.preventDefault());
+    this.element.addEventListener('drop', (event) => {
+      if (isFile(event)) {
+        event.preventDefault();
+        store.may('operate') && importFields(event.dataTransfer);
+      }
+    });
     this.offs = ['domains', 'missions', 'fields', 'me'].map((name) => store.on(name, () => this.draw()));
     this.draw();
   }
@@ -29,7 +36,7 @@ export class Domains {
       h('ul.stack', null, domains.map((each) => this.domain(each, allowed))));
     const fields = [...store.fields.values()].sort((a, b) => (a.name < b.name ? -1 : 1));
     redraw(this.fields,
-      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), h('button.button.small', { type: 'button', disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act: 'import' }, on: { click: importFields } }, icon('upload', 16), t('missions.importFields'))),
+      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), h('button.button.small', { type: 'button', disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
       fields.length === 0
         ? h('div.empty', null, h('h3', null, t('missions.noFields')), h('p', null, t('missions.noFieldsHint')))
         : h('div.table-frame', { tabindex: '0', role: 'group', 'aria-label': t('missions.fields') }, h('table.table', null,
@@ -53,6 +60,10 @@ export class Domains {
   close() {
     this.offs.forEach((off) => off());
   }
+}
+
+function isFile(event) {
+  return event.dataTransfer.types.includes('Files');
 }
 
 function newDomain() {

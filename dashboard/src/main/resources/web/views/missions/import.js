@@ -9,7 +9,8 @@ import { formRow, openDialog } from './dialog.js';
 const LARGEST = 16 << 20;
 const GEOPACKAGE = /\.gpkg$/i;
 
-export function importFields() {
+/** @param {DataTransfer=} dropped whose file is chosen already */
+export function importFields(dropped) {
   const file = h('input', { type: 'file', required: true, accept: '.geojson,.json,.gpkg,application/geo+json,application/json' });
   const domain = h('select', null, h('option', { value: '' }, t('missions.asFeaturesSay')), [...store.domains.keys()].map((each) => h('option', { value: each }, each)));
   const preview = h('p.small.muted', { 'aria-live': 'polite' });
@@ -40,6 +41,10 @@ export function importFields() {
     preview.classList.toggle('bad', Boolean(words.bad));
     action.disabled = Boolean(words.bad);
   });
+  if (dropped) {
+    file.files = dropped.files;
+    file.dispatchEvent(new Event('change'));
+  }
 }
 
 async function previewOf(file) {

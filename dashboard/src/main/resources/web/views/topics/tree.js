@@ -1,6 +1,9 @@
 /** Topics in the order in which people look for them: of all, of each domain and its missions, of replays, of requests and states. */
 
 const RESULTS = ['data.collision', 'data.temperature', 'data.presence', 'data.clocks', 'data.images', 'data.context', 'data.catalog'];
+/** Shown although there is no such topic yet. */
+const ALWAYS = 'data.collision';
+const CANARY = 'canary';
 const EVERYTHING = ['data.raw', 'data.latest', 'ngsi.notifications'];
 
 /**
@@ -8,13 +11,13 @@ const EVERYTHING = ['data.raw', 'data.latest', 'ngsi.notifications'];
  * @param {Iterable<string>} domains those that the managers know, with or without a topic
  * @param {Iterable<{mission: string, domain: string}>} missions
  * @returns {{all: string[], results: string[], domains: {domain: string, topic: string|null, missions: {mission: string, topic: string|null}[]}[],
- *     replays: string[], service: string[], other: string[]}}
+ *     replays: string[], service: string[], other: string[], absent: string[]}} absent are those of the results that there are not yet
  */
 export function arrange(topics, domains, missions) {
   const names = new Set(topics.map((each) => each.name));
   const taken = new Set();
-  const take = (list) => list.filter((name) => names.has(name) && taken.add(name));
-  const tree = { all: take(EVERYTHING), results: take(RESULTS), domains: domainsOf(names, domains, missions, taken), replays: [], service: [], other: [] };
+  const take = (list) => list.filter((name) => (names.has(name) || name === ALWAYS) && taken.add(name));
+  const tree = { all: take(EVERYTHING), results: take(RESULTS), domains: domainsOf(names, domains, missions, taken), replays: [], service: [], other: [], absent: [ALWAYS].filter((name) => !names.has(name)) };
   for (const name of names) {
     if (taken.has(name)) {
       continue;
@@ -33,7 +36,7 @@ function domainsOf(names, domains, missions, taken) {
     }
     return known.get(domain);
   };
-  [...domains].forEach(of);
+  [...domains, CANARY].forEach(of);
   const wanted = new Map([...missions].map((each) => [`data.${each.domain}.realtime.${each.mission}`, each]));
   for (const name of names) {
     const [, domain, mission] = /^data\.([^.]+)\.realtime(?:\.([^.]+))?$/.exec(name) ?? [];
@@ -45,7 +48,7 @@ function domainsOf(names, domains, missions, taken) {
   }
   // a mission that nothing was reported of yet has no topic
   wanted.forEach((each) => of(each.domain).missions.push({ mission: each.mission, topic: null }));
-  const ordered = [...known.values()].sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary') || (a.domain < b.domain ? -1 : 1));
+  const ordered = [...known.values()].sort((a, b) => (a.domain === CANARY) - (b.domain === CANARY) || (a.domain < b.domain ? -1 : 1));
   ordered.forEach((each) => each.missions.sort((a, b) => (a.mission < b.mission ? -1 : 1)));
   return ordered;
 }

@@ -1,7 +1,12 @@
 package io.furrow.suite.page;
 
+import java.util.List;
+import java.util.concurrent.atomic.AtomicInteger;
+
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.assertions.LocatorAssertions;
+import com.microsoft.playwright.options.AriaRole;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -11,6 +16,12 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @PageTest
 @Tag("full")
 class AlarmsIT {
+    private static final String ANNOUNCED = "furrow-alarms [aria-live=assertive]";
+    private static final String ENCOUNTER = "New alarm, critical: Robot 1";
+    /** Two robots meet each half minute. */
+    private static final LocatorAssertions.ContainsTextOptions TIMEOUT =
+            new LocatorAssertions.ContainsTextOptions().setTimeout(90_000);
+
     @Test
     void mutesAndAcknowledgesAnAlarm(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("");
@@ -38,14 +49,63 @@ class AlarmsIT {
         org.assertj.core.api.Assertions.assertThat(acknowledged).isTrue();
     }
 
-    /** Two robots meet each half minute. */
     @Test
     void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) {
         FarmPage farm = suite.open("");
 
-        assertThat(farm.find("furrow-alarms [aria-live=assertive]")).containsText("New alarm, critical: Robot 1");
+        assertThat(farm.find(ANNOUNCED)).containsText(ENCOUNTER, TIMEOUT);
         assertThat(farm.find(".alarm-count"))
                 .hasAttribute("aria-label", java.util.regex.Pattern.compile("[1-9]\\d* open alarms"));
+    }
+
+    @Test
+    void findsAlarmsByWhatTheySay(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        Locator open = farm.find("furrow-alarms > .alarm-list > li.alarm");
+        farm.untilStore("[...store.alarms.values()].some((each) => each.state === 'open')");
+        Locator search = farm.page().getByRole(AriaRole.SEARCHBOX);
+
+        search.fill("no such alarm");
+        assertThat(farm.find(".alarm-none")).containsText("No open alarm matches the search.", TIMEOUT);
+        assertThat(open).hasCount(0);
+        search.fill("robot");
+        assertThat(open.first()).containsText("Robot", TIMEOUT);
+    }
+
+    /** The streams of a hidden page close, but not that of alarms. */
+    @Test
+    void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        farm.page().context().grantPermissions(List.of("notifications"));
+        farm.page().addInitScript("""
+                window.notified = [];
+                window.Notification = class {
+                  static permission = 'granted';
+                  constructor(title, options) {
+                    window.notified.push(`${title}: ${options.body}`);
+                  }
+                };""");
+        AtomicInteger sockets = new AtomicInteger();
+        farm.page().onWebSocket(socket -> {
+            sockets.incrementAndGet();
+            socket.onClose(closed -> sockets.decrementAndGet());
+        });
+        farm.open("");
+        farm.untilStore("store.primed && store.alarmsKnown");
+
+        assertThat(farm.find(ANNOUNCED)).containsText(ENCOUNTER, TIMEOUT);
+        org.assertj.core.api.Assertions.assertThat(farm.page().evaluate("notified.length"))
+                .isEqualTo(0);
+
+        farm.hide();
+        farm.page().waitForCondition(() -> sockets.get() == 1, FarmPage.TIMEOUT);
+        farm.page().evaluate("notified.length = 0");
+        farm.page()
+                .waitForCondition(
+                        () -> Boolean.TRUE.equals(farm.page()
+                                .evaluate(
+                                        "notified.some((each) => each.startsWith('Furrow: critical alarm: Robot 1'))")),
+                        FarmPage.TIMEOUT);
     }
 
     private static Locator.FilterOptions suspect() {

@@ -42,9 +42,8 @@ final class Chromium implements AutoCloseable {
                         .map(name -> Path.of(folder, name)))
                 .filter(Files::isExecutable)
                 .findFirst()
-                .orElseThrow(
-                        () -> new IllegalStateException(
-                                "There is no chromium on the PATH; install the Debian packages chromium and fonts-dejavu-core."));
+                .orElseThrow(() -> new IllegalStateException(
+                        "There is no chromium on the PATH; install it: apt-get install chromium fonts-dejavu-core"));
     }
 
     @Override

@@ -1,5 +1,7 @@
 package io.furrow.suite.page;
 
+import java.util.regex.Pattern;
+
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -25,6 +27,8 @@ class LostConnectionIT {
 
         try (Dashboard again = suite.ownDashboard(port)) {
             org.assertj.core.api.Assertions.assertThat(again.uri()).hasPort(port);
+            assertThat(farm.find(".notice"))
+                    .hasText(Pattern.compile("^The connection was away from [\\d:]{8} to [\\d:]{8}\\."));
             assertThat(farm.find(".notice")).isHidden();
             farm.untilStore("store.entities.get('urn:ngsi-ld:Robot:1').time > " + System.currentTimeMillis());
             farm.close();

@@ -178,6 +178,20 @@ class MapIT {
 
     @Tag("full")
     @Test
+    void movesToTheFieldThatIsSearchedFor(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.fields.size === 4 && store.primed");
+        double whole = zoom(farm);
+
+        farm.page().getByRole(AriaRole.SEARCHBOX).fill("river field");
+        farm.page().getByRole(AriaRole.SEARCHBOX).press("Enter");
+
+        farm.page().waitForCondition(() -> zoom(farm) > whole + 0.2);
+        assertThat(farm.find("furrow-cards .empty")).containsText("No device matches");
+    }
+
+    @Tag("full")
+    @Test
     void isMovedAndZoomedByTheKeyboard(PageSuite suite) {
         FarmPage farm = suite.open("");
         farm.untilStore("store.entities.has('" + THERMOMETER + "') && store.primed");

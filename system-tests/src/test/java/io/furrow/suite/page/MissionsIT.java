@@ -1,8 +1,11 @@
 package io.furrow.suite.page;
 
 import java.nio.charset.StandardCharsets;
+import java.util.regex.Pattern;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.options.FilePayload;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.serialization.ByteArraySerializer;
@@ -17,6 +20,10 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 @PageTest
 @Tag("full")
 class MissionsIT {
+    private static final String MEADOW = """
+            {"type":"FeatureCollection","features":[{"type":"Feature","id":"meadow","properties":{"name":"Far meadow"},
+            "geometry":{"type":"Polygon","coordinates":[[[9.0,50.0],[9.001,50.0],[9.001,50.001],[9.0,50.001],[9.0,50.0]]]}}]}""";
+
     @Test
     void makesChecksStartsAndStopsAMission(PageSuite suite) {
         // Of a mission that has just begun nothing is stored yet.
@@ -54,6 +61,48 @@ class MissionsIT {
         assertThat(farm.find("#missions-panel")).containsText("Demonstration farm");
         assertThat(farm.find("#missions-panel")).containsText("River field");
         assertThat(farm.find("#missions-panel")).containsText("zone without alarms");
+    }
+
+    /** The fields that there are already: other tests count them. */
+    @Test
+    void importsTheFieldsOfAFileAndSaysWhatIsWrongWithOne(PageSuite suite) throws Exception {
+        FarmPage farm = suite.open("#/missions?tab=domains");
+        farm.button("Import fields").click();
+        Locator dialog = farm.find("dialog[open]");
+        Locator action = dialog.locator("button[type=submit]");
+
+        dialog.getByLabel("File").setInputFiles(file("notes.geojson", "no JSON"));
+        assertThat(dialog).containsText("The file is no GeoJSON.");
+        assertThat(action).isDisabled();
+
+        JsonNode fields = suite.rest("/api/fields");
+        dialog.getByLabel("File").setInputFiles(file("farm.geojson", fields.toString()));
+        assertThat(dialog)
+                .containsText("Areas in the file: " + fields.path("features").size());
+        action.click();
+        assertThat(dialog).containsText(Pattern.compile("Imported: \\d\\. Unchanged: \\d"));
+        action.click();
+        assertThat(dialog).hasCount(0);
+    }
+
+    @Test
+    void importsAFileThatIsDropped(PageSuite suite) {
+        FarmPage farm = suite.open("#/missions?tab=domains");
+        assertThat(farm.find("#missions-panel")).containsText("River field");
+        farm.page().evaluate("""
+                (content) => {
+                  const dataTransfer = new DataTransfer();
+                  dataTransfer.items.add(new File([content], 'meadow.geojson'));
+                  const panel = document.querySelector('.domain-columns');
+                  ['dragover', 'drop'].forEach((name) => panel.dispatchEvent(new DragEvent(name, { dataTransfer, bubbles: true, cancelable: true })));
+                }""", MEADOW);
+
+        assertThat(farm.find("dialog[open]")).containsText("Areas in the file: 1");
+        assertThat(farm.find("dialog[open] button[type=submit]")).isEnabled();
+    }
+
+    private static FilePayload file(String name, String content) {
+        return new FilePayload(name, "application/geo+json", content.getBytes(StandardCharsets.UTF_8));
     }
 
     @Test

@@ -4,6 +4,7 @@ import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
 import com.microsoft.playwright.Page;
+import com.microsoft.playwright.Route;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
@@ -31,6 +32,21 @@ class TopicsIT {
     }
 
     @Test
+    void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        farm.page()
+                .route(
+                        "**/api/topics",
+                        route -> route.fulfill(new Route.FulfillOptions()
+                                .setContentType("application/json")
+                                .setBody("[]")));
+        farm.open("#/topics");
+
+        assertThat(row(farm, "data.collision")).containsText("no records yet");
+        assertThat(row(farm, "canary")).containsText("no records yet");
+    }
+
+    @Test
     void showsTheRecordsOfSeveralTopicsAtOnce(PageSuite suite) {
         FarmPage farm = suite.open("#/topics");
         check(farm, "data.farm.realtime.weeding");
@@ -54,6 +70,18 @@ class TopicsIT {
         assertThat(farm.card("urn:ngsi-ld:Camera:1")).isAttached();
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).hasCount(0);
         assertThat(farm.find(".crumbs")).containsText("scouting");
+    }
+
+    @Test
+    void saysOnASmallScreenThatNotAllIsShown(PageSuite suite) {
+        FarmPage farm = suite.open("#/topics", Look.PHONE);
+        assertThat(farm.find(".crumbs")).isHidden();
+        farm.button("Show only scouting on the map").click();
+
+        assertThat(farm.find(".crumbs")).containsText("scouting");
+        farm.button("Show everything on the map again").click();
+        assertThat(farm.find(".crumbs")).isHidden();
+        farm.untilStore("store.scope.domain === null");
     }
 
     private static Locator row(FarmPage farm, String topic) {
