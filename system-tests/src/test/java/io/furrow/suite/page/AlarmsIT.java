@@ -14,7 +14,6 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** From an alarm to who takes care of it. */
 @PageTest
-@Tag("full")
 class AlarmsIT {
     private static final String ANNOUNCED = "furrow-alarms [aria-live=assertive]";
     private static final String ENCOUNTER = "New alarm, critical: Robot 1";
@@ -49,6 +48,7 @@ class AlarmsIT {
         org.assertj.core.api.Assertions.assertThat(acknowledged).isTrue();
     }
 
+    @Tag("full")
     @Test
     void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -58,6 +58,7 @@ class AlarmsIT {
                 .hasAttribute("aria-label", java.util.regex.Pattern.compile("[1-9]\\d* open alarms"));
     }
 
+    @Tag("full")
     @Test
     void findsAlarmsByWhatTheySay(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -73,6 +74,7 @@ class AlarmsIT {
     }
 
     /** The streams of a hidden page close, but not that of alarms. */
+    @Tag("full")
     @Test
     void notifiesOfANewAlarmWhileThePageIsHidden(PageSuite suite) {
         FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);

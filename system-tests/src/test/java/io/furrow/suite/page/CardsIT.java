@@ -15,13 +15,13 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** What a card says of its device, and what it does to it. */
 @PageTest
-@Tag("full")
 class CardsIT {
     private static final String DEFECTIVE = "urn:ngsi-ld:Thermometer:4";
     private static final String STATION = "urn:ngsi-ld:WeatherStation:1";
     private static final String CAMERA = "urn:ngsi-ld:Camera:1";
     private static final String ROBOT = "urn:ngsi-ld:Robot:canary-1";
 
+    @Tag("full")
     @Test
     void showsTheAttributesOfAnEntityWhateverTheyAre(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -36,6 +36,7 @@ class CardsIT {
         assertThat(card.locator("svg.spark path")).hasAttribute("d", Pattern.compile("^M.*L.*"));
     }
 
+    @Tag("full")
     @Test
     void findsOutTheDefectiveThermometerAndPutsItFirst(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -47,6 +48,7 @@ class CardsIT {
                 .hasAttribute("data-id", DEFECTIVE, new LocatorAssertions.HasAttributeOptions().setTimeout(10_000));
     }
 
+    @Tag("full")
     @Test
     void showsTheStoredPictureOfACamera(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -73,6 +75,7 @@ class CardsIT {
     }
 
     /** Nobody keeps it: the context broker has no such entity. */
+    @Tag("full")
     @Test
     void saysWhyACommandWasNotSent(PageSuite suite) throws Exception {
         String lost = "urn:ngsi-ld:Robot:lost";
@@ -85,6 +88,7 @@ class CardsIT {
         suite.produce("data.raw", lost, null);
     }
 
+    @Tag("full")
     @Test
     void saysThatADeviceIsSilent(PageSuite suite) throws Exception {
         String silent = "urn:ngsi-ld:Robot:silent";
@@ -97,6 +101,7 @@ class CardsIT {
         suite.produce("data.raw", silent, null);
     }
 
+    @Tag("full")
     @Test
     void searchesFromTheKeyboard(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -110,6 +115,7 @@ class CardsIT {
         assertThat(farm.card(STATION)).isAttached();
     }
 
+    @Tag("full")
     @Test
     void showsOneKindOnly(PageSuite suite) {
         FarmPage farm = suite.open("");
@@ -120,6 +126,7 @@ class CardsIT {
     }
 
     /** One time for all charts, and for the timeline. */
+    @Tag("full")
     @Test
     void sharesTheCursorOfCharts(PageSuite suite) {
         FarmPage farm = suite.open("");

@@ -18,7 +18,7 @@ class MapIT {
     private static final int BORDER_OF_FIELDS = 0x4C7A58;
 
     @Test
-    void drawsTheFieldsAndEveryDeviceWithinTenSeconds(PageSuite suite) {
+    void drawsTheFieldsAndEveryDevice(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         farm.untilStore("store.fields.size === 4 && store.entities.size >= 17"
@@ -73,6 +73,7 @@ class MapIT {
         });
     }
 
+    @Tag("full")
     @Test
     void hasATableOfTheSameBesideTheMap(PageSuite suite) {
         FarmPage farm = suite.open("");

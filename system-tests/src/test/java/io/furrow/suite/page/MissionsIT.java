@@ -18,7 +18,6 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** The life of a mission, and who commanded it. */
 @PageTest
-@Tag("full")
 class MissionsIT {
     private static final String MEADOW = """
             {"type":"FeatureCollection","features":[{"type":"Feature","id":"meadow","properties":{"name":"Far meadow"},
@@ -54,6 +53,7 @@ class MissionsIT {
         assertThat(farm.find("#missions-panel tbody")).containsText("again");
     }
 
+    @Tag("full")
     @Test
     void showsDomainsAndFields(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
@@ -64,6 +64,7 @@ class MissionsIT {
     }
 
     /** The fields that there are already: other tests count them. */
+    @Tag("full")
     @Test
     void importsTheFieldsOfAFileAndSaysWhatIsWrongWithOne(PageSuite suite) throws Exception {
         FarmPage farm = suite.open("#/missions?tab=domains");
@@ -85,6 +86,7 @@ class MissionsIT {
         assertThat(dialog).hasCount(0);
     }
 
+    @Tag("full")
     @Test
     void importsAFileThatIsDropped(PageSuite suite) {
         FarmPage farm = suite.open("#/missions?tab=domains");
@@ -105,6 +107,7 @@ class MissionsIT {
         return new FilePayload(name, "application/geo+json", content.getBytes(StandardCharsets.UTF_8));
     }
 
+    @Tag("full")
     @Test
     void showsOlderCommandsOnRequestAndNewOnesAboveThem(PageSuite suite) throws Exception {
         produceAudit(suite, 0, 450);

@@ -12,7 +12,6 @@ import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertTha
 
 /** From domains and missions to records. */
 @PageTest
-@Tag("full")
 class TopicsIT {
     @Test
     void showsDomainsWithTheirMissionsAndHowMuchFlows(PageSuite suite) {
@@ -31,6 +30,7 @@ class TopicsIT {
                 .hasText(Pattern.compile("^([2-9]|1\\d)(\\.\\d)?/s$"));
     }
 
+    @Tag("full")
     @Test
     void listsCollisionsAndTheCanaryBeforeThereAreAny(PageSuite suite) {
         FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
@@ -46,6 +46,7 @@ class TopicsIT {
         assertThat(row(farm, "canary")).containsText("no records yet");
     }
 
+    @Tag("full")
     @Test
     void showsTheRecordsOfSeveralTopicsAtOnce(PageSuite suite) {
         FarmPage farm = suite.open("#/topics");
@@ -61,6 +62,7 @@ class TopicsIT {
                 .isVisible();
     }
 
+    @Tag("full")
     @Test
     void showsOnlyAMissionOnTheMap(PageSuite suite) {
         FarmPage farm = suite.open("#/topics");
@@ -72,6 +74,7 @@ class TopicsIT {
         assertThat(farm.find(".crumbs")).containsText("scouting");
     }
 
+    @Tag("full")
     @Test
     void saysOnASmallScreenThatNotAllIsShown(PageSuite suite) {
         FarmPage farm = suite.open("#/topics", Look.PHONE);
