@@ -169,7 +169,7 @@ class App extends HTMLElement {
   showScope() {
     const { domain, mission } = store.scope;
     replace(this.crumbs,
-      h('a.cut', { href: linkTo('topics'), 'aria-current': domain ? null : 'true' }, domain ?? t('app.allDomains')),
+      h('a.cut', { href: linkTo('topics'), 'aria-current': mission ? null : 'true' }, domain ?? t('app.allDomains')),
       mission && [h('span.muted', { 'aria-hidden': 'true' }, '›'), h('span.cut', { 'aria-current': 'true' }, mission)],
       domain && h('button.button.quiet.square.small', { type: 'button', 'aria-label': t('topics.showAll'), title: t('topics.showAll'), on: { click: () => store.setScope({}) } }, icon('close', 16)));
     this.classList.toggle('scoped', Boolean(domain));

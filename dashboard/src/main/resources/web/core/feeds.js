@@ -72,8 +72,9 @@ class Feeds {
   connection(state, reason) {
     const next = state === 'open' || state === 'paused' ? 'open' : state === 'connecting' && store.connection.state !== 'lost' ? 'connecting' : 'lost';
     if (next !== store.connection.state) {
-      const back = state === 'open' && store.connection.state === 'lost' && store.connection.lastRecord;
-      Object.assign(store.connection, { state: next, since: Date.now() }, back ? { awayFrom: store.connection.since, missed: 0 } : { awayFrom: null });
+      const { state: before, since, lastRecord, missed } = store.connection;
+      const isBack = state === 'open' && before === 'lost' && lastRecord !== null;
+      Object.assign(store.connection, { state: next, since: Date.now(), awayFrom: isBack ? since : null, missed: next === 'lost' ? 0 : missed });
     }
     store.connection.reason = reason;
     store.tell('connection');

@@ -48,7 +48,7 @@ export class DeviceDrawing {
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
     this.fields.drawLabels(frame, palette, places, encounters);
     moving.forEach((spot) => blockSymbol(places, spot));
-    encounters.forEach((each) => drawEncounter(context, each, palette, places));
+    encounters.forEach((each) => drawEncounter(frame, each, palette, places));
     for (const each of clusters) {
       each.radius = drawCluster(context, each, palette);
       places.block(each.x - each.radius, each.y - each.radius, each.x + each.radius, each.y + each.radius);

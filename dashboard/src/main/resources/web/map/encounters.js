@@ -41,7 +41,8 @@ function reported(frame, [lon, lat]) {
   return { x: frame.x(x, y), y: frame.y(x, y) };
 }
 
-export function drawEncounter(context, { encounter, from, to, x, y, radius, look }, palette, places) {
+export function drawEncounter(frame, { encounter, from, to, x, y, radius, look }, palette, places) {
+  const { context } = frame;
   context.globalAlpha = look.alpha;
   context.strokeStyle = look.colour;
   context.lineWidth = 3;
@@ -56,7 +57,7 @@ export function drawEncounter(context, { encounter, from, to, x, y, radius, look
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.stroke();
   context.setLineDash([]);
-  drawPill(context, textOf(encounter), x, y - radius - 14, look, palette, places);
+  drawPill(frame, textOf(encounter), { x, y: y - radius - 14 }, look, palette, places);
   context.globalAlpha = 1;
 }
 
@@ -96,9 +97,14 @@ function currentDistance(encounter) {
   return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
 }
 
-function drawPill(context, text, x, y, look, palette, places) {
+/** At the edge of the map it stays on the map. */
+function drawPill(frame, text, place, look, palette, places) {
+  const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;
+  const isInView = place.x > 0 && place.x < frame.width && place.y > -2 * PILL && place.y < frame.height;
+  const x = isInView ? Math.max(half + 2, Math.min(frame.width - half - 2, place.x)) : place.x;
+  const y = isInView ? Math.max(14, place.y) : place.y;
   context.beginPath();
   context.roundRect(x - half, y - 12, 2 * half, 24, 12);
   context.fillStyle = look.colour;
