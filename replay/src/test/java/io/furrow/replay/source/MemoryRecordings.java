@@ -5,6 +5,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
@@ -23,6 +24,7 @@ final class MemoryRecordings implements Recordings {
     private static final long serialVersionUID = 1L;
 
     private final transient Map<String, List<StoredEvent>> missions = new ConcurrentHashMap<>();
+    private final transient AtomicInteger open = new AtomicInteger();
     private volatile boolean away;
 
     /** Events of the entity {@code urn:x} at these times. */
@@ -42,6 +44,11 @@ final class MemoryRecordings implements Recordings {
 
     void setAway(boolean isAway) {
         away = isAway;
+    }
+
+    /** How many recordings are open. */
+    int open() {
+        return open.get();
     }
 
     @Override
@@ -66,6 +73,7 @@ final class MemoryRecordings implements Recordings {
 
         InMemory(List<StoredEvent> events) {
             this.events = events;
+            open.incrementAndGet();
         }
 
         @Override
@@ -93,7 +101,7 @@ final class MemoryRecordings implements Recordings {
 
         @Override
         public void close() {
-            // holds nothing
+            open.decrementAndGet();
         }
     }
 }
