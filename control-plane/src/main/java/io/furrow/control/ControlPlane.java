@@ -24,10 +24,7 @@ public final class ControlPlane implements AutoCloseable {
         ServiceTopics.prepare(settings);
         return new ControlPlane(StreamsApplication.start(
                 "managers",
-                () -> ControlTopology.of(
-                        settings.remembered(),
-                        settings.missions(),
-                        settings.replays().knowsRecordings()),
+                () -> ControlTopology.of(settings.remembered(), settings.missions(), settings.replays()),
                 settings.streams()));
     }
 

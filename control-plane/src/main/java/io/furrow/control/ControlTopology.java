@@ -12,6 +12,7 @@ import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.control.mission.MissionManager;
 import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplayManager;
+import io.furrow.control.replay.ReplaySettings;
 
 /** The three managers as one topology of Kafka Streams. */
 final class ControlTopology {
@@ -19,9 +20,9 @@ final class ControlTopology {
 
     /**
      * @param remembered how long ids of requests are
-     * @param knowsRecordings whether replays of missions that {@code service.recordings} does not list are refused
+     * @param replays how they are managed
      */
-    static Topology of(Duration remembered, MissionOptions missions, boolean knowsRecordings) {
+    static Topology of(Duration remembered, MissionOptions missions, ReplaySettings replays) {
         StreamsBuilder builder = new StreamsBuilder();
 
         for (List<String> shared : List.of(DomainManager.stores(), MissionManager.stores())) {
@@ -36,7 +37,7 @@ final class ControlTopology {
 
         MissionManager.add(builder, remembered, missions);
 
-        ReplayManager.add(builder, remembered, UUID::randomUUID, knowsRecordings);
+        ReplayManager.add(builder, remembered, UUID::randomUUID, replays);
 
         return builder.build();
     }

@@ -18,6 +18,7 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
@@ -29,7 +30,9 @@ class AuditTopicTest {
 
     private final TopologyTestDriver driver = new TopologyTestDriver(
             ControlTopology.of(
-                    Duration.ofHours(1), new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT), false),
+                    Duration.ofHours(1),
+                    new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT),
+                    ReplaySettings.DEFAULT),
             settings(),
             START);
 

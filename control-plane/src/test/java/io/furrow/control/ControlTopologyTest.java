@@ -10,9 +10,11 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
@@ -230,13 +232,134 @@ class ControlTopologyTest {
         assertThat(ManagedFarm.error(farm.only(Topics.REPLAY_MANAGER))).isEqualTo("unknown-replay");
     }
 
+    private String startReplay(String members) {
+        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','command':'start','mission':'m'" + members + "}");
+        String replay = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER))
+                .json()
+                .path("replay")
+                .asText();
+        farm.read(Topics.REPLAYS);
+        return replay;
+    }
+
+    private CommandResult steer(String replay, String command) {
+        farm.ask(
+                Topics.REPLAY_MANAGER,
+                null,
+                "{'type':'request','replay':'" + replay + "','command':" + command + "}");
+        return ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+    }
+
+    /** Its recording lasts from 1 s to 9 s. */
+    private void report(String replay, long sequence, ReplayStatus.State state, boolean settled) {
+        String status = """
+                {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}"""
+                .formatted(sequence, state.word(), settled);
+        farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(StandardCharsets.UTF_8));
+    }
+
+    @Test
+    void letsAReplayRestAtItsEndForAnHour() {
+        String replay = startReplay("");
+        report(replay, 1, ReplayStatus.State.ENDED, false);
+        report(replay, 1, ReplayStatus.State.ENDED, true);
+        farm.pass(Duration.ofMinutes(50));
+        report(replay, 1, ReplayStatus.State.ENDED, true); // by a job that was restarted
+        farm.pass(Duration.ofMinutes(9));
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+
+        assertThat(steer(replay, "'seek','to':5000").status()).isEqualTo("running");
+        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value())).contains("\"seek\":{\"to\":5000,\"sequence\":2}");
+        farm.pass(Duration.ofMinutes(61));
+        assertThat(farm.read(Topics.REPLAYS)).as("sought, and not played yet").isEmpty();
+        report(replay, 2, ReplayStatus.State.RUNNING, false);
+        report(replay, 2, ReplayStatus.State.ENDED, true);
+        farm.pass(Duration.ofMinutes(59));
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+        farm.pass(Duration.ofMinutes(1));
+
+        assertThat(farm.only(Topics.REPLAYS).value()).isNull();
+        assertThat(steer(replay, "'seek','to':5000").error()).contains("unknown-replay");
+        farm.pass(Duration.ofHours(2));
+        assertThat(farm.read(Topics.REPLAYS)).as("forgotten once").isEmpty();
+    }
+
+    @Test
+    void stepsBackFromTheEndAndPlaysARangeOfWhatHasEnded() {
+        String replay = startReplay("");
+        report(replay, 1, ReplayStatus.State.ENDED, true);
+        assertThat(steer(replay, "'step','count':-3").status()).isEqualTo("paused");
+        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value()))
+                .contains("\"wanted\":\"paused\"", "\"step\":{\"total\":-3,\"sequence\":2}");
+        assertThat(steer(replay, "'resume'").status()).isEqualTo("running");
+        farm.read(Topics.REPLAYS);
+
+        report(replay, 3, ReplayStatus.State.ENDED, true);
+        assertThat(steer(replay, "'loop','from':2000,'to':3000").status()).isEqualTo("running");
+        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value()))
+                .contains("\"seek\":{\"to\":2000,\"sequence\":4}", "\"range\":{\"from\":2000,\"to\":3000}");
+    }
+
+    @Test
+    void answersFromWhatAReplayIsNotFromWhatWasAskedOfIt() {
+        String replay = startReplay("");
+        report(replay, 1, ReplayStatus.State.ENDED, false);
+        for (String command : List.of("'pause'", "'resume'", "'step'", "'step','count':2")) {
+            CommandResult refused = steer(replay, command);
+            assertThat(refused.error()).as(command).contains("wrong-state");
+            assertThat(refused.json().path("reason").asText()).contains("is ended", "'seek'");
+        }
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+        assertThat(steer(replay, "'speed','speed':5").status()).isEqualTo("changed");
+        report(replay, 2, ReplayStatus.State.FAILED, false);
+        for (String command : List.of("'pause'", "'resume'", "'step','count':-1")) {
+            assertThat(steer(replay, command).error()).as(command).contains("wrong-state");
+        }
+        assertThat(steer(replay, "'stop'").status()).isEqualTo("deleted");
+        report(replay, 3, ReplayStatus.State.STOPPED, true);
+        assertThat(farm.read(Topics.REPLAYS)).hasSize(3).last().extracting(TestRecord::value).isNull();
+    }
+
+    @Test
+    void forgetsAReplayThatFailedAtOnce() {
+        String replay = startReplay("");
+        report(replay, 1, ReplayStatus.State.FAILED, true);
+        assertThat(farm.only(Topics.REPLAYS).value()).isNull();
+    }
+
+    @Test
+    void refusesASeekToWhatIsNotPlayed() {
+        String whole = startReplay("");
+        assertThat(steer(whole, "'seek','to':99000").error()).as("of what nobody knows").isEmpty();
+        report(whole, 2, ReplayStatus.State.RUNNING, false);
+        String part = startReplay(",'from':2000,'to':8000");
+        report(part, 3, ReplayStatus.State.RUNNING, false);
+        farm.read(Topics.REPLAYS);
+
+        for (String outside : List.of("999", "9001")) {
+            CommandResult refused = steer(whole, "'seek','to':" + outside);
+            assertThat(refused.error()).as(outside).contains("wrong-member");
+            assertThat(refused.json().path("reason").asText()).containsAnyOf("at least 1000", "at most 9000");
+        }
+        for (String outside : List.of("1999", "8000")) {
+            assertThat(steer(part, "'seek','to':" + outside).error()).as(outside).contains("wrong-member");
+        }
+        assertThat(farm.read(Topics.REPLAYS)).isEmpty();
+        for (String inside : List.of("1000", "9000")) {
+            assertThat(steer(whole, "'seek','to':" + inside).error()).isEmpty();
+        }
+        for (String inside : List.of("2000", "7999")) {
+            assertThat(steer(part, "'seek','to':" + inside).error()).isEmpty();
+        }
+    }
+
     /** State and offsets are found by these names. */
     @Test
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
                                 ManagedFarm.REMEMBERED,
                                 new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT),
-                                false)
+                                ReplaySettings.DEFAULT)
                         .describe()
                         .toString())
                 .doesNotContain("-0000")
@@ -258,6 +381,7 @@ class ControlTopologyTest {
                         "mission-positions",
                         "device-statuses-positions",
                         "replays",
+                        "replay-reports",
                         "recordings",
                         "replay-sequence",
                         "replay-answers",

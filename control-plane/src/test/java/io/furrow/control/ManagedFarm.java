@@ -17,6 +17,7 @@ import org.apache.kafka.streams.TopologyTestDriver;
 import org.apache.kafka.streams.test.TestRecord;
 
 import io.furrow.control.mission.MissionOptions;
+import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
@@ -40,7 +41,8 @@ final class ManagedFarm implements AutoCloseable {
     /** @param knowsRecordings whether only missions that {@code service.recordings} lists can be played back */
     ManagedFarm(boolean knowsRecordings) {
         MissionOptions missions = new MissionOptions(Duration.ofSeconds(30), new FiwareScope("farm", "/"));
-        driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, knowsRecordings), settings(), START);
+        ReplaySettings replays = ReplaySettings.DEFAULT.withMongo(knowsRecordings ? "mongodb://unused" : null);
+        driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, replays), settings(), START);
     }
 
     void pass(Duration time) {

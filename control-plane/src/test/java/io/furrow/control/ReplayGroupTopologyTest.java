@@ -198,6 +198,37 @@ class ReplayGroupTopologyTest {
         assertThat(unknown.json().path("reason").asText()).contains(group);
     }
 
+    private void ended(String mission, String group, long of) {
+        farm.pipe(
+                Topics.REPLAYS_STATUS,
+                mission + "." + group,
+                new ReplayStatus(of, ReplayStatus.State.ENDED, null, true, null).toBytes());
+    }
+
+    @Test
+    void restsAtItsEndAsOne() throws Exception {
+        String group = start("");
+        WantedReplay started = wanted();
+        farm.pass(Duration.ofMinutes(2));
+        ended("a", group, started.sequence());
+        assertThat(steered(group, "'pause'", "paused").wanted()).as("b plays").isEqualTo(ReplayStatus.State.PAUSED);
+        WantedReplay resumed = steered(group, "'resume'", "running");
+        ended("a", group, resumed.sequence());
+        farm.pass(Duration.ofMinutes(30));
+        ended("b", group, resumed.sequence());
+        assertThat(ask("'command':'pause','group':'" + group + "'").error()).contains("wrong-state");
+        farm.pass(Duration.ofMinutes(59));
+        assertThat(farm.read(Topics.REPLAYS)).as("together").isEmpty();
+
+        WantedReplay again = steered(group, "'seek','to':50000", "running");
+        ended("a", group, again.sequence());
+        ended("b", group, again.sequence());
+        farm.pass(Duration.ofMinutes(61));
+
+        assertThat(farm.read(Topics.REPLAYS)).hasSize(2).allSatisfy(each -> assertThat(each.value())
+                .isNull());
+    }
+
     @Test
     void refusesToSteerOneAloneAndSingleSteps() throws Exception {
         String group = start("");

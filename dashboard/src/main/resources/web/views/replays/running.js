@@ -83,7 +83,7 @@ export class RunningReplay {
 
   async playAgain() {
     const [first] = this.entry.members;
-    await this.attempt(() => steer(first, 'seek', { to: first.status?.progress?.from ?? first.from }));
+    await this.attempt(() => steer(first, 'seek', { to: Math.max(first.status?.progress?.from ?? 0, first.from ?? 0, first.range?.from ?? 0) }));
     this.watchIt();
   }
 

@@ -57,10 +57,34 @@ class ReplayIT {
                         .isEqualTo(byId(live.records(), null, HeaderNames.CE_ID))
                         .hasSizeGreaterThanOrEqualTo(REPORTS);
             }
-            await("forgotten when its end is settled")
-                    .atMost(TIMEOUT)
-                    .until(() -> send(suite, "GET", "/api/replays", "").size() == 0);
+            playsAgainFromItsEnd(
+                    running,
+                    replay.path("replay").asText(),
+                    replay.path("topic").asText());
         }
+    }
+
+    private static void playsAgainFromItsEnd(RunningSuite running, String replay, String topic) throws Exception {
+        Suite suite = running.suite();
+        String path = "/api/replays/" + replay;
+        await("rests when its end is settled").atMost(TIMEOUT).until(() -> send(suite, "GET", path, "")
+                .at("/status/settled")
+                .asBoolean());
+        JsonNode rested = send(suite, "GET", path, "");
+        assertThat(rested.at("/status/state").asText()).isEqualTo("ended");
+        long last = rested.at("/status/progress/to").asLong();
+
+        send(suite, "POST", path + "/seek", "{\"to\":" + last + "}");
+        try (TopicLog played = running.topic(topic)) {
+            await().atMost(TIMEOUT)
+                    .until(() -> played.records().stream()
+                            .anyMatch(record -> kind(record, "end")
+                                    && "1".equals(TopicLog.headers(record).get(HeaderNames.REPLAY_EPOCH))));
+        }
+        send(suite, "DELETE", path, "");
+        await("forgotten when it is stopped")
+                .atMost(TIMEOUT)
+                .until(() -> send(suite, "GET", "/api/replays", "").size() == 0);
     }
 
     private static void runMission(Suite suite, TopicLog live) throws Exception {

@@ -24,7 +24,7 @@ import io.furrow.cli.control.table.ControlTable;
 public final class ReplayCommand extends CommandGroup {
     private static final String REPLAYS = "/api/replays";
 
-    @Command(name = "list", description = "Lists replays that are not over.")
+    @Command(name = "list", description = "Lists replays, those that rest at their ends among them.")
     int list(@Mixin ControlOptions control) {
         return control.show(
                 REPLAYS,
@@ -77,7 +77,8 @@ public final class ReplayCommand extends CommandGroup {
     @Command(
             name = "watch",
             description = {
-                "Follows a replay until it is over. At a terminal it is drawn in place and steered by keys; elsewhere it is a line per second.",
+                "Follows a replay. At a terminal it is drawn in place and steered by keys, also back from its end; elsewhere it is a line per second "
+                        + "until its end.",
                 "Keys: space pauses and resumes; left and right seek by 10 s of event time, [ and ] or with shift by a minute; . and , step "
                         + "while it is paused; + and - double and halve the speed; l sets where a range begins, then where it ends, then "
                         + "takes it away; m makes a marker; ? shows the keys; q ends."

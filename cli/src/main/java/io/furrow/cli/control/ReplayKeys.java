@@ -109,17 +109,20 @@ final class ReplayKeys {
 
     /** Beginning where the last jump leads, until the replay reports another position. */
     private Optional<Request> seek(JsonNode replay, Duration by) {
-        JsonNode progress = replay.at("/status/progress");
+        PlayedPart part = PlayedPart.of(replay);
         long position = position(replay);
         long begin = position == soughtFrom ? sought : position;
-        long to = Math.max(progress.path("from").asLong(), begin + by.toMillis());
         soughtFrom = position;
-        sought = Math.min(progress.path("to").asLong(Long.MAX_VALUE), to);
+        sought = Math.max(part.from(), Math.min(part.last(), begin + by.toMillis()));
         return request("seek", Map.of("to", sought));
     }
 
     private Optional<Request> step(JsonNode replay, int count) {
-        if (!isPaused(replay)) {
+        boolean ended = replay.at("/status/state").asText().equals("ended");
+        if (ended && count > 0) {
+            message = "It has ended; , steps back.";
+            return Optional.empty();
+        } else if (!ended && !isPaused(replay)) {
             message = "Pause it first: space.";
             return Optional.empty();
         }

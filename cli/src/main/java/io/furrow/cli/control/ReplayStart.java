@@ -90,6 +90,13 @@ final class ReplayStart {
     private List<String> analytics;
 
     @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            description = "Kafka as the Flink cluster reaches it, for the lines that start analytics jobs there. "
+                    + "Default: none is named, and the jobs take 127.0.0.1:9092.")
+    private String kafka;
+
+    @Option(
             names = "--source-topic",
             paramLabel = "TOPIC",
             description = "Play what this topic has, instead of the mission in MongoDB.")
@@ -157,8 +164,11 @@ final class ReplayStart {
         });
         return topics.stream()
                 .flatMap(one -> analytics.stream().map(job -> new AnalyticsJob(job, one)))
-                .map(job -> "flink run -d furrow-analytics-*-job.jar %s %s"
-                        .formatted(job.job(), String.join(" ", job.options())))
+                .map(job -> "flink run -d furrow-analytics-*-job.jar %s %s%s"
+                        .formatted(
+                                job.job(),
+                                String.join(" ", job.options()),
+                                kafka == null ? "" : " --bootstrap-servers " + kafka))
                 .toList();
     }
 }

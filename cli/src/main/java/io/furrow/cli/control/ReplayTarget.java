@@ -28,11 +28,16 @@ final class ReplayTarget {
     /** Its path. */
     String path(ControlOptions control) {
         if (group != null) {
-            return REPLAYS + "/groups" + ControlApi.part(group);
+            return ofGroup(group);
         } else if (words.isEmpty() || words.get(0).startsWith("-")) {
             throw control.refused("Name a replay, MISSION.ID, or a group with --group");
         }
         return REPLAYS + ControlApi.part(words.get(0));
+    }
+
+    /** The path of a group. */
+    static String ofGroup(String group) {
+        return REPLAYS + "/groups" + ControlApi.part(group);
     }
 
     /**

@@ -25,8 +25,8 @@ final class ReplayView {
         JsonNode progress = replay.at("/status/progress");
         List<String> lines = new ArrayList<>();
         lines.add("%s  %s".formatted(replay.path("replay").asText(), state(replay)));
-        lines.add(bar(progress, width));
-        lines.add(times(progress));
+        lines.add(bar(replay, width));
+        lines.add(times(replay));
         lines.add(counts(progress));
         lines.add(reason(replay));
         lines.add(notice.isEmpty() ? help ? HELP : "? help" : notice);
@@ -41,7 +41,7 @@ final class ReplayView {
                 .formatted(
                         replay.path("replay").asText(),
                         state(replay),
-                        times(progress),
+                        times(replay),
                         counts(progress),
                         reason.isEmpty() ? "" : "  " + reason);
     }
@@ -62,33 +62,30 @@ final class ReplayView {
                 .formatted(state, atSpeed, replay.at("/status/progress/epoch").asLong(), range);
     }
 
-    private static String bar(JsonNode progress, int width) {
+    /** Of what is played; all of it at the end, also where nothing happened last. */
+    private static String bar(JsonNode replay, int width) {
         int cells = Math.max(4, Math.min(WIDEST_BAR, width - 9));
-        double share = share(progress);
+        boolean ended = replay.at("/status/state").asText().equals("ended");
+        double share = ended
+                ? 1
+                : PlayedPart.of(replay)
+                        .share(replay.at("/status/progress/position").asLong());
         int full = (int) Math.round(cells * share);
         return "[%s%s] %3.0f %%".formatted("#".repeat(full), "·".repeat(cells - full), 100 * share);
     }
 
-    /** Of the recording; 0 where nothing is known. */
-    private static double share(JsonNode progress) {
-        long from = progress.path("from").asLong();
-        long length = progress.path("to").asLong() - from;
-        return length <= 0
-                ? 0
-                : Math.max(0, Math.min(1, (progress.path("position").asLong() - from) / (double) length));
-    }
-
-    private static String times(JsonNode progress) {
+    private static String times(JsonNode replay) {
+        JsonNode progress = replay.at("/status/progress");
         if (!progress.has("position")) {
             return "not begun";
         }
-        long from = progress.path("from").asLong();
+        PlayedPart part = PlayedPart.of(replay);
         long position = progress.path("position").asLong();
         return "%s  %s / %s"
                 .formatted(
                         time(position),
-                        clock(position - from),
-                        clock(progress.path("to").asLong() - from));
+                        clock(position - part.from()),
+                        clock(part.to() - part.from()));
     }
 
     private static String counts(JsonNode progress) {

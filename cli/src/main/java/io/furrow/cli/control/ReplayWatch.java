@@ -19,7 +19,10 @@ import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.model.ngsi.NgsiJson;
 
-/** Follows a replay until it is over: at a terminal drawn in place and steered by keys, elsewhere a line per second, where it says something new. */
+/**
+ * Follows a replay: at a terminal drawn in place and steered by keys, until it is forgotten; elsewhere a line per second where it
+ * says something new, until it comes to its end.
+ */
 final class ReplayWatch implements ControlOptions.Work {
     private static final long DRAW_MILLIS = 200;
     private static final long LINE_MILLIS = 1000;
@@ -59,10 +62,18 @@ final class ReplayWatch implements ControlOptions.Work {
     }
 
     private void print(ReplayEvents events) throws IOException {
-        while (!events.isOver() && pause()) {
+        while (!events.isOver() && !isAtEnd(events.newest()) && pause()) {
             line(events);
         }
         line(events);
+    }
+
+    /** Nobody rewinds it from here. */
+    private static boolean isAtEnd(JsonNode replay) {
+        JsonNode status = replay.path("status");
+        return status.path("state").asText().equals("ended")
+                && status.path("settled").asBoolean()
+                && status.path("sequence").asLong() >= replay.path("sequence").asLong();
     }
 
     private void line(ReplayEvents events) throws IOException {
@@ -100,7 +111,7 @@ final class ReplayWatch implements ControlOptions.Work {
                     && !(key.equals("q") && keys.note().isEmpty())) {
                 if (!key.isEmpty()) {
                     failure = "";
-                    keys.press(key, events.newest()).ifPresent(request -> requests.execute(() -> send(api, request)));
+                    keys.press(key, events.newest()).ifPresent(request -> requests.execute(() -> send(api, steered(events.newest()), request)));
                 }
                 draw(terminal, display, events);
                 key = reader.read(DRAW_MILLIS);
@@ -126,9 +137,16 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    private void send(ControlApi api, ReplayKeys.Request request) {
+    /** A replay of a group is steered with its group. */
+    private String steered(JsonNode replay) {
+        return replay.hasNonNull("group")
+                ? ReplayTarget.ofGroup(replay.path("group").asText())
+                : path;
+    }
+
+    private void send(ControlApi api, String steered, ReplayKeys.Request request) {
         try {
-            String to = request.path().startsWith("/") ? request.path() : path + "/" + request.path();
+            String to = request.path().startsWith("/") ? request.path() : steered + "/" + request.path();
             api.send("POST", to, ControlOptions.object(request.body()));
         } catch (ControlPlaneException e) {
             failure = e.getMessage();

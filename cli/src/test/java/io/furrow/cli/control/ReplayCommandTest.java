@@ -115,6 +115,16 @@ class ReplayCommandTest {
     }
 
     @Test
+    void printsLinesForTheKafkaOfTheCluster() {
+        run("replay", "start", "m", "--analytics", "collision", "--kafka", "kafka:9092");
+
+        assertThat(asked).containsExactly("POST /api/replays {\"mission\":\"m\",\"analytics\":[\"collision\"]}");
+        assertThat(said.toString())
+                .contains("--input data.m.replay.0a1b2c3d --bootstrap-servers kafka:9092")
+                .doesNotContain("127.0.0.1:9092");
+    }
+
+    @Test
     void asksForAGroup() {
         answer = "{\"status\":\"created\",\"group\":\"0a1b2c3d\",\"replays\":[\"m.0a1b2c3d\",\"n.0a1b2c3d\"]}";
 

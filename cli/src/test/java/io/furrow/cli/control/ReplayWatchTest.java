@@ -8,6 +8,7 @@ import java.io.StringWriter;
 import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
+import java.time.Duration;
 import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.List;
@@ -34,6 +35,7 @@ import io.furrow.model.ngsi.NgsiJson;
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
+import static org.junit.jupiter.api.Assertions.assertTimeoutPreemptively;
 
 class ReplayWatchTest {
     private static final String PATH = "/api/replays/m.0a1b2c3d";
@@ -171,6 +173,47 @@ class ReplayWatchTest {
         }
     }
 
+    @Test
+    void steersTheGroupOfAReplayThatHasOne() throws Exception {
+        PipedInputStream typed = new PipedInputStream();
+        PipedOutputStream keyboard = new PipedOutputStream(typed);
+        ControlApi api = new ControlApi(api(), null);
+        String member = replay("running").replace("\"mission\"", "\"group\":\"0a1b2c3d\",\"mission\"");
+        try (ExternalTerminal terminal =
+                        new ExternalTerminal("test", "ansi", typed, new ByteArrayOutputStream(), UTF_8);
+                ReplayEvents status = new ReplayEvents(api, PATH, NgsiJson.read(member.getBytes(UTF_8)))) {
+            terminal.setSize(new Size(60, 20));
+            status.start();
+            Thread watch = new Thread(() -> steer(terminal, status, api));
+            watch.start();
+
+            type(keyboard, " ");
+            assertThat(requests.take()).isEqualTo("/api/replays/groups/0a1b2c3d/pause {}");
+            type(keyboard, "\033[C");
+            assertThat(requests.take()).isEqualTo("/api/replays/groups/0a1b2c3d/seek {\"to\":1777600040000}");
+            type(keyboard, "mh\n");
+            assertThat(requests.take()).as("of its own mission").startsWith("/api/missions/m/markers ");
+            type(keyboard, "q");
+            watch.join(60_000);
+            assertThat(watch.isAlive()).isFalse();
+        }
+    }
+
+    @Test
+    void printsNoMoreOfAReplayThatRestsAtItsEnd() {
+        events.add(event("status", replay("running")));
+        events.add(event("status", replay("ended").replace("\"ended\"", "\"ended\",\"settled\":true")));
+        StringWriter said = new StringWriter();
+        CommandLine line = Commands.commandLine(CommandSpec.create().name("furrow"));
+        line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
+
+        assertTimeoutPreemptively(
+                Duration.ofMinutes(1),
+                () -> line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()));
+
+        assertThat(said.toString().lines()).last().asString().startsWith("m.0a1b2c3d  ended");
+    }
+
     private static void steer(ExternalTerminal terminal, ReplayEvents status, ControlApi api) {
         try {
             new ReplayWatch(null, PATH).steer(terminal, status, api);
@@ -217,6 +260,41 @@ class ReplayWatchTest {
         assertThat(keys.message()).contains("Pause it first");
         assertThat(keys.press(",", json("paused"))).get().hasToString("Request[path=step, body={count=-1}]");
         assertThat(keys.press(" ", json("paused"))).get().hasToString("Request[path=resume, body={}]");
+    }
+
+    @Test
+    void stepsBackFromTheEnd() throws Exception {
+        ReplayKeys keys = new ReplayKeys();
+
+        assertThat(keys.press(",", json("ended"))).get().hasToString("Request[path=step, body={count=-1}]");
+        assertThat(keys.press(".", json("ended"))).isEmpty();
+        assertThat(keys.message()).contains("has ended");
+    }
+
+    @Test
+    void seeksWithinWhatIsPlayed() throws Exception {
+        JsonNode part = part("running");
+
+        assertThat(new ReplayKeys().press("[", part)).get().hasToString("Request[path=seek, body={to=1777600020000}]");
+        assertThat(new ReplayKeys().press("]", part)).get().hasToString("Request[path=seek, body={to=1777600039999}]");
+    }
+
+    @Test
+    void showsTheShareOfWhatIsPlayed() throws Exception {
+        assertThat(ReplayView.block(part("running"), "", false, 80))
+                .contains("[" + "#".repeat(30) + "·".repeat(30) + "]  50 %", "2026-05-01T01:47:10Z  0:00:10 / 0:00:20");
+        assertThat(ReplayView.block(part("ended"), "", false, 80)).contains("[" + "#".repeat(60) + "] 100 %");
+        JsonNode range = NgsiJson.read(replay("running")
+                .replace("\"mission\"", "\"range\":{\"from\":1777600030000,\"to\":1777600050000},\"mission\"")
+                .getBytes(UTF_8));
+        assertThat(ReplayView.block(range, "", false, 80)).contains("[" + "·".repeat(60) + "]   0 %");
+    }
+
+    /** Of the recording's minute what is from 20 s to 40 s. */
+    private static JsonNode part(String state) throws Exception {
+        return NgsiJson.read(replay(state)
+                .replace("\"mission\"", "\"from\":1777600020000,\"to\":1777600040000,\"mission\"")
+                .getBytes(UTF_8));
     }
 
     @Test

@@ -2,10 +2,12 @@ package io.furrow.control.replay;
 
 import java.util.List;
 import java.util.function.Function;
+import java.util.stream.LongStream;
 
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.RecordedMission;
+import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.TopicName;
 
 /**
@@ -31,6 +33,35 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
     private RecordedMission known(String mission) {
         RecordedMission listed = find.apply(mission);
         return listed == null ? find.apply(TopicName.of(mission)) : listed;
+    }
+
+    /**
+     * Refuses a time that a replay does not play: outside of its recording, as far as that is known, or of what is requested of it.
+     *
+     * @param time of an event, epoch ms
+     * @param reported null if nothing was reported of the replay
+     */
+    void requireWithin(long time, WantedReplay replay, ReportedReplay reported) throws RefusedException {
+        RecordedMission listed = replay.plan().source() == null ? known(replay.mission()) : null;
+        LongStream.Builder firsts = LongStream.builder();
+        LongStream.Builder lasts = LongStream.builder();
+        if (listed != null) {
+            firsts.add(listed.first());
+            lasts.add(listed.last());
+        }
+        if (reported != null && reported.first() != null) {
+            firsts.add(reported.first());
+            lasts.add(reported.last());
+        }
+        long begin = replay.from(firsts.build().min().orElse(0));
+        long end = Math.min(lasts.build().max().orElse(Long.MAX_VALUE), replay.to() - 1);
+        if (time < begin || time > end) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_MEMBER,
+                    time < begin
+                            ? "'to' must be at least %d, where %s begins".formatted(begin, replay.replay())
+                            : "'to' must be at most %d, where %s ends".formatted(end, replay.replay()));
+        }
     }
 
     /**

@@ -4,9 +4,11 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Objects;
 import java.util.UUID;
 import java.util.function.Supplier;
 
+import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.record.Records;
@@ -25,7 +27,7 @@ import io.furrow.model.topic.Topics;
  * Grants or refuses what is asked of replays, and says on {@code service.replays} what is requested of them. The executor says on
  * {@code service.replays.status} what came of it.
  */
-final class ReplayCommandHandler {
+final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     /** Of a request, epoch ms; a recording may hold events of other times. */
     private static final long LAST_TIME = Instant.parse("9999-12-31T23:59:59Z").toEpochMilli();
 
@@ -34,29 +36,44 @@ final class ReplayCommandHandler {
     private static final String GROUP = "group";
 
     private final Records<WantedReplay> replays;
+    private final ReplayReports reports;
     private final RecordedMissions recordings;
     private final ReplayNames names;
     private final Sequence sequence;
     private final Quota quota;
+    private final Duration keepEnded;
     private final EventPublisher outbox;
 
-    /** @param counters of the sequence, and of the room that is used */
+    /**
+     * @param stores of the replays
+     * @param ids of new replays
+     * @param keepEnded how long a replay rests at its end, from where it can be played again
+     */
     ReplayCommandHandler(
-            Records<WantedReplay> replays,
+            ReplayStores stores,
             RecordedMissions recordings,
-            Records<Long> counters,
             Supplier<UUID> ids,
+            Duration keepEnded,
             EventPublisher outbox) {
-        this.replays = replays;
+        this.replays = stores.replays();
+        this.reports = new ReplayReports(stores.reports());
         this.recordings = recordings;
         this.names = new ReplayNames(replays, ids);
-        this.sequence = new Sequence(counters);
-        this.quota = new Quota(counters, Limits.DEFINITIONS_BYTES);
+        this.sequence = new Sequence(stores.counters());
+        this.quota = new Quota(stores.counters(), Limits.DEFINITIONS_BYTES);
+        this.keepEnded = keepEnded;
         this.outbox = outbox;
     }
 
-    /** @param now epoch ms */
-    CommandResult answer(ReplayCommand command, long now) throws RefusedException {
+    /**
+     * What is remembered of replays.
+     *
+     * @param counters of the sequence, and of the room that is used
+     */
+    record ReplayStores(Records<WantedReplay> replays, Records<ReportedReplay> reports, Records<Long> counters) {}
+
+    @Override
+    public CommandResult answer(ReplayCommand command, long now) throws RefusedException {
         if (command instanceof ReplayCommand.Start start) {
             check(start, now);
             return start.isGroup() ? startGroup(start, now) : start(start, now);
@@ -139,30 +156,43 @@ final class ReplayCommandHandler {
                     "replay '%s' follows the clock of group '%s'; steer the group"
                             .formatted(known.replay(), known.group()));
         }
-        check(steering, known);
-        WantedReplay next = next(steering, known);
+        ReplayStatus.State state = reports.state(known);
+        ReplayReports.check(steering, state);
+        if (steering instanceof ReplayCommand.Seek seek) {
+            recordings.requireWithin(seek.to().toEpochMilli(), known, reports.get(known));
+        }
+        WantedReplay next = next(steering, known, state);
         keep(known, next);
-        return CommandResult.of(word(next)).with(REPLAY, next.replay());
+        return CommandResult.of(word(known, state, next)).with(REPLAY, next.replay());
     }
 
     private CommandResult steerGroup(ReplayCommand.Steering steering, long now) throws RefusedException {
-        List<WantedReplay> known = new ArrayList<>();
-        replays.forEach(each -> {
-            if (steering.target().group().equals(each.group())) {
-                known.add(each);
-            }
-        });
+        List<WantedReplay> known = members(steering.target().group());
         if (known.isEmpty()) {
             throw unknown(steering);
         }
         ReplayGroup group = new ReplayGroup(known);
         group.check(steering);
-        check(steering, known.get(0));
+        ReplayStatus.State state = reports.state(known);
+        ReplayReports.check(steering, state);
         List<WantedReplay> next = group.steered(steering, now, sequence.next());
         for (int i = 0; i < next.size(); i++) {
             keep(known.get(i), next.get(i));
         }
-        return about(CommandResult.of(word(next.get(0))), steering.target().group(), next);
+        return about(
+                CommandResult.of(word(known.get(0), state, next.get(0))),
+                steering.target().group(),
+                next);
+    }
+
+    private List<WantedReplay> members(String group) {
+        List<WantedReplay> members = new ArrayList<>();
+        replays.forEach(each -> {
+            if (group.equals(each.group())) {
+                members.add(each);
+            }
+        });
+        return members;
     }
 
     private static CommandResult about(CommandResult answer, String group, List<WantedReplay> members) {
@@ -170,10 +200,13 @@ final class ReplayCommandHandler {
                 .with("replays", members.stream().map(WantedReplay::replay).toList());
     }
 
-    private static String word(WantedReplay next) {
-        return next.wanted() == ReplayStatus.State.STOPPED
-                ? "deleted"
-                : next.wanted().word();
+    /** What became of it: a replay that is over is neither running nor paused until it shall play again. */
+    private static String word(WantedReplay known, ReplayStatus.State state, WantedReplay next) {
+        if (next.wanted() == ReplayStatus.State.STOPPED) {
+            return "deleted";
+        }
+        boolean playsAgain = !Objects.equals(known.seek(), next.seek()) || !Objects.equals(known.step(), next.step());
+        return state.isOver() && !playsAgain ? "changed" : next.wanted().word();
     }
 
     private static RefusedException unknown(ReplayCommand.Steering steering) {
@@ -181,54 +214,59 @@ final class ReplayCommandHandler {
                 ErrorCode.UNKNOWN_REPLAY, "there is no %s, or it is over".formatted(steering.target()));
     }
 
-    private static void check(ReplayCommand.Steering steering, WantedReplay known) throws RefusedException {
-        boolean needsRunning =
-                steering instanceof ReplayCommand.Simple simple && simple.what() == ReplayCommand.Verb.PAUSE;
-        boolean needsPaused = steering instanceof ReplayCommand.Step
-                || steering instanceof ReplayCommand.Simple simple && simple.what() == ReplayCommand.Verb.RESUME;
-        boolean fits = (!needsRunning || known.wanted() == ReplayStatus.State.RUNNING)
-                && (!needsPaused || known.wanted() == ReplayStatus.State.PAUSED)
-                && known.wanted() != ReplayStatus.State.STOPPED;
-        if (!fits) {
-            throw new RefusedException(
-                    ErrorCode.WRONG_STATE,
-                    "%s is %s, which '%s' cannot change"
-                            .formatted(steering.target(), known.wanted().word(), steering.verb()));
-        }
-    }
-
-    private WantedReplay next(ReplayCommand.Steering steering, WantedReplay known) {
+    /** @param state in which it is */
+    private WantedReplay next(ReplayCommand.Steering steering, WantedReplay known, ReplayStatus.State state) {
+        long number = sequence.next();
         if (steering instanceof ReplayCommand.Seek seek) {
-            return known.seeking(seek.to().toEpochMilli(), sequence.next());
+            return known.seeking(seek.to().toEpochMilli(), number);
         } else if (steering instanceof ReplayCommand.Speed speed) {
-            return known.at(speed.speed(), sequence.next());
+            return known.at(speed.speed(), number);
         } else if (steering instanceof ReplayCommand.Step step) {
-            return known.stepping(step.count(), sequence.next());
-        }
-        if (steering instanceof ReplayCommand.Loop loop) {
-            return known.within(loop.range(), sequence.next());
+            return known.wanted(ReplayStatus.State.PAUSED, number).stepping(step.count(), number);
+        } else if (steering instanceof ReplayCommand.Loop loop) {
+            WantedReplay within = known.within(loop.range(), number);
+            return state.isOver() && loop.range() != null ? within.seeking(within.from(0), number) : within;
         }
         return switch (((ReplayCommand.Simple) steering).what()) {
-            case STOP -> known.wanted(ReplayStatus.State.STOPPED, sequence.next());
-            case PAUSE -> known.wanted(ReplayStatus.State.PAUSED, sequence.next());
-            case RESUME -> known.wanted(ReplayStatus.State.RUNNING, sequence.next());
+            case STOP -> known.wanted(ReplayStatus.State.STOPPED, number);
+            case PAUSE -> known.wanted(ReplayStatus.State.PAUSED, number);
+            case RESUME -> known.wanted(ReplayStatus.State.RUNNING, number);
         };
     }
 
-    /**
-     * Forgets a replay that is over for good, unless something was asked of it since. What is reported of a replay that continues, several
-     * times a second, is not looked up.
-     */
-    void reported(String replay, ReplayStatus told) {
-        if (!told.state().isOver() || !told.settled()) {
+    /** Forgets a replay that was stopped or has failed for good, unless something was asked of it since; one that ended rests. */
+    void reported(String replay, ReplayStatus told, long now) {
+        if (!replays.contains(replay)) {
             return;
         }
-        WantedReplay known = replays.get(replay);
-        if (known != null && told.sequence() >= known.sequence()) {
-            quota.use(-known.toBytes().length);
-            replays.put(replay, null);
-            outbox.put(Topics.REPLAYS, replay, null);
+        reports.take(replay, told, now);
+        if (told.state().isOver() && told.settled() && told.state() != ReplayStatus.State.ENDED) {
+            WantedReplay known = replays.get(replay);
+            if (told.sequence() >= known.sequence()) {
+                remove(known);
+            }
         }
+    }
+
+    /** Forgets replays that have rested at their ends for long enough; those of a group together. */
+    @Override
+    public void passTime(long now) {
+        List<WantedReplay> rested = reports.endedBy(now - keepEnded.toMillis()).stream()
+                .map(replays::get)
+                .filter(each -> reports.state(each).isOver())
+                .toList();
+        for (WantedReplay each : rested) {
+            if (each.group() == null || rested.containsAll(members(each.group()))) {
+                remove(each);
+            }
+        }
+    }
+
+    private void remove(WantedReplay known) {
+        quota.use(-known.toBytes().length);
+        replays.put(known.replay(), null);
+        reports.remove(known.replay());
+        outbox.put(Topics.REPLAYS, known.replay(), null);
     }
 
     /** @param before null if there was none */

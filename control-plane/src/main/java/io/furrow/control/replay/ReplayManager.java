@@ -34,6 +34,7 @@ import io.furrow.model.topic.Topics;
 /** Answers {@code service.replaymanager}, keeps {@code service.replays}, reads {@code service.replays.status} and {@code service.recordings}. */
 public final class ReplayManager {
     private static final String REPLAYS = "replays";
+    private static final String REPORTS = "replay-reports";
     private static final String SEQUENCE = "replay-sequence";
     private static final String RECORDINGS = "recordings";
     private static final ManagerTopic<ReplayCommand> TOPIC = ManagerTopic.REPLAY;
@@ -45,22 +46,22 @@ public final class ReplayManager {
     /**
      * @param remembered how long ids of requests are
      * @param ids of new replays
-     * @param knowsRecordings whether missions that {@code service.recordings} does not list are refused
      */
-    public static void add(StreamsBuilder builder, Duration remembered, Supplier<UUID> ids, boolean knowsRecordings) {
+    public static void add(StreamsBuilder builder, Duration remembered, Supplier<UUID> ids, ReplaySettings settings) {
         builder.addGlobalStore(
                 StoredRecords.builder(RECORDINGS).withLoggingDisabled(),
                 Topics.RECORDINGS,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("recordings-in"),
                 () -> new GlobalStoreProcessor(RECORDINGS));
         builder.addStateStore(StoredRecords.builder(REPLAYS));
+        builder.addStateStore(StoredRecords.builder(REPORTS));
         builder.addStateStore(StoredRecords.builder(SEQUENCE));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<ReplayCommand>> opening =
-                (context, outbox) -> handler(context, outbox, ids, knowsRecordings)::answer;
+                (context, outbox) -> handler(context, outbox, ids, settings);
         BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> reports = (context, outbox) -> {
-            ReplayCommandHandler handler = handler(context, outbox, ids, knowsRecordings);
-            return (key, value, now) -> handler.reported(key, ReplayStatus.read(value));
+            ReplayCommandHandler handler = handler(context, outbox, ids, settings);
+            return (key, value, now) -> handler.reported(key, ReplayStatus.read(value), now);
         };
 
         OutputRecord.send(
@@ -69,6 +70,7 @@ public final class ReplayManager {
                                 () -> new CommandProcessor<>(TOPIC, remembered, opening),
                                 Named.as("answer-replay-requests"),
                                 REPLAYS,
+                                REPORTS,
                                 SEQUENCE,
                                 TOPIC.answers()),
                 "replays-out");
@@ -79,6 +81,7 @@ public final class ReplayManager {
                                 () -> new StatusProcessor(reports),
                                 Named.as("take-replay-statuses"),
                                 REPLAYS,
+                                REPORTS,
                                 SEQUENCE),
                 "ended-replays-out");
     }
@@ -102,14 +105,18 @@ public final class ReplayManager {
     }
 
     private static ReplayCommandHandler handler(
-            ProcessorContext<?, ?> context, EventPublisher outbox, Supplier<UUID> ids, boolean knowsRecordings) {
+            ProcessorContext<?, ?> context, EventPublisher outbox, Supplier<UUID> ids, ReplaySettings settings) {
         Records<RecordedMission> recordings =
                 StoredRecords.of(context, RECORDINGS, RecordedMission::toBytes, ReplayManager::listed);
-        return new ReplayCommandHandler(
+        ReplayCommandHandler.ReplayStores stores = new ReplayCommandHandler.ReplayStores(
                 StoredRecords.of(context, REPLAYS, WantedReplay::toBytes, ReplayManager::kept),
-                new RecordedMissions(knowsRecordings, recordings::get),
-                StoredRecords.of(context, SEQUENCE, Long.class),
+                StoredRecords.of(context, REPORTS, ReportedReplay.class),
+                StoredRecords.of(context, SEQUENCE, Long.class));
+        return new ReplayCommandHandler(
+                stores,
+                new RecordedMissions(settings.knowsRecordings(), recordings::get),
                 ids,
+                settings.keepEnded(),
                 outbox);
     }
 }

@@ -10,33 +10,39 @@ import java.util.Objects;
  * @param database of the missions
  * @param pollInterval between two looks at the names of the stored missions
  * @param grace how long topics of a replay are kept after it was over
+ * @param keepEnded how long a replay that came to its end can be played again
  */
-public record ReplaySettings(String mongo, String database, Duration pollInterval, Duration grace) {
-    /** No MongoDB; topics are kept for an hour. */
+public record ReplaySettings(String mongo, String database, Duration pollInterval, Duration grace, Duration keepEnded) {
+    /** No MongoDB; topics and replays that ended are kept for an hour. */
     public static final ReplaySettings DEFAULT =
-            new ReplaySettings(null, "persistence", Duration.ofSeconds(2), Duration.ofHours(1));
+            new ReplaySettings(null, "persistence", Duration.ofSeconds(2), Duration.ofHours(1), Duration.ofHours(1));
 
     public ReplaySettings {
         Objects.requireNonNull(database);
         Objects.requireNonNull(pollInterval);
         Objects.requireNonNull(grace);
+        Objects.requireNonNull(keepEnded);
     }
 
     /** @param uri null for none */
     public ReplaySettings withMongo(String uri) {
-        return new ReplaySettings(uri, database, pollInterval, grace);
+        return new ReplaySettings(uri, database, pollInterval, grace, keepEnded);
     }
 
     public ReplaySettings withDatabase(String name) {
-        return new ReplaySettings(mongo, name, pollInterval, grace);
+        return new ReplaySettings(mongo, name, pollInterval, grace, keepEnded);
     }
 
     public ReplaySettings withPollInterval(Duration interval) {
-        return new ReplaySettings(mongo, database, interval, grace);
+        return new ReplaySettings(mongo, database, interval, grace, keepEnded);
     }
 
     public ReplaySettings withGrace(Duration time) {
-        return new ReplaySettings(mongo, database, pollInterval, time);
+        return new ReplaySettings(mongo, database, pollInterval, time, keepEnded);
+    }
+
+    public ReplaySettings withKeepEnded(Duration time) {
+        return new ReplaySettings(mongo, database, pollInterval, grace, time);
     }
 
     /** Whether it is known which missions are stored. */
@@ -47,7 +53,7 @@ public record ReplaySettings(String mongo, String database, Duration pollInterva
     /** Holds no password. */
     @Override
     public String toString() {
-        return "replays of %s, polled every %s, kept for %s"
-                .formatted(mongo == null ? "no MongoDB" : database, pollInterval, grace);
+        return "replays of %s, polled every %s, topics kept for %s, ended replays for %s"
+                .formatted(mongo == null ? "no MongoDB" : database, pollInterval, grace, keepEnded);
     }
 }

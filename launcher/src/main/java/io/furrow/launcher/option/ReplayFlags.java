@@ -38,17 +38,26 @@ public final class ReplayFlags {
             description = "How long topics of a replay are kept after it was over. Default: ${DEFAULT-VALUE}.")
     private Duration grace;
 
+    @Option(
+            names = "--keep-ended-replays",
+            paramLabel = "DURATION",
+            defaultValue = "1h",
+            description =
+                    "How long a replay that came to its end can be sought and stepped back in. Default: ${DEFAULT-VALUE}.")
+    private Duration keepEnded;
+
     /** @throws CommandException where they cannot be used */
     public ReplaySettings settings() {
-        if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative()) {
+        if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative() || keepEnded.isNegative()) {
             throw new CommandException(
-                    "--mongo-poll is at least 100ms, and --replay-grace not negative; they are %s and %s."
-                            .formatted(poll, grace));
+                    "--mongo-poll is at least 100ms, and --replay-grace and --keep-ended-replays are not negative; they are %s, %s and %s."
+                            .formatted(poll, grace, keepEnded));
         }
         return ReplaySettings.DEFAULT
                 .withMongo(mongo)
                 .withDatabase(database)
                 .withPollInterval(poll)
-                .withGrace(grace);
+                .withGrace(grace)
+                .withKeepEnded(keepEnded);
     }
 }

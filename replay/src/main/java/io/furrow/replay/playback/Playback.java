@@ -211,7 +211,8 @@ public final class Playback {
 
     /** Takes what was read; a record that this ends the epoch with is returned. */
     public Optional<Played> take(Fetched fetched, long now) {
-        if (fetched.epoch() != at.epoch() || at.phase().isOver()) {
+        boolean awaited = !isOver() || goesBackFromEnd() && !(fetched instanceof Fetched.More);
+        if (fetched.epoch() != at.epoch() || !awaited) {
             return Optional.empty();
         }
         if (fetched instanceof Fetched.Waiting away) {
@@ -304,6 +305,9 @@ public final class Playback {
             Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
             String reason = wanted.loops() && !again ? "there is no event to play over and over" : null;
             at = Moves.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
+            if (!again) {
+                startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
+            }
             return Optional.of(end);
         }
         StoredEvent next = isAtEnd() ? null : next();
@@ -348,8 +352,9 @@ public final class Playback {
         return isHeld() && !isOfGroup() && (repeats || steps);
     }
 
+    /** Also from its end. */
     private boolean wantsBack() {
-        return at.phase() == Phase.PLAYING
+        return (at.phase() == Phase.PLAYING || at.phase() == Phase.ENDED)
                 && at.goal() == null
                 && isHeld()
                 && !isOfGroup()
@@ -425,6 +430,15 @@ public final class Playback {
 
     public boolean isOver() {
         return at.phase().isOver();
+    }
+
+    /** Whether it is over and waits for nothing to be read. */
+    public boolean rests() {
+        return isOver() && !goesBackFromEnd();
+    }
+
+    private boolean goesBackFromEnd() {
+        return at.phase() == Phase.ENDED && fetching;
     }
 
     /** By how much the newest event was behind its schedule, ms. */

@@ -171,8 +171,8 @@ final class RunningReplay {
             write(played.get(), out);
         }
         reports.report(playback, now, out);
-        if (playback.isOver() != rests) {
-            rests = playback.isOver();
+        if (playback.rests() != rests) {
+            rests = playback.rests();
             if (rests) {
                 pages.rest();
             }

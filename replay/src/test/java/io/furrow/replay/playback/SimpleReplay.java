@@ -23,6 +23,9 @@ final class SimpleReplay {
     private List<StoredEvent> pass;
     private boolean open;
     private boolean between;
+    /** Whether it has come to its end, from which one can go back. */
+    private boolean ended;
+
     private long epoch = -1;
     private long number;
     private long offset;
@@ -71,6 +74,7 @@ final class SimpleReplay {
         if (next.wanted() == State.STOPPED) {
             end("stopped", now);
             between = false;
+            ended = false;
         } else if (jump) {
             end("seek", now);
             begin(next.seek().to(), now);
@@ -126,6 +130,7 @@ final class SimpleReplay {
         beginning = point;
         open = true;
         between = false;
+        ended = false;
         began = now;
         anchor(now, point);
         reached = point;
@@ -153,8 +158,10 @@ final class SimpleReplay {
 
     private void goOn(long from, long until) {
         long now = from;
-        while (open || between) {
-            if (between) {
+        while (open || between || ended && isPaused() && total() < stepsDone) {
+            if (ended) {
+                back(now);
+            } else if (between) {
                 long next = Math.max(now, began + 1000);
                 if (next > until) {
                     return;
@@ -180,6 +187,7 @@ final class SimpleReplay {
                         && (played || beginning > from(recording.get(0).time()));
                 end(again ? "loop" : "ended", now);
                 between = again;
+                ended = !again;
             } else if (isPaused()) {
                 if (repeated == null && total() <= stepsDone) {
                     return;

@@ -5,6 +5,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 
@@ -23,6 +24,7 @@ final class MemoryRecordings implements Recordings {
     private static final long serialVersionUID = 1L;
 
     private final transient Map<String, List<StoredEvent>> missions = new ConcurrentHashMap<>();
+    private final transient AtomicInteger open = new AtomicInteger();
     private volatile boolean away;
 
     /** Events of the entity {@code urn:x} at these times. */
@@ -49,6 +51,11 @@ final class MemoryRecordings implements Recordings {
         away = isAway;
     }
 
+    /** How many recordings are open. */
+    int open() {
+        return open.get();
+    }
+
     @Override
     public Optional<Recording> open(String mission) throws RecordingException {
         if (mission.equals("stuck")) {
@@ -71,6 +78,7 @@ final class MemoryRecordings implements Recordings {
 
         InMemory(List<StoredEvent> events) {
             this.events = events;
+            open.incrementAndGet();
         }
 
         @Override
@@ -98,7 +106,7 @@ final class MemoryRecordings implements Recordings {
 
         @Override
         public void close() {
-            // holds nothing
+            open.decrementAndGet();
         }
     }
 }

@@ -25,6 +25,7 @@ import io.furrow.replay.playback.PlaybackState;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
 
 class ReplayReaderTest {
     private static final long TIME = 1_700_000_000_000L;
@@ -201,6 +202,53 @@ class ReplayReaderTest {
         play("m", "end", 1);
 
         assertThat(played("m", "event")).extracting(TopicRecord::timestamp).endsWith(TIME + 20);
+    }
+
+    @Test
+    void playsAgainFromItsEndInANewEpoch() throws Exception {
+        missions.with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
+        WantedReplay running = wanted("m", ReplayCommand.MAX, State.RUNNING, 1);
+        start(running);
+        play("m", "end", 1);
+        await().until(() -> missions.open() == 0);
+        restart();
+
+        wish(running.seeking(TIME + 20, 2));
+        play("m", "end", 2);
+        assertThat(played("m", "event")).hasSize(6);
+        await().until(() -> missions.open() == 0);
+
+        WantedReplay back = running.wanted(State.PAUSED, 3).stepping(-2, 3);
+        wish(back);
+        playUntil(() -> status("m").state() == State.PAUSED && status("m").progress().events() == 1);
+        assertThat(status("m").progress().epoch()).isEqualTo(2);
+        assertThat(status("m").progress().position()).isEqualTo(TIME + 10);
+        assertThat(missions.open()).isEqualTo(1);
+        wish(back.wanted(State.RUNNING, 4));
+        play("m", "end", 3);
+        assertThat(played("m", "event"))
+                .extracting(record -> record.headers().get(HeaderNames.REPLAY_EPOCH))
+                .containsExactly("0", "0", "0", "0", "1", "1", "2", "2", "2");
+        await().until(() -> missions.open() == 0);
+    }
+
+    @Test
+    void restsAgainWhereNobodyWaitsForAStepBackFromItsEnd() throws Exception {
+        missions.with("m", TIME, TIME + 10);
+        WantedReplay running = wanted("m", ReplayCommand.MAX, State.RUNNING, 1);
+        start(running);
+        play("m", "end", 1);
+        await().until(() -> missions.open() == 0);
+        missions.setAway(true);
+        wish(running.wanted(State.PAUSED, 2).stepping(-1, 2));
+        playUntil(() -> status("m").progress().waiting() != null);
+        wish(running.wanted(State.RUNNING, 3));
+        missions.setAway(false);
+
+        playUntil(() -> status("m").sequence() == 3 && status("m").progress().waiting() == null);
+        await().until(() -> missions.open() == 0);
+        assertThat(status("m").state()).isEqualTo(State.ENDED);
+        assertThat(played("m", "end")).hasSize(1);
     }
 
     @Test

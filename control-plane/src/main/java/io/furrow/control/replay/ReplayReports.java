@@ -1,0 +1,91 @@
+package io.furrow.control.replay;
+
+import java.util.ArrayList;
+import java.util.List;
+
+import io.furrow.control.manager.record.Records;
+import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.ReplayCommand;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.ReplayStatus.State;
+import io.furrow.model.control.replay.WantedReplay;
+
+/** The actual state of desired replays, as reported, and what of a command fits it. */
+final class ReplayReports {
+    private final Records<ReportedReplay> reports;
+
+    ReplayReports(Records<ReportedReplay> reports) {
+        this.reports = reports;
+    }
+
+    /** Stores what is different from the report before. @param now epoch ms */
+    void take(String replay, ReplayStatus told, long now) {
+        ReportedReplay before = reports.get(replay);
+        ReportedReplay next = ReportedReplay.of(replay, told, before, now);
+        if (!next.equals(before)) {
+            reports.put(replay, next);
+        }
+    }
+
+    void remove(String replay) {
+        reports.put(replay, null);
+    }
+
+    /** Null if nothing was reported. */
+    ReportedReplay get(WantedReplay replay) {
+        return reports.get(replay.replay());
+    }
+
+    /** What was reported, where nothing more comes of what is desired; else what is desired. */
+    State state(WantedReplay replay) {
+        ReportedReplay told = get(replay);
+        return told != null && told.isOver(replay.sequence()) && replay.wanted() != State.STOPPED
+                ? told.state()
+                : replay.wanted();
+    }
+
+    /** Of a group that is over when all of its members are. */
+    State state(List<WantedReplay> members) {
+        WantedReplay one = members.get(0);
+        return members.stream().allMatch(each -> state(each).isOver()) ? state(one) : one.wanted();
+    }
+
+    /** Names of those that had come to their ends by a moment. @param moment epoch ms */
+    List<String> endedBy(long moment) {
+        List<String> names = new ArrayList<>();
+        reports.forEach(each -> {
+            if (each.ended() != null && each.ended() <= moment) {
+                names.add(each.replay());
+            }
+        });
+        return names;
+    }
+
+    /** @throws RefusedException where a command cannot change what is in this state */
+    static void check(ReplayCommand.Steering steering, State state) throws RefusedException {
+        boolean pauses = isSimple(steering, ReplayCommand.Verb.PAUSE);
+        boolean resumes = isSimple(steering, ReplayCommand.Verb.RESUME);
+        boolean fits = switch (state) {
+            case RUNNING -> !resumes && !(steering instanceof ReplayCommand.Step);
+            case PAUSED -> !pauses;
+            case ENDED -> !pauses && !resumes && !(steering instanceof ReplayCommand.Step step && step.count() > 0);
+            case FAILED -> !pauses && !resumes && !(steering instanceof ReplayCommand.Step);
+            case STOPPED -> false;
+        };
+        if (!fits) {
+            throw new RefusedException(
+                    ErrorCode.WRONG_STATE,
+                    "%s is %s, which '%s' cannot change%s"
+                            .formatted(
+                                    steering.target(),
+                                    state.word(),
+                                    steering.verb(),
+                                    state == State.ENDED ? "; 'seek' plays it again" : ""));
+        }
+    }
+
+    private static boolean isSimple(ReplayCommand.Steering steering, ReplayCommand.Verb verb) {
+        return steering instanceof ReplayCommand.Simple simple && simple.what() == verb;
+    }
+}
