@@ -13,8 +13,8 @@ import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
-import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
@@ -243,18 +243,14 @@ class ControlTopologyTest {
     }
 
     private CommandResult steer(String replay, String command) {
-        farm.ask(
-                Topics.REPLAY_MANAGER,
-                null,
-                "{'type':'request','replay':'" + replay + "','command':" + command + "}");
+        farm.ask(Topics.REPLAY_MANAGER, null, "{'type':'request','replay':'" + replay + "','command':" + command + "}");
         return ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
     }
 
     /** Its recording lasts from 1 s to 9 s. */
     private void report(String replay, long sequence, ReplayStatus.State state, boolean settled) {
         String status = """
-                {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}"""
-                .formatted(sequence, state.word(), settled);
+                {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}""".formatted(sequence, state.word(), settled);
         farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(StandardCharsets.UTF_8));
     }
 
@@ -269,7 +265,8 @@ class ControlTopologyTest {
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
 
         assertThat(steer(replay, "'seek','to':5000").status()).isEqualTo("running");
-        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value())).contains("\"seek\":{\"to\":5000,\"sequence\":2}");
+        assertThat(ManagedFarm.text(farm.only(Topics.REPLAYS).value()))
+                .contains("\"seek\":{\"to\":5000,\"sequence\":2}");
         farm.pass(Duration.ofMinutes(61));
         assertThat(farm.read(Topics.REPLAYS)).as("sought, and not played yet").isEmpty();
         report(replay, 2, ReplayStatus.State.RUNNING, false);
@@ -317,7 +314,11 @@ class ControlTopologyTest {
         }
         assertThat(steer(replay, "'stop'").status()).isEqualTo("deleted");
         report(replay, 3, ReplayStatus.State.STOPPED, true);
-        assertThat(farm.read(Topics.REPLAYS)).hasSize(3).last().extracting(TestRecord::value).isNull();
+        assertThat(farm.read(Topics.REPLAYS))
+                .hasSize(3)
+                .last()
+                .extracting(TestRecord::value)
+                .isNull();
     }
 
     @Test
@@ -330,7 +331,9 @@ class ControlTopologyTest {
     @Test
     void refusesASeekToWhatIsNotPlayed() {
         String whole = startReplay("");
-        assertThat(steer(whole, "'seek','to':99000").error()).as("of what nobody knows").isEmpty();
+        assertThat(steer(whole, "'seek','to':99000").error())
+                .as("of what nobody knows")
+                .isEmpty();
         report(whole, 2, ReplayStatus.State.RUNNING, false);
         String part = startReplay(",'from':2000,'to':8000");
         report(part, 3, ReplayStatus.State.RUNNING, false);
@@ -342,7 +345,9 @@ class ControlTopologyTest {
             assertThat(refused.json().path("reason").asText()).containsAnyOf("at least 1000", "at most 9000");
         }
         for (String outside : List.of("1999", "8000")) {
-            assertThat(steer(part, "'seek','to':" + outside).error()).as(outside).contains("wrong-member");
+            assertThat(steer(part, "'seek','to':" + outside).error())
+                    .as(outside)
+                    .contains("wrong-member");
         }
         assertThat(farm.read(Topics.REPLAYS)).isEmpty();
         for (String inside : List.of("1000", "9000")) {

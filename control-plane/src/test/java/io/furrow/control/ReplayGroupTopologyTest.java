@@ -225,8 +225,9 @@ class ReplayGroupTopologyTest {
         ended("b", group, again.sequence());
         farm.pass(Duration.ofMinutes(61));
 
-        assertThat(farm.read(Topics.REPLAYS)).hasSize(2).allSatisfy(each -> assertThat(each.value())
-                .isNull());
+        assertThat(farm.read(Topics.REPLAYS))
+                .hasSize(2)
+                .allSatisfy(each -> assertThat(each.value()).isNull());
     }
 
     @Test

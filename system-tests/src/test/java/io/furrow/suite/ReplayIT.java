@@ -67,9 +67,9 @@ class ReplayIT {
     private static void playsAgainFromItsEnd(RunningSuite running, String replay, String topic) throws Exception {
         Suite suite = running.suite();
         String path = "/api/replays/" + replay;
-        await("rests when its end is settled").atMost(TIMEOUT).until(() -> send(suite, "GET", path, "")
-                .at("/status/settled")
-                .asBoolean());
+        await("rests when its end is settled")
+                .atMost(TIMEOUT)
+                .until(() -> send(suite, "GET", path, "").at("/status/settled").asBoolean());
         JsonNode rested = send(suite, "GET", path, "");
         assertThat(rested.at("/status/state").asText()).isEqualTo("ended");
         long last = rested.at("/status/progress/to").asLong();

@@ -81,19 +81,17 @@ final class ReplayView {
         }
         PlayedPart part = PlayedPart.of(replay);
         long position = progress.path("position").asLong();
-        return "%s  %s / %s"
-                .formatted(
-                        time(position),
-                        clock(position - part.from()),
-                        clock(part.to() - part.from()));
+        return "%s  %s / %s".formatted(time(position), clock(position - part.from()), clock(part.to() - part.from()));
     }
 
     private static String counts(JsonNode progress) {
+        long slip = progress.path("slip").asLong();
         return String.format(
                 Locale.ROOT,
-                "%.1f events/s  late %d ms  %d events",
+                "%.1f events/s  late %d ms%s  %d events",
                 progress.path("rate").asDouble(),
                 progress.path("lateness").asLong(),
+                slip == 0 ? "" : "  slipped " + slip + " ms",
                 progress.path("events").asLong());
     }
 

@@ -111,7 +111,8 @@ final class ReplayWatch implements ControlOptions.Work {
                     && !(key.equals("q") && keys.note().isEmpty())) {
                 if (!key.isEmpty()) {
                     failure = "";
-                    keys.press(key, events.newest()).ifPresent(request -> requests.execute(() -> send(api, steered(events.newest()), request)));
+                    keys.press(key, events.newest())
+                            .ifPresent(request -> requests.execute(() -> send(api, steered(events.newest()), request)));
                 }
                 draw(terminal, display, events);
                 key = reader.read(DRAW_MILLIS);

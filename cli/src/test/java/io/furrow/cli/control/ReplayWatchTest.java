@@ -208,8 +208,7 @@ class ReplayWatchTest {
         line.setOut(new PrintWriter(said)).setErr(new PrintWriter(said));
 
         assertTimeoutPreemptively(
-                Duration.ofMinutes(1),
-                () -> line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()));
+                Duration.ofMinutes(1), () -> line.execute("replay", "watch", "m.0a1b2c3d", "--api", api().toString()));
 
         assertThat(said.toString().lines()).last().asString().startsWith("m.0a1b2c3d  ended");
     }

@@ -220,7 +220,8 @@ class ReplayReaderTest {
 
         WantedReplay back = running.wanted(State.PAUSED, 3).stepping(-2, 3);
         wish(back);
-        playUntil(() -> status("m").state() == State.PAUSED && status("m").progress().events() == 1);
+        playUntil(() ->
+                status("m").state() == State.PAUSED && status("m").progress().events() == 1);
         assertThat(status("m").progress().epoch()).isEqualTo(2);
         assertThat(status("m").progress().position()).isEqualTo(TIME + 10);
         assertThat(missions.open()).isEqualTo(1);
