@@ -109,7 +109,9 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
     const asked = store.replays.get(replay);
     const [from, to] = [asked?.from ?? store.mode.from, asked?.to ?? store.mode.to];
     const known = (missions ?? []).map((each) => store.recordings.get(each)).filter(Boolean);
-    const first = from ?? Math.min(...known.map((each) => each.first));
+    const begin = Math.min(...known.map((each) => each.first));
+    // what lies before the recording cannot be sought
+    const first = from !== undefined && known.length && !asked?.source ? Math.max(from, begin) : from ?? begin;
     const last = Math.max(to ?? 0, ...known.filter(() => to === undefined).map((each) => each.last));
     this.known = Number.isFinite(first) && last > first;
     return this.known ? [first, last] : [position ?? 0, (position ?? 0) + SECOND];

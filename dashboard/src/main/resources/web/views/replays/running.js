@@ -73,7 +73,7 @@ export class RunningReplay {
     setText(this.watch.lastChild, t(watched ? 'replays.watching' : 'replays.watch'));
     this.again.hidden = !over;
     this.again.disabled = this.end.disabled = !store.may('operate');
-    this.end.hidden = over;
+    this.end.hidden = over && state !== 'ended'; // which rests until it is stopped or forgotten
   }
 
   watchIt() {
