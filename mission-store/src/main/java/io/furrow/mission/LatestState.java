@@ -5,6 +5,7 @@ import java.util.Collection;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -20,13 +21,15 @@ public final class LatestState {
 
     private LatestState() {}
 
-    /**
-     * The entities as they were known before a point, each with time, id and headers of its newest event, in the order of these.
-     *
-     * @param time epoch ms; events of this time are not among what was known
-     * @throws RecordingInterruptedException if the thread is interrupted meanwhile
-     */
-    public static Collection<StoredEvent> before(Recording recording, long time, PageLimits limits)
+    /** Of these events, which come in their order. */
+    public static List<StoredEvent> of(Collection<StoredEvent> events) {
+        LatestState state = new LatestState();
+        events.forEach(state::add);
+        return state.events();
+    }
+
+    /** As {@link Recording#stateBefore}, read from the recording's beginning. */
+    static List<StoredEvent> before(Recording recording, long time, Set<String> entities, PageLimits limits)
             throws RecordingException {
         LatestState state = new LatestState();
         Cursor next = Cursor.START;
@@ -35,7 +38,7 @@ public final class LatestState {
             RecordingInterruptedException.check();
             Page page = recording.read(next, limits);
             for (StoredEvent event : page.events()) {
-                if (event.time() < time) {
+                if (event.time() < time && (entities.isEmpty() || entities.contains(event.entityId()))) {
                     state.add(event);
                 }
             }
@@ -54,7 +57,8 @@ public final class LatestState {
         }
     }
 
-    private static String identity(StoredEvent event) {
+    /** What tells entities apart, also those of two tenants. */
+    public static String identity(StoredEvent event) {
         Map<String, String> headers = event.headers();
         return FiwareScope.of(headers.get(HeaderNames.SERVICE), headers.get(HeaderNames.SERVICE_PATH))
                 .identity(event.entityId());

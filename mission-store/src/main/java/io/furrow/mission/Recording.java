@@ -1,6 +1,8 @@
 package io.furrow.mission;
 
+import java.util.List;
 import java.util.Optional;
+import java.util.Set;
 import java.util.function.Predicate;
 
 import io.furrow.mission.mongo.CursorsBack;
@@ -56,6 +58,20 @@ public interface Recording extends AutoCloseable {
             next = page.next();
         } while (!page.last() && next.compareTo(from) < 0);
         return back.oldest();
+    }
+
+    /**
+     * The entities as they were known before a point, each with time, id and headers of its newest event, in the order of these. Here by
+     * reading the recording from its beginning; one that finds an entity's newest events otherwise does so. The next page may begin again.
+     *
+     * @param time epoch ms; events of this time are not among what was known
+     * @param entities ids of those that are requested; empty for all
+     * @throws RecordingInterruptedException if the thread is interrupted meanwhile
+     * @throws RecordingException if the recording cannot be read now
+     */
+    default List<StoredEvent> stateBefore(long time, Set<String> entities, PageLimits limits)
+            throws RecordingException {
+        return LatestState.before(this, time, entities, limits);
     }
 
     @Override

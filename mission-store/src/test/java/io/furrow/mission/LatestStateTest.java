@@ -5,6 +5,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.Collection;
 import java.util.List;
+import java.util.Set;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -62,7 +63,7 @@ class LatestStateTest {
         try (Recording recording =
                 new FileRecordings(file.toString()).open("any").orElseThrow()) {
             Thread.currentThread().interrupt();
-            assertThatThrownBy(() -> LatestState.before(recording, 16, PageLimits.DEFAULT))
+            assertThatThrownBy(() -> recording.stateBefore(16, Set.of(), PageLimits.DEFAULT))
                     .isInstanceOf(RecordingInterruptedException.class)
                     .hasMessage("Reading of a recording was interrupted");
             assertThat(Thread.interrupted()).isTrue();
@@ -74,8 +75,8 @@ class LatestStateTest {
         Files.write(file, LINES);
         try (Recording recording =
                 new FileRecordings(file.toString()).open("any").orElseThrow()) {
-            Collection<StoredEvent> atOnce = LatestState.before(recording, time, PageLimits.DEFAULT);
-            assertThat(LatestState.before(recording, time, new PageLimits(2, 1_000)))
+            Collection<StoredEvent> atOnce = recording.stateBefore(time, Set.of(), PageLimits.DEFAULT);
+            assertThat(recording.stateBefore(time, Set.of(), new PageLimits(2, 1_000)))
                     .isEqualTo(atOnce);
             return atOnce;
         }

@@ -22,6 +22,7 @@ import io.furrow.bench.ingest.IngestMeasurement;
 import io.furrow.bench.replay.MaxMeasurement;
 import io.furrow.bench.replay.ReplayBenchPlan;
 import io.furrow.bench.replay.ReplayCluster;
+import io.furrow.bench.replay.SeekMeasurement;
 import io.furrow.bench.replay.TimingMeasurement;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.EmbeddedFlink;
@@ -65,6 +66,9 @@ final class ReplayBench implements Callable<Integer> {
     @Option(names = "--memory", description = "One replay at speed max, with the heap that it holds.")
     private boolean memory;
 
+    @Option(names = "--seek", description = "Seeks in a stored mission, without the job.")
+    private boolean seek;
+
     @Option(
             names = "--seconds",
             paramLabel = "S",
@@ -77,7 +81,7 @@ final class ReplayBench implements Callable<Integer> {
             paramLabel = "N",
             defaultValue = "500000",
             description =
-                    "Events of the mission at speed max; each takes some 4 kB of heap. Default: ${DEFAULT-VALUE}.")
+                    "Events of the mission at speed max and of that of seeks; each takes some 4 kB of heap. Default: ${DEFAULT-VALUE}.")
     private int events;
 
     @Option(
@@ -133,6 +137,9 @@ final class ReplayBench implements Callable<Integer> {
                         "replays", new ReplayCluster(client, mongo.uri(), directory.resolve("checkpoints"), plan));
                 IngestMeasurement.Running job = IngestBench.start(flink, "replay", cluster.job());
                 boolean complete = measure(cluster, plan);
+                if (seek) {
+                    complete &= new SeekMeasurement(mongo.uri(), events, turns, this::say).run(this::show);
+                }
                 job.cancel();
                 write();
                 return complete ? 0 : 1;
@@ -142,7 +149,7 @@ final class ReplayBench implements Callable<Integer> {
 
     private boolean measure(ReplayCluster cluster, ReplayBenchPlan plan) throws Exception {
         boolean complete = true;
-        boolean any = timing || many > 0 || max || memory;
+        boolean any = timing || many > 0 || max || memory || seek;
         if (timing || !any) {
             complete &= new TimingMeasurement(cluster, plan, 1, TIMED_PER_SECOND, this::say).run(this::show);
         }

@@ -41,7 +41,7 @@ public final class MissionCollections {
 
     public static final String PREFIX = "mission_";
     private static final String BY_TIME = "event-time";
-    private static final String BY_ENTITY = "entity-and-event-time";
+    static final String BY_ENTITY = "entity-and-event-time";
     /** An index of the same name with other options, and one of the same keys under another name. */
     private static final Set<Integer> OTHER_OPTIONS = Set.of(85, 86);
 
@@ -172,9 +172,14 @@ public final class MissionCollections {
     /** Whether the server has an index that removes what has expired; a server that keeps its data by other means has not. */
     public boolean serverExpires() {
         if (expires == null) {
-            expires = database.runCommand(new Document("buildInfo", 1)).containsKey("storageEngines");
+            expires = hasIndexes(database);
         }
         return expires;
+    }
+
+    /** Whether the server keeps indexes and removes what has expired. */
+    static boolean hasIndexes(MongoDatabase database) {
+        return database.runCommand(new Document("buildInfo", 1)).containsKey("storageEngines");
     }
 
     /**

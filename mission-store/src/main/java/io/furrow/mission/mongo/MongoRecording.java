@@ -3,14 +3,16 @@ package io.furrow.mission.mongo;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.TimeUnit;
 import java.util.function.Predicate;
 import java.util.function.Supplier;
 
+import com.mongodb.MongoCommandException;
 import com.mongodb.MongoException;
 import com.mongodb.MongoExecutionTimeoutException;
-import com.mongodb.MongoNamespace;
 import com.mongodb.client.MongoCollection;
+import com.mongodb.client.MongoDatabase;
 import com.mongodb.client.model.CountOptions;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.Projections;
@@ -56,6 +58,9 @@ final class MongoRecording implements Recording {
     private Cursor position = Cursor.START;
     /** Counted once, as no index helps; null until then. */
     private Long untimed;
+
+    /** Null until the server is asked what it keeps. */
+    private StateBefore.Bounds bounds;
 
     /** @param where for messages */
     MongoRecording(
@@ -179,9 +184,33 @@ final class MongoRecording implements Recording {
         }
     }
 
+    /** From the newest documents; from all where that would take too many, or the mission has no index. */
+    @Override
+    public List<StoredEvent> stateBefore(long time, Set<String> entities, PageLimits limits) throws RecordingException {
+        Optional<List<StoredEvent>> found;
+        try {
+            bounds = bounds == null ? boundsOfServer() : bounds;
+            found = new StateBefore(collection, time, entities, bounds).read();
+        } catch (MongoCommandException e) {
+            LOG.debug("The newest documents of mission {} cannot be found by an index", mission, e);
+            found = Optional.empty();
+        } catch (MongoException e) {
+            throw MongoRecordings.unreadable(mission, where, e);
+        }
+        return found.isPresent() ? found.get() : Recording.super.stateBefore(time, entities, limits);
+    }
+
+    private StateBefore.Bounds boundsOfServer() {
+        boolean indexed = MissionCollections.hasIndexes(database());
+        return indexed ? StateBefore.Bounds.INDEXED : StateBefore.Bounds.WITHOUT_INDEX;
+    }
+
+    private MongoDatabase database() {
+        return client.client().getDatabase(collection.getNamespace().getDatabaseName());
+    }
+
     private boolean exists() {
-        MongoNamespace name = collection.getNamespace();
-        return MongoRecordings.exists(client.client().getDatabase(name.getDatabaseName()), name.getCollectionName());
+        return MongoRecordings.exists(database(), collection.getNamespace().getCollectionName());
     }
 
     private <T> T answer(Supplier<T> question) throws RecordingException {

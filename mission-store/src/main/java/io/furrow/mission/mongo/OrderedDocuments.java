@@ -13,6 +13,7 @@ import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.Sorts;
 import org.bson.BSONException;
 import org.bson.BsonDateTime;
+import org.bson.BsonDocument;
 import org.bson.BsonType;
 import org.bson.BsonValue;
 import org.bson.RawBsonDocument;
@@ -106,14 +107,20 @@ final class OrderedDocuments implements AutoCloseable {
 
         /** @throws UnreadableException for a document that holds no event */
         StoredEvent event() throws UnreadableException {
-            if (!document.get(EventDocumentCodec.ID).isString() || id.isEmpty()) {
-                throw new UnreadableException(Reason.NOT_AN_EVENT, "_id is no event id");
-            }
-            try {
-                return EventDocumentCodec.read(document);
-            } catch (BSONException | ArithmeticException e) { // the latter for a decimal −0
-                throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
-            }
+            return OrderedDocuments.event(document);
+        }
+    }
+
+    /** @throws UnreadableException for a document that holds no event */
+    static StoredEvent event(BsonDocument document) throws UnreadableException {
+        BsonValue id = document.get(EventDocumentCodec.ID);
+        if (!id.isString() || text(id).isEmpty()) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, "_id is no event id");
+        }
+        try {
+            return EventDocumentCodec.read(document);
+        } catch (BSONException | ArithmeticException e) { // the latter for a decimal −0
+            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
         }
     }
 

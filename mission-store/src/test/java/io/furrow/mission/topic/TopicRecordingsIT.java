@@ -10,6 +10,7 @@ import java.nio.file.Path;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -25,7 +26,6 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.embedded.FreePort;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.LatestState;
 import io.furrow.mission.Page;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
@@ -95,7 +95,7 @@ class TopicRecordingsIT {
                     .containsExactly("a");
             assertThat(recording.back(Cursor.before(25), Cursor.START, 2, event -> true, ALL))
                     .isEqualTo(new Cursor(10, "data.farm.realtime-3-0"));
-            assertThat(LatestState.before(recording, 30, PageLimits.DEFAULT)).hasSize(2);
+            assertThat(recording.stateBefore(30, Set.of(), PageLimits.DEFAULT)).hasSize(2);
         }
     }
 

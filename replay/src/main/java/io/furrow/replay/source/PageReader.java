@@ -13,7 +13,6 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.LatestState;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
@@ -158,7 +157,7 @@ final class PageReader implements AutoCloseable {
         }
         if (fetch instanceof Fetch.Begin begin) {
             if (!begin.primed() || primes == null || primesPoint != begin.point()) {
-                primes = begin.primed() ? List.copyOf(LatestState.before(recording, begin.point(), limits)) : List.of();
+                primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), limits) : List.of();
                 primesPoint = begin.point();
             }
             return new Fetched.Begun(begin.epoch(), primes, recording.read(begin.first(), limits));
@@ -181,13 +180,17 @@ final class PageReader implements AutoCloseable {
     }
 
     private Cursor back(Fetch.Back back) throws RecordingException {
-        Set<String> devices = Set.copyOf(replay.plan().devices());
+        Set<String> devices = devices();
         return recording.back(
                 back.from(),
                 back.first(),
                 back.count(),
                 event -> devices.isEmpty() || devices.contains(event.entityId()),
                 limits);
+    }
+
+    private Set<String> devices() {
+        return Set.copyOf(replay.plan().devices());
     }
 
     private void release() {

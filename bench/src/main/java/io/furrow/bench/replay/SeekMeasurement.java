@@ -1,0 +1,111 @@
+package io.furrow.bench.replay;
+
+import java.util.Arrays;
+import java.util.List;
+import java.util.Optional;
+import java.util.Set;
+import java.util.concurrent.TimeUnit;
+import java.util.function.Consumer;
+
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+
+import io.furrow.bench.analytics.Figures;
+import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
+import io.furrow.mission.PageLimits;
+import io.furrow.mission.Recording;
+import io.furrow.mission.RecordingException;
+import io.furrow.mission.Span;
+import io.furrow.mission.StoredEvent;
+import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.mission.mongo.MongoRecordings;
+
+/** Reads what a seek needs from a stored mission: the states before a point and the first page after it; beside it, the states by a scan. */
+public final class SeekMeasurement {
+    private static final int PER_SECOND = 100;
+    private static final int[] PERCENT = {10, 50, 90};
+
+    private final String mongo;
+    private final StoredMission mission;
+    private final int turns;
+    private final Consumer<String> progress;
+
+    /** @param turns that count, after one that does not */
+    public SeekMeasurement(String mongo, int events, int turns, Consumer<String> progress) {
+        this.mongo = mongo;
+        this.mission = new StoredMission("seek", events, PER_SECOND, 1);
+        this.turns = turns;
+        this.progress = progress;
+    }
+
+    /** @return whether both know the same states */
+    public boolean run(Consumer<Figures> out) throws RecordingException {
+        progress.accept("%,d events into MongoDB".formatted(mission.events()));
+        try (MongoClient client = MongoClients.create(mongo)) {
+            mission.store(client);
+        }
+        Figures figures = new Figures(
+                "seek in a mission of %,d events, ms, medians of %d turns".formatted(mission.events(), turns));
+        boolean same = true;
+        try (Recording recording = new MongoRecordings(mongo, MongoAccess.DATABASE)
+                .open(mission.name())
+                .orElseThrow()) {
+            Span span = recording.span().orElseThrow();
+            for (int percent : PERCENT) {
+                long point = span.first() + (span.last() - span.first()) * percent / 100;
+                same &= measure(figures, recording, percent, point);
+            }
+        }
+        out.accept(figures);
+        return same;
+    }
+
+    private boolean measure(Figures figures, Recording recording, int percent, long point) throws RecordingException {
+        double[] seeks = new double[turns];
+        double[] scans = new double[turns];
+        boolean same = true;
+        for (int turn = -1; turn < turns; turn++) {
+            long began = System.nanoTime();
+            List<StoredEvent> known = recording.stateBefore(point, Set.of(), PageLimits.DEFAULT);
+            recording.read(Cursor.before(point), PageLimits.DEFAULT);
+            long sought = System.nanoTime();
+            List<StoredEvent> scanned = new Scanned(recording).stateBefore(point, Set.of(), PageLimits.DEFAULT);
+            long end = System.nanoTime();
+            same &= known.equals(scanned);
+            if (turn >= 0) {
+                seeks[turn] = millis(sought - began);
+                scans[turn] = millis(end - sought);
+            }
+        }
+        figures.add("to %", percent, "seek", median(seeks), "scan", median(scans));
+        return same;
+    }
+
+    private static double millis(long nanos) {
+        return nanos / (double) TimeUnit.MILLISECONDS.toNanos(1);
+    }
+
+    private static double median(double[] all) {
+        Arrays.sort(all);
+        return all[all.length / 2];
+    }
+
+    /** A recording whose states are found by reading it from its beginning. */
+    private record Scanned(Recording recording) implements Recording {
+        @Override
+        public Optional<Span> span() throws RecordingException {
+            return recording.span();
+        }
+
+        @Override
+        public Page read(Cursor after, PageLimits limits) throws RecordingException {
+            return recording.read(after, limits);
+        }
+
+        @Override
+        public void close() {
+            recording.close();
+        }
+    }
+}

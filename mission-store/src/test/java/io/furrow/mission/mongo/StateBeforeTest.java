@@ -1,0 +1,272 @@
+package io.furrow.mission.mongo;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Random;
+import java.util.Set;
+import java.util.UUID;
+
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.mongodb.ConnectionString;
+import com.mongodb.MongoClientSettings;
+import com.mongodb.client.MongoClient;
+import com.mongodb.client.MongoClients;
+import com.mongodb.client.MongoCollection;
+import com.mongodb.client.model.IndexOptions;
+import com.mongodb.client.model.Indexes;
+import com.mongodb.event.CommandListener;
+import com.mongodb.event.CommandStartedEvent;
+import com.mongodb.event.CommandSucceededEvent;
+import org.bson.BsonArray;
+import org.bson.BsonDocument;
+import org.bson.BsonValue;
+import org.bson.RawBsonDocument;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.mission.LatestState;
+import io.furrow.mission.RecordingContract;
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.event.HeaderNames;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/** On the embedded server, or on another by {@code -Dfurrow.test.mongo=URI}; its database goes at the end. */
+class StateBeforeTest {
+    private static final String DATABASE = "test-" + UUID.randomUUID();
+    private static final StateBefore.Bounds FEW = new StateBefore.Bounds(40, 3, 64, 1_000_000);
+    private static final Set<String> ALL = Set.of();
+
+    private static final List<String> QUERIES = new ArrayList<>();
+    private static EmbeddedMongo embedded;
+    private static MongoClient client;
+    private static int returned;
+
+    private MongoCollection<RawBsonDocument> mission;
+
+    @BeforeAll
+    static void connect() {
+        String uri = System.getProperty("furrow.test.mongo");
+        if (uri == null) {
+            embedded = EmbeddedMongo.inMemory();
+            uri = embedded.uri();
+        }
+        client = MongoClients.create(MongoClientSettings.builder()
+                .applyConnectionString(new ConnectionString(uri))
+                .addCommandListener(new Queries())
+                .build());
+    }
+
+    @AfterAll
+    static void leaveNothingBehind() {
+        client.getDatabase(DATABASE).drop();
+        client.close();
+        if (embedded != null) {
+            embedded.close();
+        }
+    }
+
+    @BeforeEach
+    void begin() {
+        mission = client.getDatabase(DATABASE).getCollection("mission_" + UUID.randomUUID(), RawBsonDocument.class);
+        mission.createIndex(
+                Indexes.ascending(EventDocumentCodec.ENTITY_ID, EventDocumentCodec.TIME),
+                new IndexOptions().name(MissionCollections.BY_ENTITY));
+        mission.createIndex(Indexes.ascending(EventDocumentCodec.TIME));
+    }
+
+    /** What the driver asks of the server. */
+    private static final class Queries implements CommandListener {
+        @Override
+        public void commandStarted(CommandStartedEvent event) {
+            BsonDocument command = event.getCommand();
+            if (event.getCommandName().equals("aggregate")) {
+                QUERIES.add("oldest by " + command.getString("hint").getValue());
+            } else if (event.getCommandName().equals("find")) {
+                QUERIES.add("%d by %s of %s"
+                        .formatted(
+                                command.getNumber("limit").intValue(),
+                                command.getDocument("sort").toJson(),
+                                entity(command)));
+            } else if (event.getCommandName().equals("getMore")) {
+                QUERIES.add("more");
+            }
+        }
+
+        private static String entity(BsonDocument find) {
+            return find.getDocument("filter").getArray("$and", new BsonArray()).stream()
+                    .map(BsonValue::asDocument)
+                    .filter(part -> part.containsKey("id"))
+                    .map(part ->
+                            part.get("id").isString() ? part.getString("id").getValue() : "some")
+                    .findAny()
+                    .orElse("all");
+        }
+
+        @Override
+        public void commandSucceeded(CommandSucceededEvent event) {
+            if (event.getResponse().containsKey("cursor")) {
+                BsonDocument cursor = event.getResponse().getDocument("cursor");
+                returned += cursor.containsKey("firstBatch")
+                        ? cursor.getArray("firstBatch").size()
+                        : cursor.getArray("nextBatch").size();
+            }
+        }
+    }
+
+    @Test
+    void readsTheNewestDocumentsAloneWhereAllEntitiesHaveReported() throws Exception {
+        List<StoredEvent> events = new ArrayList<>();
+        for (int number = 0; number < 1_000; number++) {
+            events.add(event(number, 10 + number, "d" + number % 4, "x", "y"));
+        }
+        store(events);
+
+        assertThat(before(900, ALL, FEW)).contains(scanned(events, 900, ALL));
+        assertThat(QUERIES).containsExactly("oldest by entity-and-event-time", "40 by {\"_time\": -1} of all");
+        assertThat(returned).isEqualTo(4 + 40);
+    }
+
+    @Test
+    void looksUpAnEntityThatHasBeenSilent() throws Exception {
+        List<StoredEvent> events = new ArrayList<>();
+        for (int number = 0; number < 1_000; number++) {
+            String device = number < 100 ? "silent" : number % 2 == 0 ? "a" : "b";
+            events.add(event(number, 10 + number, device, "x", "y"));
+        }
+        store(events);
+
+        assertThat(before(900, ALL, FEW)).contains(scanned(events, 900, ALL));
+        assertThat(QUERIES)
+                .containsExactly(
+                        "oldest by entity-and-event-time",
+                        "40 by {\"_time\": -1} of all",
+                        "16 by {\"_time\": -1} of silent");
+        assertThat(returned).isEqualTo(3 + 40 + 16);
+    }
+
+    @Test
+    void readsFurtherBackUntilADeletionOfWhatReportsChangesAlone() throws Exception {
+        List<StoredEvent> events = new ArrayList<>();
+        for (int number = 0; number < 300; number++) {
+            events.add(event(number, 10 + number, "d", number % 30 == 0 ? "battery" : "x"));
+        }
+        events.set(250, deleted(250, 260, "d"));
+        store(events);
+
+        assertThat(before(305, ALL, FEW)).contains(scanned(events, 305, ALL));
+        assertThat(QUERIES)
+                .containsExactly(
+                        "oldest by entity-and-event-time",
+                        "40 by {\"_time\": -1} of all",
+                        "16 by {\"_time\": -1} of d",
+                        "64 by {\"_time\": -1} of d");
+    }
+
+    @Test
+    void givesUpOnWhatReportsChangesAloneAndOnTooManySilentEntities() throws Exception {
+        List<StoredEvent> events = new ArrayList<>();
+        for (int number = 0; number < 300; number++) {
+            events.add(event(number, 10 + number, "d", number == 0 ? "battery" : "x"));
+        }
+        store(events);
+        assertThat(before(305, ALL, FEW)).isEmpty();
+
+        for (int number = 300; number < 304; number++) {
+            store(List.of(event(number, 1, "silent" + number, "x")));
+        }
+        QUERIES.clear();
+        assertThat(before(305, ALL, FEW)).isEmpty();
+        assertThat(QUERIES).hasSize(2);
+    }
+
+    @Test
+    void knowsWhatAScanKnows() throws Exception {
+        long seed = System.nanoTime();
+        Random random = new Random(seed);
+        int found = 0;
+        for (int round = 0; round < 30; round++) {
+            begin();
+            List<StoredEvent> events = mission(random);
+            store(events);
+            for (int i = 0; i < 4; i++) {
+                long time = random.nextInt(1_100);
+                Set<String> devices = random.nextInt(3) == 0 ? Set.of("d1", "d2", "d77") : ALL;
+                Optional<List<StoredEvent>> state = before(time, devices, FEW);
+                found += state.isPresent() ? 1 : 0;
+                state.ifPresent(known -> assertThat(known)
+                        .as("seed %d, before %d", seed, time)
+                        .isEqualTo(scanned(events, time, devices)));
+            }
+        }
+        assertThat(found).as("seed %d", seed).isGreaterThan(30);
+    }
+
+    /** Entities that report all of their attributes, of which they gain some, and others that report one after the other. */
+    private static List<StoredEvent> mission(Random random) {
+        int devices = 1 + random.nextInt(6);
+        List<StoredEvent> events = new ArrayList<>();
+        for (int number = 0; number < random.nextInt(400); number++) {
+            int device = random.nextInt(devices);
+            long time = random.nextInt(1_000);
+            if (random.nextInt(60) == 0) {
+                events.add(deleted(number, time, "d" + device));
+            } else if (device == 0) {
+                events.add(event(number, time, "d0", "abc".substring(number % 3, number % 3 + 1)));
+            } else {
+                events.add(
+                        time < 300
+                                ? event(number, time, "d" + device, "a")
+                                : event(number, time, "d" + device, "a", "b"));
+            }
+        }
+        return events;
+    }
+
+    private Optional<List<StoredEvent>> before(long time, Set<String> entities, StateBefore.Bounds bounds)
+            throws Exception {
+        QUERIES.clear();
+        returned = 0;
+        return new StateBefore(mission, time, entities, bounds).read();
+    }
+
+    private static List<StoredEvent> scanned(List<StoredEvent> events, long time, Set<String> entities) {
+        return LatestState.of(RecordingContract.ordered(events).stream()
+                .filter(event -> event.time() < time)
+                .filter(event -> entities.isEmpty() || entities.contains(event.entityId()))
+                .toList());
+    }
+
+    private void store(List<StoredEvent> events) throws Exception {
+        List<RawBsonDocument> documents = new ArrayList<>();
+        for (StoredEvent event : RecordingContract.shuffled(events)) {
+            documents.add(new RawBsonDocument(EventDocumentCodec.write(event)));
+        }
+        if (!documents.isEmpty()) {
+            mission.insertMany(documents);
+        }
+    }
+
+    private static StoredEvent event(int number, long time, String entityId, String... attributes) {
+        ObjectNode entity = JsonNodeFactory.instance.objectNode();
+        entity.put("id", entityId).put("type", "Robot");
+        for (String attribute : attributes) {
+            entity.putObject(attribute).put("type", "Number").put("value", number);
+        }
+        return new StoredEvent("e%04d".formatted(number), time, entityId, headers(number), entity);
+    }
+
+    private static StoredEvent deleted(int number, long time, String entityId) {
+        return new StoredEvent("e%04d".formatted(number), time, entityId, headers(number), null);
+    }
+
+    private static Map<String, String> headers(int number) {
+        return Map.of(HeaderNames.SERVICE, "farm", HeaderNames.TS_DEVICE, Integer.toString(1 + number));
+    }
+}
