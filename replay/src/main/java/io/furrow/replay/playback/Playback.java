@@ -462,8 +462,18 @@ public final class Playback {
                 at.sequence(), state(), at.reason(), false, at.progress(position, worst, slip, rate, awaited(now)));
     }
 
+    /** Whether it reads what it has to know before an epoch can begin. */
+    public boolean isSeeking() {
+        return fetching && !isOver() && !hasBegun() && at.phase() != Phase.BETWEEN;
+    }
+
     /** What it waits for; null if it waits for nothing. */
     private String awaited(long now) {
+        if (waiting == null && isSeeking() && now - passBegan >= STALL) {
+            return at.phase() == Phase.OPENING
+                    ? "seeking: the recording is being opened"
+                    : "seeking: what was known before %s is being read".formatted(Instant.ofEpochMilli(at.point()));
+        }
         boolean early = !at.phase().isOver() && !isHeld() && now < timeline.anchor();
         return waiting == null && early
                 ? "begins at " + Instant.ofEpochMilli(wall.applyAsLong(now) + timeline.anchor() - now)

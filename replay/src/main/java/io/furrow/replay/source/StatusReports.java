@@ -128,7 +128,7 @@ final class StatusReports {
 
     /** When the next report is due, unless something changes before. */
     long due(Playback playback) {
-        boolean moves = playback.state() == ReplayStatus.State.RUNNING || events > 0;
+        boolean moves = playback.state() == ReplayStatus.State.RUNNING || playback.isSeeking() || events > 0;
         return moves ? toldAt + INTERVAL_MILLIS : Long.MAX_VALUE;
     }
 }

@@ -60,6 +60,29 @@ class PlaybackTest {
     }
 
     @Test
+    void saysWhatASeekReadsThatTakesLong() {
+        WantedReplay wanted = Wishes.with(Wishes.start(1), State.PAUSED, 1, NEXT.time(), 0);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        playback.fetch();
+        assertThat(waiting(playback, 999)).isNull();
+        assertThat(waiting(playback, 1_000)).isEqualTo("seeking: the recording is being opened");
+
+        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 1_100);
+        playback.fetch();
+        assertThat(waiting(playback, 1_200))
+                .isEqualTo("seeking: what was known before 2023-11-14T22:13:21Z is being read");
+        assertThat(playback.isSeeking()).isTrue();
+
+        playback.take(new Fetched.Begun(0, List.of(FIRST), page(NEXT, true)), 1_300);
+        assertThat(waiting(playback, 1_300)).isNull();
+        assertThat(playback.isSeeking()).isFalse();
+    }
+
+    private static String waiting(Playback playback, long now) {
+        return playback.status(now, 0, 0).progress().waiting();
+    }
+
+    @Test
     void beginsNoEpochThatHasNoNumber() {
         PlaybackState spent = PlaybackState.before(Epochs.LAST + 1, 5);
 

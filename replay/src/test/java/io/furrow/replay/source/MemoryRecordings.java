@@ -5,6 +5,7 @@ import java.util.Map;
 import java.util.Optional;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.CopyOnWriteArrayList;
+import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -14,6 +15,7 @@ import io.furrow.mission.Page;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
+import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.Recordings;
 import io.furrow.mission.Skipped;
 import io.furrow.mission.Span;
@@ -25,7 +27,9 @@ final class MemoryRecordings implements Recordings {
 
     private final transient Map<String, List<StoredEvent>> missions = new ConcurrentHashMap<>();
     private final transient AtomicInteger open = new AtomicInteger();
+    private final transient AtomicInteger held = new AtomicInteger();
     private volatile boolean away;
+    private volatile boolean holding;
 
     /** Events of the entity {@code urn:x} at these times. */
     MemoryRecordings with(String mission, long... times) {
@@ -49,6 +53,27 @@ final class MemoryRecordings implements Recordings {
 
     void setAway(boolean isAway) {
         away = isAway;
+    }
+
+    /** Whether whoever begins to read a mission from its beginning does so until he is interrupted. */
+    void hold(boolean isHolding) {
+        holding = isHolding;
+    }
+
+    /** How many are held. */
+    int held() {
+        return held.get();
+    }
+
+    private void hold() throws RecordingException {
+        held.incrementAndGet();
+        try {
+            new CountDownLatch(1).await();
+        } catch (InterruptedException e) {
+            throw RecordingInterruptedException.of(e);
+        } finally {
+            held.decrementAndGet();
+        }
     }
 
     /** How many recordings are open. */
@@ -93,6 +118,9 @@ final class MemoryRecordings implements Recordings {
         public Page read(Cursor after, PageLimits limits) throws RecordingException {
             if (away) {
                 throw new RecordingException("the store is away");
+            }
+            if (holding && after.equals(Cursor.START)) {
+                hold();
             }
             List<StoredEvent> rest = events.stream()
                     .filter(event -> Cursor.after(event).compareTo(after) > 0)

@@ -1,0 +1,69 @@
+package io.furrow.replay.source;
+
+import java.util.List;
+import java.util.concurrent.CopyOnWriteArrayList;
+
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.mission.Cursor;
+import io.furrow.mission.PageLimits;
+import io.furrow.model.control.replay.ReplayPlan;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.topic.Topics;
+import io.furrow.replay.playback.Fetch;
+import io.furrow.replay.playback.Fetched;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+class PageReaderTest {
+    private static final long TIME = 1_700_000_000_000L;
+
+    private final MemoryRecordings missions = new MemoryRecordings().with("m", TIME, TIME + 10, TIME + 20, TIME + 30);
+    private final List<Fetched> answers = new CopyOnWriteArrayList<>();
+    private final PageReader pages = new PageReader(
+            WantedReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
+            () -> {},
+            RecordingSources.of(missions),
+            new PageLimits(2, 1_000),
+            answers::add);
+
+    @AfterEach
+    void close() {
+        pages.close();
+    }
+
+    @Test
+    void abandonsWhatASeekReadsForANewerOne() {
+        missions.hold(true);
+        pages.read(seek(1, TIME + 20));
+        await().until(() -> missions.held() == 1);
+
+        missions.hold(false);
+        pages.read(seek(2, TIME + 30));
+
+        await().until(() -> !answers.isEmpty());
+        assertThat(answers).singleElement().isInstanceOfSatisfying(Fetched.Begun.class, begun -> {
+            assertThat(begun.epoch()).isEqualTo(2);
+            assertThat(begun.primes()).hasSize(1);
+        });
+        assertThat(missions.held()).isZero();
+    }
+
+    @Test
+    void readsNothingAfterItWasClosed() {
+        missions.hold(true);
+        pages.read(seek(1, TIME + 20));
+        await().until(() -> missions.held() == 1);
+
+        pages.close();
+
+        await().until(() -> missions.held() == 0 && missions.open() == 0);
+        assertThat(answers).isEmpty();
+    }
+
+    private static Fetch seek(long epoch, long point) {
+        return new Fetch.Begin(epoch, point, Cursor.before(point), true);
+    }
+}
