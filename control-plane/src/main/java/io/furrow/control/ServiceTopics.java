@@ -32,6 +32,8 @@ import io.furrow.model.topic.Topics;
 public final class ServiceTopics {
     private static final long TIMEOUT_SECONDS = 30;
     private static final long POLL_INTERVAL_MILLIS = 50;
+    private static final int STATUS_SEGMENT_BYTES = 16 * 1024 * 1024;
+    private static final int STATUS_SEGMENT_MINUTES = 10;
     private static final String POLICY = "cleanup.policy";
     private static final String MAX_BYTES = "max.message.bytes";
 
@@ -85,7 +87,7 @@ public final class ServiceTopics {
         try (Admin admin = Admin.create(settings.client())) {
             List<NewTopic> wanted = new ArrayList<>();
             REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
-            COMPACTED.forEach(name -> wanted.add(topic(name, settings, stateConfigs())));
+            COMPACTED.forEach(name -> wanted.add(topic(name, settings, stateConfigs(name))));
             wanted.add(topic(Topics.AUDIT, settings, KEPT_LONG));
             Stream.concat(DATA.stream(), DEAD.stream())
                     .forEach(name -> wanted.add(
@@ -95,7 +97,7 @@ public final class ServiceTopics {
             }
             Map<ConfigResource, Collection<AlterConfigOp>> policies = new LinkedHashMap<>();
             REQUESTS.forEach(name -> set(policies, name, requestConfigs()));
-            COMPACTED.forEach(name -> set(policies, name, stateConfigs()));
+            COMPACTED.forEach(name -> set(policies, name, stateConfigs(name)));
             await(admin.incrementalAlterConfigs(policies).all(), false);
             awaitKnown(admin, wanted.stream().map(NewTopic::name).toList());
         } catch (KafkaException | ExecutionException | TimeoutException e) {
@@ -147,14 +149,17 @@ public final class ServiceTopics {
                 Integer.toString(Limits.MESSAGE_BYTES));
     }
 
-    private static Map<String, String> stateConfigs() {
-        return Map.of(
-                POLICY,
-                "compact",
-                "compression.type",
-                "uncompressed",
-                MAX_BYTES,
-                Integer.toString(Limits.MESSAGE_BYTES));
+    /** A segment that is written to is not compacted: that of replays' statuses, two a second of each, is a short one. */
+    private static Map<String, String> stateConfigs(String topic) {
+        Map<String, String> configs = new LinkedHashMap<>();
+        configs.put(POLICY, "compact");
+        configs.put("compression.type", "uncompressed");
+        configs.put(MAX_BYTES, Integer.toString(Limits.MESSAGE_BYTES));
+        if (topic.equals(Topics.REPLAYS_STATUS)) {
+            configs.put("segment.bytes", Integer.toString(STATUS_SEGMENT_BYTES));
+            configs.put("segment.ms", Long.toString(TimeUnit.MINUTES.toMillis(STATUS_SEGMENT_MINUTES)));
+        }
+        return configs;
     }
 
     private static void set(

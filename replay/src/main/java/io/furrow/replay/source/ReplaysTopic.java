@@ -4,7 +4,9 @@ import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
 import java.util.Properties;
 import java.util.concurrent.locks.LockSupport;
 
@@ -51,6 +53,27 @@ public final class ReplaysTopic implements WantedReplays {
         return key == null ? null : new String(key, StandardCharsets.UTF_8);
     }
 
+    /** The newest status of each replay; holds no more than these, however many there were. */
+    static List<Told> newest(TopicSnapshot statuses) throws IOException {
+        Map<String, TopicRecord> newest = new HashMap<>();
+        statuses.forEach(record -> {
+            if (record.value() == null) {
+                newest.remove(text(record.key()));
+            } else if (record.key() != null) {
+                newest.put(text(record.key()), record);
+            }
+        });
+        List<Told> told = new ArrayList<>();
+        newest.forEach((replay, record) -> {
+            try {
+                told.add(new Told(replay, ReplayStatus.read(record.value())));
+            } catch (UnreadableException e) {
+                LOG.warn("The status {} is passed over", record.position(), e);
+            }
+        });
+        return told;
+    }
+
     private static final class FromKafka implements Reading {
         private final CommittedReader<String> reader;
         private final TopicSnapshot statuses;
@@ -64,17 +87,7 @@ public final class ReplaysTopic implements WantedReplays {
 
         @Override
         public List<Told> told() throws IOException {
-            List<Told> told = new ArrayList<>();
-            for (TopicRecord record : statuses.read()) {
-                try {
-                    if (record.key() != null && record.value() != null) {
-                        told.add(new Told(text(record.key()), ReplayStatus.read(record.value())));
-                    }
-                } catch (UnreadableException e) {
-                    LOG.warn("The status {} is passed over", record.position(), e);
-                }
-            }
-            return told;
+            return newest(statuses);
         }
 
         @Override
