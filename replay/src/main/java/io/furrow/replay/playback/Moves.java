@@ -137,6 +137,15 @@ final class Moves {
         return next.done();
     }
 
+    /** The epoch would have begun there, as far as that is known. */
+    static PlaybackState unopened(PlaybackState s, WantedReplay wanted) {
+        Moves next = new Moves(s);
+        long begin = s.start() == null ? wanted.from(s.first()) : s.start();
+        next.position = within(0, begin, Epochs.SPAN - 1);
+        next.offset = Math.max(s.offset(), s.stamp() - next.position);
+        return next.done();
+    }
+
     /** Where the epoch begins: as asked for, but within the recording and what is requested of it. */
     private static long point(Long start, Span span, WantedReplay wanted) {
         long from = wanted.from(span.first());

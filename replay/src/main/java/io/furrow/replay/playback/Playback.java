@@ -167,6 +167,16 @@ public final class Playback {
         return end;
     }
 
+    /** Also an epoch that could not begin: who was given the name of its topic waits for an end. */
+    private Optional<Played> closed(Phase how, String reason, long now) {
+        if (!hasBegun()) {
+            at = Moves.unopened(at, wanted);
+            at = Moves.over(at, how, reason);
+            return Optional.of(played(Played.Kind.END, null, reason, at.position(), now));
+        }
+        return over(how, reason, reason, now);
+    }
+
     /** Of an epoch that has begun. */
     private Optional<Played> end(String reason, long now) {
         return hasBegun() ? Optional.of(played(Played.Kind.END, null, reason, at.position(), now)) : Optional.empty();
@@ -222,11 +232,12 @@ public final class Playback {
         fetching = false;
         waiting = null;
         if (fetched instanceof Fetched.Gone gone) {
-            return over(Phase.FAILED, gone.reason(), gone.reason(), now);
+            return closed(Phase.FAILED, gone.reason(), now);
         } else if (fetched instanceof Fetched.Opened opened) {
-            at = opened.span()
-                    .map(span -> Moves.opened(at, span, wanted))
-                    .orElseGet(() -> Moves.over(at, Phase.ENDED, "mission '" + wanted.mission() + "' has no event"));
+            if (opened.span().isEmpty()) {
+                return closed(Phase.ENDED, "mission '" + wanted.mission() + "' has no event", now);
+            }
+            at = Moves.opened(at, opened.span().get(), wanted);
             startOver(now);
         } else if (fetched instanceof Fetched.Begun begun) {
             primes = begun.primes().stream()

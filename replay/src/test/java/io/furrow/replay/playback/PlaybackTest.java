@@ -78,6 +78,20 @@ class PlaybackTest {
         assertThat(playback.isSeeking()).isFalse();
     }
 
+    @Test
+    void endsAnEpochThatCannotBeginWithoutSteppingBackInTime() {
+        PlaybackState played = PlaybackState.before(3, NEXT.time() + 5_000);
+        WantedReplay wanted = Wishes.with(Wishes.start(1), State.RUNNING, 1, NEXT.time(), 0);
+        Playback playback = new Playback(wanted, played, 0, Wishes::wall);
+        playback.fetch();
+
+        Optional<Played> end = playback.take(new Fetched.Gone(3, "gone"), 0);
+
+        assertThat(end).contains(new Played(Played.Kind.END, null, "gone", 3, 0, NEXT.time(), 5_000));
+        assertThat(playback.state()).isEqualTo(State.FAILED);
+        assertThat(playback.take(new Fetched.Gone(3, "gone"), 0)).isEmpty();
+    }
+
     private static String waiting(Playback playback, long now) {
         return playback.status(now, 0, 0).progress().waiting();
     }

@@ -133,6 +133,7 @@ class ReplayReaderTest {
 
         assertThat(played("m", "event")).hasSize(2);
         assertThat(status("unknown").reason()).isEqualTo("there is no mission 'unknown'");
+        assertThat(played("unknown", "end")).singleElement().satisfies(ReplayReaderTest::isOfEpochZero);
         assertThat(status("bad").state()).isEqualTo(State.FAILED);
         assertThat(status("bad").reason()).contains("cannot be read");
         assertThat(status("stuck").state()).isEqualTo(State.RUNNING);
@@ -173,7 +174,13 @@ class ReplayReaderTest {
 
         assertThat(status("m").state()).isEqualTo(State.ENDED);
         assertThat(status("m").reason()).isEqualTo("mission 'm' has no event");
-        assertThat(played("m", "end")).isEmpty();
+        assertThat(played("m", "end")).singleElement().satisfies(ReplayReaderTest::isOfEpochZero);
+    }
+
+    private static void isOfEpochZero(TopicRecord end) {
+        assertThat(end.headers())
+                .containsEntry(HeaderNames.REPLAY_EPOCH, "0")
+                .containsEntry(HeaderNames.REPLAY_SEQUENCE, "0");
     }
 
     @Test
