@@ -6,6 +6,8 @@ import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.concurrent.TimeUnit;
+import java.util.concurrent.locks.LockSupport;
 
 import org.apache.flink.api.connector.source.SplitEnumerator;
 import org.apache.flink.api.connector.source.SplitEnumeratorContext;
@@ -29,6 +31,7 @@ import io.furrow.replay.playback.PlaybackState;
 final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedReplays> {
     private static final Logger LOG = LoggerFactory.getLogger(ReplayEnumerator.class);
     private static final long PAUSE_MILLIS = 1;
+    private static final long RETRY_NANOS = TimeUnit.SECONDS.toNanos(1);
 
     private final SplitEnumeratorContext<ReplaySplit> context;
     private final WantedReplays source;
@@ -39,9 +42,11 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
     private final Counter rejected;
     private volatile WantedReplays.Reading wishes;
     private boolean caughtUp;
+    /** Of the reading thread. */
+    private boolean knowsTold;
 
     /** What one call of the reading thread found. */
-    private record Found(List<WantedReplays.Wish> wishes, boolean caughtUp) {}
+    private record Found(List<WantedReplays.Told> told, List<WantedReplays.Wish> wishes, boolean caughtUp) {}
 
     ReplayEnumerator(SplitEnumeratorContext<ReplaySplit> context, WantedReplays source, UnassignedReplays state) {
         this.context = context;
@@ -54,22 +59,32 @@ final class ReplayEnumerator implements SplitEnumerator<ReplaySplit, UnassignedR
 
     @Override
     public void start() {
-        context.callAsync(this::open, this::opened);
-    }
-
-    private List<WantedReplays.Told> open() throws IOException {
         wishes = source.open();
-        return wishes.told();
+        context.callAsync(this::read, this::found, 0, PAUSE_MILLIS);
     }
 
-    private void opened(List<WantedReplays.Told> before, Throwable failure) {
-        require(failure);
-        before.forEach(one -> told.put(one.replay(), one.status()));
-        context.callAsync(() -> new Found(wishes.poll(), wishes.isCaughtUp()), this::found, 0, PAUSE_MILLIS);
+    /** First what was reported before, then what is wanted. */
+    private Found read() throws IOException {
+        try {
+            if (knowsTold) {
+                return new Found(List.of(), wishes.poll(), wishes.isCaughtUp());
+            }
+            List<WantedReplays.Told> before = wishes.told();
+            knowsTold = true;
+            return new Found(before, List.of(), false);
+        } catch (IOException e) {
+            LockSupport.parkNanos(RETRY_NANOS);
+            throw e;
+        }
     }
 
     private void found(Found found, Throwable failure) {
+        if (failure instanceof IOException) {
+            LOG.warn("It cannot be read now which replays are wanted; it is tried again", failure);
+            return;
+        }
         require(failure);
+        found.told().forEach(one -> told.put(one.replay(), one.status()));
         for (WantedReplays.Wish wish : found.wishes()) {
             note(wish);
         }

@@ -11,6 +11,7 @@ import java.util.Properties;
 import java.util.concurrent.locks.LockSupport;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
+import org.apache.kafka.common.errors.RetriableException;
 import org.apache.kafka.common.errors.WakeupException;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -91,7 +92,7 @@ public final class ReplaysTopic implements WantedReplays {
         }
 
         @Override
-        public synchronized List<Wish> poll() {
+        public synchronized List<Wish> poll() throws IOException {
             List<Wish> wishes = new ArrayList<>();
             try {
                 if (!closed && (assigned || assign())) {
@@ -99,6 +100,8 @@ public final class ReplaysTopic implements WantedReplays {
                 }
             } catch (WakeupException e) { // it is being closed
                 return List.of();
+            } catch (RetriableException e) {
+                throw away(e);
             }
             return wishes;
         }
@@ -112,8 +115,18 @@ public final class ReplaysTopic implements WantedReplays {
         }
 
         @Override
-        public synchronized boolean isCaughtUp() {
-            return !closed && assigned && reader.isCaughtUp();
+        public synchronized boolean isCaughtUp() throws IOException {
+            try {
+                return !closed && assigned && reader.isCaughtUp();
+            } catch (WakeupException e) { // it is being closed
+                return false;
+            } catch (RetriableException e) {
+                throw away(e);
+            }
+        }
+
+        private static IOException away(RetriableException failure) {
+            return new IOException(Topics.REPLAYS + " cannot be read: " + failure.getMessage(), failure);
         }
 
         @Override

@@ -14,7 +14,7 @@ public interface WantedReplays extends Serializable {
     boolean isBounded();
 
     /** Begins to read, from the beginning. */
-    Reading open() throws IOException;
+    Reading open();
 
     /**
      * What is requested of a replay.
@@ -30,16 +30,16 @@ public interface WantedReplays extends Serializable {
      */
     record Told(String replay, ReplayStatus status) {}
 
-    /** Used by one thread at a time. */
+    /** Used by one thread at a time. What throws an {@link IOException} cannot be read now and is called again. */
     interface Reading extends AutoCloseable {
-        /** What has been notified of replays until now; called once. */
+        /** What has been notified of replays until now; called until it was read. */
         List<Told> told() throws IOException;
 
         /** What came since the last call; waits a moment where nothing did. */
-        List<Wish> poll();
+        List<Wish> poll() throws IOException;
 
         /** Whether everything was returned that was there at the beginning. */
-        boolean isCaughtUp();
+        boolean isCaughtUp() throws IOException;
 
         /** From any thread; ends a call that is under way. */
         @Override

@@ -1,5 +1,6 @@
 package io.furrow.replay.source;
 
+import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.HashMap;
@@ -152,6 +153,27 @@ class ReplayEnumeratorTest {
     }
 
     @Test
+    void readsOnWhenTheBrokerIsBack() {
+        ReplayStatus.Progress progress = new ReplayStatus.Progress(4, 1_000, 0, 0, 500, 0, 0, 0, 0, 0, 0, null);
+        script.told = List.of(new Told("a.0a1b2c3d", new ReplayStatus(1, State.RUNNING, null, false, progress)));
+        script.next = List.of(wish("a", 1));
+        script.away = true;
+        ReplayEnumerator enumerator = enumerator();
+        readers.register(0, enumerator);
+        readers.register(1, enumerator);
+
+        script.away = false;
+        readers.poll();
+        script.away = true;
+        readers.poll();
+        assertThat(readers.assigned).isEmpty();
+        script.away = false;
+        readers.poll();
+
+        assertThat(readers.assigned).containsExactly(new Assigned(0, "a.0a1b2c3d", 5, 1_500));
+    }
+
+    @Test
     void passesOverWhatIsNoReplay() {
         ReplayEnumerator enumerator = enumerator();
         readers.register(0, enumerator);
@@ -170,6 +192,7 @@ class ReplayEnumeratorTest {
         private transient List<Told> told = List.of();
         private transient List<Wish> next = List.of();
         private transient boolean bounded;
+        private transient boolean away;
 
         @Override
         public boolean isBounded() {
@@ -180,13 +203,21 @@ class ReplayEnumeratorTest {
         public Reading open() {
             return new Reading() {
                 @Override
-                public List<Told> told() {
+                public List<Told> told() throws IOException {
+                    requireThere();
                     return told;
                 }
 
                 @Override
-                public List<Wish> poll() {
+                public List<Wish> poll() throws IOException {
+                    requireThere();
                     return next;
+                }
+
+                private void requireThere() throws IOException {
+                    if (away) {
+                        throw new IOException("the broker does not answer");
+                    }
                 }
 
                 @Override
@@ -279,6 +310,7 @@ class ReplayEnumeratorTest {
         public <T> void callAsync(
                 Callable<T> callable, BiConsumer<T, Throwable> handler, long initialDelay, long period) {
             poll = () -> callAsync(callable, handler);
+            poll();
         }
 
         @Override
