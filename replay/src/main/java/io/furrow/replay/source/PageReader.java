@@ -1,6 +1,7 @@
 package io.furrow.replay.source;
 
 import java.io.IOException;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Optional;
 import java.util.Set;
@@ -13,11 +14,13 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.mission.Cursor;
+import io.furrow.mission.Page;
 import io.furrow.mission.PageLimits;
 import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.RecordingGoneException;
 import io.furrow.mission.RecordingInterruptedException;
+import io.furrow.mission.Skipped;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.WantedReplay;
@@ -33,6 +36,7 @@ final class PageReader implements AutoCloseable {
     private static final long FIRST_RETRY_MILLIS = 1_000;
     private static final long MAX_RETRY_MILLIS = 30_000;
     private static final long IDLE_SECONDS = 10;
+    private static final int MAX_LOGGED = 10;
 
     private final WantedReplay replay;
     private final Preparation preparation;
@@ -49,6 +53,9 @@ final class PageReader implements AutoCloseable {
     private List<StoredEvent> primes;
 
     private long primesPoint;
+    /** What of the recording was logged as left out. */
+    private final Set<String> leftOut = new HashSet<>();
+
     private Recording recording;
 
     /** What has to be done before the first page is read. */
@@ -160,13 +167,28 @@ final class PageReader implements AutoCloseable {
                 primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), limits) : List.of();
                 primesPoint = begin.point();
             }
-            return new Fetched.Begun(begin.epoch(), primes, recording.read(begin.first(), limits));
+            return new Fetched.Begun(begin.epoch(), primes, page(begin.first()));
         } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), recording.read(next.after(), limits));
+            return new Fetched.More(next.epoch(), page(next.after()));
         } else if (fetch instanceof Fetch.Back back) {
             return new Fetched.Back(back.epoch(), back.count(), back(back));
         }
         return new Fetched.Opened(fetch.epoch(), recording.span());
+    }
+
+    private Page page(Cursor after) throws RecordingException {
+        Page page = recording.read(after, limits);
+        for (Skipped skipped : page.skipped()) {
+            if (leftOut.size() < MAX_LOGGED && leftOut.add(skipped.what() + ": " + skipped.reason())) {
+                LOG.info(
+                        "Replay {} leaves out {} ({}): {}",
+                        replay.replay(),
+                        skipped.what(),
+                        skipped.count(),
+                        skipped.reason());
+            }
+        }
+        return page;
     }
 
     private String missing() {
