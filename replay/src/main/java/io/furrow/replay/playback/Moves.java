@@ -121,6 +121,13 @@ final class Moves {
         return next.done();
     }
 
+    /** @param stamp below which no timestamp may be */
+    static PlaybackState stamped(PlaybackState s, long stamp) {
+        Moves next = new Moves(s);
+        next.stamp = Math.max(s.stamp(), stamp);
+        return next.done();
+    }
+
     /** The offset grows where timestamps would step back. */
     static PlaybackState opened(PlaybackState s, Span span, WantedReplay wanted) {
         long point = point(s.start(), span, wanted);

@@ -50,6 +50,10 @@ public final class Playback {
 
     /** Greatest epoch that its topic had records of when it went on after a restart. */
     private long used;
+    /** Greatest timestamp that its topic had then. */
+    private long usedStamp;
+    /** Whether no checkpoint knew it. */
+    private final boolean withoutState;
 
     private String waiting;
     private long passBegan;
@@ -65,6 +69,7 @@ public final class Playback {
         this.wanted = wanted;
         this.wall = wall;
         boolean fresh = state.sequence() < 0;
+        this.withoutState = fresh;
         this.passBegan = fresh ? now : now - MIN_PASS;
         Long start = fresh && wanted.seek() != null ? Long.valueOf(wanted.seek().to()) : state.start();
         this.at = Moves.of(state, wanted.sequence(), start);
@@ -100,9 +105,21 @@ public final class Playback {
         }
     }
 
-    /** After a restart the topic may have epochs that its state does not know; their numbers are not used again. */
-    public void skipEpochsTo(long epoch) {
+    /**
+     * After a restart the topic may have records that the state does not know: the numbers of their epochs are not used again, and the
+     * timestamps of other epochs do not step back behind theirs.
+     *
+     * @param epoch the greatest one that the topic has
+     * @param stamp the greatest timestamp that it has, epoch ms
+     */
+    public void goOnAfter(long epoch, long stamp) {
         used = epoch;
+        usedStamp = stamp;
+        if (withoutState && at.phase() == Phase.OPENING && at.epoch() <= epoch) {
+            begin(at.start(), passBegan);
+        } else if (withoutState && at.phase() == Phase.OPENING) {
+            at = Moves.stamped(at, stamp);
+        }
     }
 
     private boolean isOfGroup() {
@@ -159,6 +176,12 @@ public final class Playback {
         return over(Phase.FAILED, reason, reason, now);
     }
 
+    /** Ends it because of a record that cannot be read. @param sequence of the record */
+    public Optional<Played> refuse(long sequence, String reason, long now) {
+        at = Moves.of(at, Math.max(at.sequence(), sequence), at.start());
+        return fail(reason, now);
+    }
+
     private Optional<Played> over(Phase how, String reason, String said, long now) {
         Optional<Played> end = end(said, now);
         at = Moves.over(at, how, reason);
@@ -192,7 +215,7 @@ public final class Playback {
             at = Moves.over(at, Phase.FAILED, NO_EPOCH_LEFT);
             return;
         }
-        at = Moves.nextEpoch(at, start, used);
+        at = Moves.stamped(Moves.nextEpoch(at, start, used), usedStamp);
         aheadOfClock = false;
         slip = 0;
         passBegan = now;

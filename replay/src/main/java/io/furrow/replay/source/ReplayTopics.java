@@ -28,12 +28,11 @@ public interface ReplayTopics extends Serializable {
         int prepare(String topic) throws IOException, InterruptedException;
 
         /**
-         * The greatest epoch that the topic has records of, committed or not; from any thread.
+         * The newest of what the topic has, committed or not; from any thread.
          *
-         * @return {@link NewestEpoch#NONE} if there is none
          * @throws IOException if that cannot be read now
          */
-        long newestEpoch(String topic) throws IOException, InterruptedException;
+        TopicEnd end(String topic) throws IOException, InterruptedException;
 
         /** The record, or what is written in its place because the topic does not take it. */
         TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
@@ -46,11 +45,11 @@ public interface ReplayTopics extends Serializable {
     static ReplayTopics of(JobOptions options, TopicOptions.Settings settings) {
         Properties client = options.kafkaProperties();
         client.setProperty(ConsumerConfig.BOOTSTRAP_SERVERS_CONFIG, options.bootstrapServers());
-        return new OnKafka(new EnsureTopics(options, settings), new NewestEpoch(client));
+        return new OnKafka(new EnsureTopics(options, settings), new TopicEndReader(client));
     }
 
     /** Topics are made as the job's options say. */
-    record OnKafka(EnsureTopics topics, NewestEpoch newest) implements ReplayTopics {
+    record OnKafka(EnsureTopics topics, TopicEndReader ends) implements ReplayTopics {
         @Override
         public Writing open() {
             WritableRecords records = topics.writable();
@@ -61,8 +60,8 @@ public interface ReplayTopics extends Serializable {
                 }
 
                 @Override
-                public long newestEpoch(String topic) throws IOException, InterruptedException {
-                    return newest.of(topic);
+                public TopicEnd end(String topic) throws IOException, InterruptedException {
+                    return ends.of(topic);
                 }
 
                 @Override

@@ -39,17 +39,20 @@ final class RunningReplay {
     private byte[] wanted;
     private PlaybackState refusedAt;
     private String refusal;
+    /** Sequence of the record that cannot be read. */
+    private long refused;
+
     private Playback playback;
     private PageReader pages;
     private boolean removed;
     /** Whether it is over and nothing is read for it. */
     private boolean rests;
-    /** Whether it goes on after a restart, and first has to know which epochs its topic has. */
+    /** Whether it goes on after a restart, and first has to know what its topic has. */
     private final boolean restored;
 
     private boolean asked;
     /** Valid as soon as the partitions are known. */
-    private volatile long newestEpoch = NewestEpoch.NONE;
+    private volatile TopicEnd end = TopicEnd.EMPTY;
     /** Of its topic; 0 until that is known. */
     private volatile int partitions;
 
@@ -70,7 +73,7 @@ final class RunningReplay {
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
         this.refusedAt = split.state();
-        this.restored = split.state().sequence() >= 0;
+        this.restored = split.state().sequence() >= 0 || split.state().epoch() > 0;
         this.wanted = split.wanted();
         take(split.wanted(), now);
     }
@@ -101,14 +104,15 @@ final class RunningReplay {
             return Optional.empty();
         } catch (UnreadableException e) {
             refusal = "the record of service.replays cannot be read: " + e.getMessage();
-            return playback == null ? Optional.empty() : playback.fail(refusal, now);
+            refused = WantedReplay.sequence(next);
+            return playback == null ? Optional.empty() : playback.refuse(refused, refusal, now);
         }
     }
 
     private void prepare(WantedReplay replay) throws IOException, InterruptedException {
         int found = reading.topics().prepare(replay.topic());
         if (restored) {
-            newestEpoch = reading.topics().newestEpoch(replay.topic());
+            end = reading.topics().end(replay.topic());
         }
         partitions = found;
         reading.wakeUp().run();
@@ -145,7 +149,7 @@ final class RunningReplay {
             return reports.due(playback);
         }
         if (restored && playback != null) {
-            playback.skipEpochsTo(newestEpoch);
+            playback.goOnAfter(end.epoch(), end.timestamp());
         }
         while (!wishes.isEmpty()) {
             byte[] wish = wishes.remove();
@@ -156,7 +160,7 @@ final class RunningReplay {
             take(wish, now).ifPresent(played -> write(played, out));
         }
         if (playback == null) {
-            reports.reportRefused(Math.max(0, refusedAt.sequence()), refusal, now, out);
+            reports.reportRefused(Math.max(refused, refusedAt.sequence()), refusal, now, out);
             return Long.MAX_VALUE;
         }
         for (Fetched answer = answers.poll(); answer != null; answer = answers.poll()) {

@@ -110,7 +110,7 @@ final class StatusReports {
 
     /** Of a replay of which it cannot be read what is requested. */
     void reportRefused(long sequence, String reason, long now, Consumer<TopicRecord> out) {
-        if (told == null || told.settled() != settled || !reason.equals(told.reason())) {
+        if (told == null || told.settled() != settled || told.sequence() != sequence || !reason.equals(told.reason())) {
             write(new ReplayStatus(sequence, ReplayStatus.State.FAILED, reason, false, null), now, out);
         }
     }

@@ -20,24 +20,18 @@ import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import io.furrow.model.event.HeaderNames;
 
 /**
- * The greatest epoch at the end of a replay's topic, whether its transaction was committed or not. A checkpoint may be older than what was
- * written since, and an epoch's number must not be used for two contents.
+ * Reads the greatest epoch and timestamp at the end of a replay's topic, whether its transaction was committed or not. A checkpoint may be
+ * older than what was written since: an epoch's number must not be used for two contents, and timestamps must not step back.
  *
  * @param client settings of Kafka clients, {@code bootstrap.servers} among them
  */
-record NewestEpoch(Properties client) implements Serializable {
-    static final long NONE = -1;
-
+record TopicEndReader(Properties client) implements Serializable {
     private static final Duration POLL = Duration.ofMillis(200);
     /** The last offsets of a partition may be those of transaction markers, which are no records. */
     private static final long TAIL_OFFSETS = 100;
 
-    /**
-     * {@link #NONE} if no record has one.
-     *
-     * @throws IOException if Kafka cannot be asked now
-     */
-    long of(String topic) throws IOException, InterruptedException {
+    /** @throws IOException if Kafka cannot be asked now */
+    TopicEnd of(String topic) throws IOException, InterruptedException {
         Properties settings = new Properties();
         settings.putAll(client);
         settings.setProperty(ConsumerConfig.ISOLATION_LEVEL_CONFIG, "read_uncommitted");
@@ -50,7 +44,7 @@ record NewestEpoch(Properties client) implements Serializable {
                     .map(info -> new TopicPartition(topic, info.partition()))
                     .toList();
             consumer.assign(partitions);
-            long newest = NONE;
+            TopicEnd newest = TopicEnd.EMPTY;
             Map<TopicPartition, Long> begins = consumer.beginningOffsets(partitions);
             Map<TopicPartition, Long> ends = consumer.endOffsets(partitions);
             for (TopicPartition partition : partitions) {
@@ -58,27 +52,30 @@ record NewestEpoch(Properties client) implements Serializable {
                 consumer.seek(partition, Math.max(begins.get(partition), ends.get(partition) - TAIL_OFFSETS));
                 while (consumer.position(partition) < ends.get(partition)) {
                     for (ConsumerRecord<byte[], byte[]> record : consumer.poll(POLL)) {
-                        newest = Math.max(newest, epoch(record));
+                        newest = newest.with(epoch(record), record.timestamp());
                     }
                 }
             }
             return newest;
         } catch (InterruptException e) {
             Thread.interrupted(); // Kafka sets it again
-            InterruptedException interrupted = new InterruptedException("interrupted while the newest epoch was read");
+            InterruptedException interrupted =
+                    new InterruptedException("interrupted while the end of a topic was read");
             interrupted.initCause(e);
             throw interrupted;
         } catch (KafkaException e) {
-            throw new IOException("The newest epoch of topic " + topic + " cannot be read: " + e.getMessage(), e);
+            throw new IOException("The end of topic " + topic + " cannot be read: " + e.getMessage(), e);
         }
     }
 
     private static long epoch(ConsumerRecord<byte[], byte[]> record) {
         Header header = record.headers().lastHeader(HeaderNames.REPLAY_EPOCH);
         try {
-            return header == null ? NONE : Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
+            return header == null
+                    ? TopicEnd.EMPTY.epoch()
+                    : Long.parseLong(new String(header.value(), StandardCharsets.UTF_8));
         } catch (NumberFormatException e) { // not written by a replay
-            return NONE;
+            return TopicEnd.EMPTY.epoch();
         }
     }
 }

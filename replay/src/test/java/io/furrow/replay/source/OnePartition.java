@@ -4,7 +4,7 @@ import io.furrow.flink.record.TopicRecord;
 
 /** Topics that take everything. */
 final class OnePartition implements ReplayTopics.Writing {
-    long newestEpoch = NewestEpoch.NONE;
+    TopicEnd end = TopicEnd.EMPTY;
 
     @Override
     public int prepare(String topic) {
@@ -12,8 +12,8 @@ final class OnePartition implements ReplayTopics.Writing {
     }
 
     @Override
-    public long newestEpoch(String topic) {
-        return newestEpoch;
+    public TopicEnd end(String topic) {
+        return end;
     }
 
     @Override

@@ -283,7 +283,7 @@ class ReplayReaderTest {
         start(started);
         play("m", "event", 2);
 
-        topics.newestEpoch = 2;
+        topics.end = new TopicEnd(2, TIME + 70_000);
         restart();
         wish(started.seeking(TIME + 5, 3));
         play("m", "event", 3);
@@ -292,6 +292,43 @@ class ReplayReaderTest {
                 .extracting(record -> record.headers().get(HeaderNames.REPLAY_EPOCH))
                 .containsExactly("0");
         assertThat(played("m", "event").get(2).headers()).containsEntry(HeaderNames.REPLAY_EPOCH, "3");
+        assertThat(played("m", "prime").get(0).timestamp()).isEqualTo(TIME + 70_000);
+    }
+
+    @Test
+    void goesOnBehindItsTopicWhereNoCheckpointKnowsIt() throws Exception {
+        missions.with("m", TIME, TIME + 10);
+        topics.end = new TopicEnd(6, TIME + 900_000);
+        WantedReplay wanted = wanted("m", ReplayCommand.MAX, State.RUNNING, 1);
+        PlaybackState told = PlaybackState.before(5, TIME + 400_000);
+        reader.addSplits(List.of(new ReplaySplit(wanted.replay(), wanted.toBytes(), told)));
+
+        play("m", "end", 1);
+
+        assertThat(played("m", "event"))
+                .extracting(TopicRecord::timestamp)
+                .containsExactly(TIME + 900_000, TIME + 900_010);
+        assertThat(played("m", "end").get(0).headers()).containsEntry(HeaderNames.REPLAY_EPOCH, "7");
+    }
+
+    /** Whoever asked for it can forget it then. */
+    @Test
+    void appliesARecordThatItCannotReadAsAFailure() throws Exception {
+        byte[] later = "{\"sequence\": 7, \"replay\": 1}".getBytes(StandardCharsets.UTF_8);
+        reader.addSplits(List.of(new ReplaySplit("bad.0a1b2c3d", later, PlaybackState.fresh())));
+        missions.with("m", TIME, TIME + 100_000);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+        reader.handleSourceEvents(new WantedEvent("m.0a1b2c3d", later));
+        play("m", "end", 1);
+
+        reader.snapshotState(1);
+        reader.notifyCheckpointComplete(1);
+        playUntil(() -> status("m").settled() && status("bad").settled());
+
+        assertThat(List.of(status("m"), status("bad")))
+                .allSatisfy(status -> assertThat(status.state()).isEqualTo(State.FAILED))
+                .allSatisfy(status -> assertThat(status.sequence()).isEqualTo(7));
     }
 
     private void restart() throws Exception {

@@ -2,6 +2,7 @@ package io.furrow.model.control.replay;
 
 import java.util.Objects;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -228,6 +229,16 @@ public record WantedReplay(
             return replay;
         } catch (RefusedException e) {
             throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage());
+        }
+    }
+
+    /** The sequence of a record that may be unreadable otherwise; 0 if it has none. */
+    public static long sequence(byte[] value) {
+        try {
+            JsonNode sequence = NgsiJson.read(value).path("sequence");
+            return sequence.isIntegralNumber() && sequence.canConvertToLong() ? sequence.longValue() : 0;
+        } catch (UnreadableException e) {
+            return 0;
         }
     }
 

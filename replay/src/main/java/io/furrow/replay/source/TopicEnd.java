@@ -1,0 +1,15 @@
+package io.furrow.replay.source;
+
+/**
+ * The newest of what a replay's topic has.
+ *
+ * @param epoch the greatest one; −1 if it has none
+ * @param timestamp the greatest one, epoch ms; 0 if there is none
+ */
+record TopicEnd(long epoch, long timestamp) {
+    static final TopicEnd EMPTY = new TopicEnd(-1, 0);
+
+    TopicEnd with(long otherEpoch, long otherTimestamp) {
+        return new TopicEnd(Math.max(epoch, otherEpoch), Math.max(timestamp, otherTimestamp));
+    }
+}
