@@ -2,6 +2,7 @@ package io.furrow.control;
 
 import java.nio.charset.StandardCharsets;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
 
@@ -252,6 +253,27 @@ class ControlTopologyTest {
         String status = """
                 {"sequence":%d,"state":"%s","settled":%s,"progress":{"position":9000,"from":1000,"to":9000}}""".formatted(sequence, state.word(), settled);
         farm.pipe(Topics.REPLAYS_STATUS, replay, status.getBytes(StandardCharsets.UTF_8));
+    }
+
+    @Test
+    void startsNoReplayBeyondThoseThatMayPlayAtOneTime() {
+        List<String> replays = new ArrayList<>();
+        for (int number = 0; number < ReplaySettings.DEFAULT.max() - 1; number++) {
+            replays.add(startReplay(""));
+        }
+        String group = "{'type':'request','command':'start','missions':['a','b'],'from':1000,'to':9000}";
+        farm.ask(Topics.REPLAY_MANAGER, null, group);
+        CommandResult refused = ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER));
+        assertThat(refused.error()).contains("quota-exceeded");
+        assertThat(refused.json().path("reason").asText())
+                .isEqualTo(
+                        "255 replays are not over, of at most 256 (--max-replays); stop one that is not needed any more");
+
+        report(replays.get(0), 1, ReplayStatus.State.ENDED, false);
+        farm.ask(Topics.REPLAY_MANAGER, null, group);
+
+        assertThat(ManagedFarm.response(farm.only(Topics.REPLAY_MANAGER)).status())
+                .isEqualTo("created");
     }
 
     @Test

@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Objects;
 import java.util.UUID;
+import java.util.concurrent.atomic.AtomicInteger;
 import java.util.function.Supplier;
 
 import io.furrow.control.manager.CommandHandler;
@@ -41,19 +42,18 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     private final ReplayNames names;
     private final Sequence sequence;
     private final Quota quota;
-    private final Duration keepEnded;
+    private final ReplaySettings settings;
     private final EventPublisher outbox;
 
     /**
      * @param stores of the replays
      * @param ids of new replays
-     * @param keepEnded how long a replay rests at its end, from where it can be played again
      */
     ReplayCommandHandler(
             ReplayStores stores,
             RecordedMissions recordings,
             Supplier<UUID> ids,
-            Duration keepEnded,
+            ReplaySettings settings,
             EventPublisher outbox) {
         this.replays = stores.replays();
         this.reports = new ReplayReports(stores.reports());
@@ -61,7 +61,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         this.names = new ReplayNames(replays, ids);
         this.sequence = new Sequence(stores.counters());
         this.quota = new Quota(stores.counters(), Limits.DEFINITIONS_BYTES);
-        this.keepEnded = keepEnded;
+        this.settings = settings;
         this.outbox = outbox;
     }
 
@@ -90,6 +90,19 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         }
         if (start.plan().source() == null) {
             recordings.require(start.missions());
+        }
+        requireRoom(start.missions().size());
+    }
+
+    /** Each replay that is not over takes a topic, and of its job heap and connections. */
+    private void requireRoom(int further) throws RefusedException {
+        AtomicInteger playing = new AtomicInteger();
+        replays.forEach(each -> playing.addAndGet(reports.state(each).isOver() ? 0 : 1));
+        if (playing.get() + further > settings.max()) {
+            throw new RefusedException(
+                    ErrorCode.QUOTA_EXCEEDED,
+                    "%d replays are not over, of at most %d (--max-replays); stop one that is not needed any more"
+                            .formatted(playing.get(), settings.max()));
         }
     }
 
@@ -251,7 +264,7 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
     /** Forgets replays that have rested at their ends for long enough; those of a group together. */
     @Override
     public void passTime(long now) {
-        List<WantedReplay> rested = reports.endedBy(now - keepEnded.toMillis()).stream()
+        List<WantedReplay> rested = reports.endedBy(now - settings.keepEnded().toMillis()).stream()
                 .map(replays::get)
                 .filter(each -> reports.state(each).isOver())
                 .toList();

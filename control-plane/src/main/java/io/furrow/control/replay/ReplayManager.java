@@ -113,10 +113,6 @@ public final class ReplayManager {
                 StoredRecords.of(context, REPORTS, ReportedReplay.class),
                 StoredRecords.of(context, SEQUENCE, Long.class));
         return new ReplayCommandHandler(
-                stores,
-                new RecordedMissions(settings.knowsRecordings(), recordings::get),
-                ids,
-                settings.keepEnded(),
-                outbox);
+                stores, new RecordedMissions(settings.knowsRecordings(), recordings::get), ids, settings, outbox);
     }
 }

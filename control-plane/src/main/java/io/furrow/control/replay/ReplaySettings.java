@@ -11,11 +11,15 @@ import java.util.Objects;
  * @param pollInterval between two looks at the names of the stored missions
  * @param grace how long topics of a replay are kept after it was over
  * @param keepEnded how long a replay that came to its end can be played again
+ * @param max replays that are not over, at one time
  */
-public record ReplaySettings(String mongo, String database, Duration pollInterval, Duration grace, Duration keepEnded) {
-    /** No MongoDB; topics and replays that ended are kept for an hour. */
-    public static final ReplaySettings DEFAULT =
-            new ReplaySettings(null, "persistence", Duration.ofSeconds(2), Duration.ofHours(1), Duration.ofHours(1));
+public record ReplaySettings(
+        String mongo, String database, Duration pollInterval, Duration grace, Duration keepEnded, int max) {
+    private static final int MAX = 256;
+
+    /** No MongoDB; topics and replays that ended are kept for an hour; 256 replays. */
+    public static final ReplaySettings DEFAULT = new ReplaySettings(
+            null, "persistence", Duration.ofSeconds(2), Duration.ofHours(1), Duration.ofHours(1), MAX);
 
     public ReplaySettings {
         Objects.requireNonNull(database);
@@ -26,23 +30,27 @@ public record ReplaySettings(String mongo, String database, Duration pollInterva
 
     /** @param uri null for none */
     public ReplaySettings withMongo(String uri) {
-        return new ReplaySettings(uri, database, pollInterval, grace, keepEnded);
+        return new ReplaySettings(uri, database, pollInterval, grace, keepEnded, max);
     }
 
     public ReplaySettings withDatabase(String name) {
-        return new ReplaySettings(mongo, name, pollInterval, grace, keepEnded);
+        return new ReplaySettings(mongo, name, pollInterval, grace, keepEnded, max);
     }
 
     public ReplaySettings withPollInterval(Duration interval) {
-        return new ReplaySettings(mongo, database, interval, grace, keepEnded);
+        return new ReplaySettings(mongo, database, interval, grace, keepEnded, max);
     }
 
     public ReplaySettings withGrace(Duration time) {
-        return new ReplaySettings(mongo, database, pollInterval, time, keepEnded);
+        return new ReplaySettings(mongo, database, pollInterval, time, keepEnded, max);
     }
 
     public ReplaySettings withKeepEnded(Duration time) {
-        return new ReplaySettings(mongo, database, pollInterval, grace, time);
+        return new ReplaySettings(mongo, database, pollInterval, grace, time, max);
+    }
+
+    public ReplaySettings withMax(int replays) {
+        return new ReplaySettings(mongo, database, pollInterval, grace, keepEnded, replays);
     }
 
     /** Whether it is known which missions are stored. */
@@ -53,7 +61,7 @@ public record ReplaySettings(String mongo, String database, Duration pollInterva
     /** Holds no password. */
     @Override
     public String toString() {
-        return "replays of %s, polled every %s, topics kept for %s, ended replays for %s"
-                .formatted(mongo == null ? "no MongoDB" : database, pollInterval, grace, keepEnded);
+        return "%d replays of %s, polled every %s, topics kept for %s, ended replays for %s"
+                .formatted(max, mongo == null ? "no MongoDB" : database, pollInterval, grace, keepEnded);
     }
 }

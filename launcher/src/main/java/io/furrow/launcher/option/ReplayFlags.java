@@ -46,6 +46,13 @@ public final class ReplayFlags {
                     "How long a replay that came to its end can be sought and stepped back in. Default: ${DEFAULT-VALUE}.")
     private Duration keepEnded;
 
+    @Option(
+            names = "--max-replays",
+            paramLabel = "N",
+            defaultValue = "256",
+            description = "Replays that are not over, at one time; a start beyond is refused. Default: ${DEFAULT-VALUE}.")
+    private int max;
+
     /** @throws CommandException where they cannot be used */
     public ReplaySettings settings() {
         if (poll.compareTo(Duration.ofMillis(100)) < 0 || grace.isNegative() || keepEnded.isNegative()) {
@@ -53,11 +60,15 @@ public final class ReplayFlags {
                     "--mongo-poll is at least 100ms, and --replay-grace and --keep-ended-replays are not negative; they are %s, %s and %s."
                             .formatted(poll, grace, keepEnded));
         }
+        if (max < 1) {
+            throw new CommandException("--max-replays is at least 1; it is %d.".formatted(max));
+        }
         return ReplaySettings.DEFAULT
                 .withMongo(mongo)
                 .withDatabase(database)
                 .withPollInterval(poll)
                 .withGrace(grace)
-                .withKeepEnded(keepEnded);
+                .withKeepEnded(keepEnded)
+                .withMax(max);
     }
 }

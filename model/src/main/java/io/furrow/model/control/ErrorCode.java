@@ -42,7 +42,7 @@ public enum ErrorCode {
     WRONG_STATE,
     /** More bytes than {@link Limits} allow, in the request or in what would come of it. */
     TOO_LARGE,
-    /** All definitions together would have more bytes than {@link Limits#DEFINITIONS_BYTES}. */
+    /** All definitions together would have more bytes than {@link Limits#DEFINITIONS_BYTES}, or more replays would play than may at one time. */
     QUOTA_EXCEEDED,
     /** The id was given before, to a request that asked for something else or came from somebody else. */
     REQUEST_ID_REUSED,
