@@ -2,9 +2,12 @@ package io.furrow.flink.kafka;
 
 import java.io.IOException;
 import java.time.Duration;
+import java.util.Collection;
+import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
+import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ExecutionException;
 import java.util.function.LongSupplier;
@@ -12,6 +15,8 @@ import java.util.function.LongSupplier;
 import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.admin.AdminClientConfig;
 import org.apache.kafka.clients.admin.Config;
+import org.apache.kafka.clients.admin.TopicDescription;
+import org.apache.kafka.common.KafkaFuture;
 import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.config.TopicConfig;
 import org.apache.kafka.common.errors.AuthorizationException;
@@ -134,6 +139,26 @@ final class OutputTopics implements AutoCloseable {
             }
             return 0;
         }
+    }
+
+    /** Those of the topics that the broker has not heard of. */
+    Set<String> missing(Collection<String> topics) throws IOException, InterruptedException {
+        Set<String> missing = new HashSet<>();
+        for (Map.Entry<String, KafkaFuture<TopicDescription>> each :
+                admin().describeTopics(topics).topicNameValues().entrySet()) {
+            try {
+                each.getValue().get();
+            } catch (ExecutionException e) {
+                if (!(e.getCause() instanceof UnknownTopicOrPartitionException)) {
+                    throw new IOException(
+                            "topic " + each.getKey() + " cannot be described: "
+                                    + e.getCause().getMessage(),
+                            e.getCause());
+                }
+                missing.add(each.getKey());
+            }
+        }
+        return missing;
     }
 
     private void ensure(String topic) throws IOException, InterruptedException {

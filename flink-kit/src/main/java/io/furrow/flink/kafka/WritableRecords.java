@@ -2,8 +2,10 @@ package io.furrow.flink.kafka;
 
 import java.io.IOException;
 import java.util.Arrays;
+import java.util.Collection;
 import java.util.HashMap;
 import java.util.Map;
+import java.util.Set;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
@@ -37,6 +39,15 @@ public final class WritableRecords implements AutoCloseable {
      */
     public int prepare(String topic) throws IOException, InterruptedException {
         return topics.partitions(topic);
+    }
+
+    /**
+     * Those of the topics that the broker has not heard of. From any thread.
+     *
+     * @throws IOException if that cannot be asked now
+     */
+    public Set<String> missing(Collection<String> names) throws IOException, InterruptedException {
+        return topics.missing(names);
     }
 
     /**

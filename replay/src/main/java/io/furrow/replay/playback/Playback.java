@@ -115,6 +115,7 @@ public final class Playback {
     public void goOnAfter(long epoch, long stamp) {
         used = epoch;
         usedStamp = stamp;
+        waiting = null;
         if (withoutState && at.phase() == Phase.OPENING && at.epoch() <= epoch) {
             begin(at.start(), passBegan);
         } else if (withoutState && at.phase() == Phase.OPENING) {
@@ -188,6 +189,11 @@ public final class Playback {
         primes = null;
         waiting = null;
         return end;
+    }
+
+    /** @param reason why its topic cannot be written to, for which it waits; null if it is not known */
+    public void awaitTopic(String reason) {
+        waiting = reason;
     }
 
     /** Also an epoch that could not begin: who was given the name of its topic waits for an end. */

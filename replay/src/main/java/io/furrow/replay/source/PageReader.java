@@ -232,11 +232,17 @@ final class PageReader implements AutoCloseable {
     synchronized void rest() {
         newest = null;
         interrupt();
-        thread.execute(this::release);
+        thread.execute(() -> {
+            prepared = false; // somebody may delete the topic meanwhile
+            release();
+        });
     }
 
     @Override
     public synchronized void close() {
+        if (thread.isShutdown()) {
+            return;
+        }
         newest = null;
         interrupt();
         thread.getQueue().clear();

@@ -1,5 +1,6 @@
 package io.furrow.replay.source;
 
+import java.time.Duration;
 import java.util.ArrayList;
 import java.util.Iterator;
 import java.util.LinkedHashMap;
@@ -31,6 +32,8 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     /** Records of one replay before another one's turn. */
     private static final int TURN = 100;
 
+    private static final Duration TOPIC_CHECKS = Duration.ofSeconds(1);
+
     private final RunningReplay.Reading reading;
     private final ReplayMetrics metrics;
     private final Map<String, RunningReplay> replays = new LinkedHashMap<>();
@@ -43,7 +46,8 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     ReplayReader(
             SourceReaderContext context, RecordingSources recordings, PageLimits limits, ReplayTopics.Writing topics) {
         DeadCounters dead = new DeadCounters(context.metricGroup());
-        this.reading = new RunningReplay.Reading(recordings, limits, topics, dead, this::wakeUp);
+        this.reading = new RunningReplay.Reading(
+                recordings, limits, topics, new TopicWatch(topics, TOPIC_CHECKS), dead, this::wakeUp);
         this.metrics = new ReplayMetrics(context.metricGroup());
     }
 
@@ -173,6 +177,7 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         if (timer != null) {
             timer.shutdownNow();
         }
+        reading.watch().close();
         reading.topics().close();
     }
 }

@@ -2,7 +2,9 @@ package io.furrow.replay.source;
 
 import java.io.IOException;
 import java.io.Serializable;
+import java.util.Collection;
 import java.util.Properties;
+import java.util.Set;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
 
@@ -34,6 +36,13 @@ public interface ReplayTopics extends Serializable {
          */
         TopicEnd end(String topic) throws IOException, InterruptedException;
 
+        /**
+         * Those of the topics that the broker has not heard of; from any thread.
+         *
+         * @throws IOException if that cannot be asked now
+         */
+        Set<String> missing(Collection<String> topics) throws IOException, InterruptedException;
+
         /** The record, or what is written in its place because the topic does not take it. */
         TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
 
@@ -57,6 +66,11 @@ public interface ReplayTopics extends Serializable {
                 @Override
                 public int prepare(String topic) throws IOException, InterruptedException {
                     return records.prepare(topic);
+                }
+
+                @Override
+                public Set<String> missing(Collection<String> names) throws IOException, InterruptedException {
+                    return records.missing(names);
                 }
 
                 @Override

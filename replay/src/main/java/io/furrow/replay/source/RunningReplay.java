@@ -3,6 +3,7 @@ package io.furrow.replay.source;
 import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.util.ArrayDeque;
+import java.util.Deque;
 import java.util.Optional;
 import java.util.Queue;
 import java.util.concurrent.ConcurrentLinkedQueue;
@@ -31,8 +32,10 @@ final class RunningReplay {
     /** Stands for the end of it among the wishes. */
     private static final byte[] REMOVED = {};
 
+    private static final String DELETED = "its topic was deleted while it was played";
+
     private final String name;
-    private final Queue<byte[]> wishes = new ArrayDeque<>();
+    private final Deque<byte[]> wishes = new ArrayDeque<>();
     private final Queue<Fetched> answers = new ConcurrentLinkedQueue<>();
     private final StatusReports reports;
     private final Reading reading;
@@ -47,14 +50,12 @@ final class RunningReplay {
     private boolean removed;
     /** Whether it is over and nothing is read for it. */
     private boolean rests;
-    /** Whether it goes on after a restart, and first has to know what its topic has. */
-    private final boolean restored;
 
+    private final PlayedTopic topic;
+    /** Whether its topic is asked for that it needs to go on after a restart. */
     private boolean asked;
-    /** Valid as soon as the partitions are known. */
-    private volatile TopicEnd end = TopicEnd.EMPTY;
-    /** Of its topic; 0 until that is known. */
-    private volatile int partitions;
+    /** Whether it goes on after a restart. */
+    private boolean goesOn;
 
     /**
      * What replays share.
@@ -65,6 +66,7 @@ final class RunningReplay {
             RecordingSources recordings,
             PageLimits limits,
             ReplayTopics.Writing topics,
+            TopicWatch watch,
             DeadCounters dead,
             Runnable wakeUp) {}
 
@@ -73,7 +75,7 @@ final class RunningReplay {
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
         this.refusedAt = split.state();
-        this.restored = split.state().sequence() >= 0 || split.state().epoch() > 0;
+        this.topic = new PlayedTopic(split.state(), reading);
         this.wanted = split.wanted();
         take(split.wanted(), now);
     }
@@ -97,10 +99,11 @@ final class RunningReplay {
                 return playback.apply(replay, now);
             }
             playback = new Playback(replay, refusedAt, now, ReplayReader::wall);
-            pages = new PageReader(replay, () -> prepare(replay), reading.recordings(), reading.limits(), answer -> {
-                answers.add(answer);
-                reading.wakeUp().run();
-            });
+            pages = new PageReader(
+                    replay, () -> topic.prepare(replay.topic()), reading.recordings(), reading.limits(), answer -> {
+                        answers.add(answer);
+                        reading.wakeUp().run();
+                    });
             return Optional.empty();
         } catch (UnreadableException e) {
             refusal = "the record of service.replays cannot be read: " + e.getMessage();
@@ -109,21 +112,16 @@ final class RunningReplay {
         }
     }
 
-    private void prepare(WantedReplay replay) throws IOException, InterruptedException {
-        int found = reading.topics().prepare(replay.topic());
-        if (restored) {
-            end = reading.topics().end(replay.topic());
-        }
-        partitions = found;
-        reading.wakeUp().run();
-    }
-
     /**
      * After a restart a replay goes on only when its topic is known: what ends an epoch goes to every partition, and the next one's number
      * must be new. One that is over needs that not before it is requested again.
      */
     private boolean awaitsTopic() {
-        if (!restored || playback == null || partitions > 0 || playback.isOver() && !isWished()) {
+        if (!topic.isRestored()
+                || playback == null
+                || topic.partitions() > 0
+                || playback.isOver() && !isWished()
+                || topic.refusal() != null && isToEnd()) { // without a record: there is nothing that takes it
             return false;
         }
         if (!asked) {
@@ -131,6 +129,16 @@ final class RunningReplay {
             pages.prepareSoon();
         }
         return true;
+    }
+
+    private boolean isToEnd() {
+        byte[] last = wishes.peekLast();
+        try {
+            return last == REMOVED
+                    || last != null && WantedReplay.read(name, last).wanted() == ReplayStatus.State.STOPPED;
+        } catch (UnreadableException e) {
+            return false;
+        }
     }
 
     private boolean isWished() {
@@ -145,11 +153,13 @@ final class RunningReplay {
      */
     long run(long now, int most, Consumer<TopicRecord> out) {
         if (awaitsTopic()) {
+            playback.awaitTopic(topic.refusal());
             reports.report(playback, now, out);
             return reports.due(playback);
         }
-        if (restored && playback != null) {
-            playback.goOnAfter(end.epoch(), end.timestamp());
+        if (topic.isRestored() && !goesOn && playback != null && topic.partitions() > 0) {
+            goesOn = true;
+            playback.goOnAfter(topic.end().epoch(), topic.end().timestamp());
         }
         while (!wishes.isEmpty()) {
             byte[] wish = wishes.remove();
@@ -162,6 +172,9 @@ final class RunningReplay {
         if (playback == null) {
             reports.reportRefused(Math.max(refused, refusedAt.sequence()), refusal, now, out);
             return Long.MAX_VALUE;
+        }
+        if (topic.wasDeleted() && !playback.isOver()) {
+            playback.fail(DELETED, now).ifPresent(played -> write(played, out));
         }
         for (Fetched answer = answers.poll(); answer != null; answer = answers.poll()) {
             playback.take(answer, now).ifPresent(played -> write(played, out));
@@ -177,6 +190,7 @@ final class RunningReplay {
         reports.report(playback, now, out);
         if (playback.rests() != rests) {
             rests = playback.rests();
+            topic.setResting(rests);
             if (rests) {
                 pages.rest();
             }
@@ -189,7 +203,7 @@ final class RunningReplay {
         reports.count(played, playback.lateness());
         TopicRecord record = ReplayRecords.of(played, playback.wanted());
         if (played.kind() == Played.Kind.END) {
-            for (int partition = 0; partition < partitions; partition++) {
+            for (int partition = 0; partition < topic.partitions(); partition++) {
                 out.accept(record.toPartition(partition));
             }
         } else {
@@ -258,6 +272,9 @@ final class RunningReplay {
     }
 
     void close() {
+        if (playback != null) {
+            reading.watch().remove(playback.wanted().topic());
+        }
         if (pages != null) {
             pages.close();
         }

@@ -331,6 +331,54 @@ class ReplayReaderTest {
                 .allSatisfy(status -> assertThat(status.sequence()).isEqualTo(7));
     }
 
+    @Test
+    void failsAReplayWhoseTopicWasDeletedAndNoOther() throws Exception {
+        missions.with("m", TIME, TIME + 100_000).with("other", TIME, TIME + 100_000);
+        start(wanted("m", 1, State.RUNNING, 1));
+        start(wanted("other", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+        play("other", "event", 1);
+
+        topics.deleted.add(Topics.replay("m", "0a1b2c3d"));
+        play("m", "end", 1);
+
+        playUntil(() -> status("m").state() == State.FAILED);
+        assertThat(status("m").reason()).isEqualTo("its topic was deleted while it was played");
+        assertThat(status("other").state()).isEqualTo(State.RUNNING);
+        assertThat(topics.deleted).isEmpty();
+    }
+
+    @Test
+    void failsAReplayWhoseTopicIsGoneAfterARestart() throws Exception {
+        missions.with("m", TIME, TIME + 100_000);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+
+        topics.deleted.add(Topics.replay("m", "0a1b2c3d"));
+        restart();
+        play("m", "end", 1);
+
+        playUntil(() -> status("m").state() == State.FAILED);
+        assertThat(status("m").reason()).isEqualTo("its topic was deleted while it was played");
+    }
+
+    @Test
+    void stopsAReplayWhoseTopicIsRefusedAfterARestart() throws Exception {
+        missions.with("m", TIME, TIME + 100_000);
+        WantedReplay running = wanted("m", 1, State.RUNNING, 1);
+        start(running);
+        play("m", "event", 1);
+
+        topics.refusal = "no topic may be made";
+        restart();
+        playUntil(() -> "no topic may be made".equals(status("m").progress().waiting()));
+        assertThat(status("m").state()).isEqualTo(State.RUNNING);
+        wish(running.wanted(State.STOPPED, 2));
+
+        playUntil(() -> status("m").state() == State.STOPPED);
+        assertThat(played("m", "end")).isEmpty();
+    }
+
     private void restart() throws Exception {
         List<ReplaySplit> splits = new ArrayList<>();
         ReplaySplitSerializer serializer = new ReplaySplitSerializer();

@@ -1,0 +1,95 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.util.List;
+
+import io.furrow.replay.playback.PlaybackState;
+
+/** What is known of the topic of a replay. Learned by the threads that read pages and watch topics, asked by the task's. */
+final class PlayedTopic implements TopicWatch.Watched {
+    private final RunningReplay.Reading reading;
+    /** Whether it goes on after a restart, and first has to know what its topic has. */
+    private final boolean restored;
+    /** Whether it was played on before the restart, and still is. */
+    private final boolean played;
+    /** Valid as soon as the partitions are known. */
+    private volatile TopicEnd end = TopicEnd.EMPTY;
+    /** 0 until they are known. */
+    private volatile int partitions;
+
+    private volatile String refusal;
+    private volatile boolean deleted;
+    private volatile boolean rests;
+
+    /** @param state of the replay when it was assigned */
+    PlayedTopic(PlaybackState state, RunningReplay.Reading reading) {
+        this.reading = reading;
+        boolean checkpointed = state.sequence() >= 0;
+        this.restored = checkpointed || state.epoch() > 0;
+        this.played = checkpointed && !state.phase().isOver() && state.epoch() + state.number() > 0;
+    }
+
+    /** Makes the topic where it is not there. Of one that was played on before a restart that is its deletion. */
+    void prepare(String topic) throws IOException, InterruptedException {
+        try {
+            boolean isFirst = partitions == 0;
+            boolean isGone = isFirst
+                    && played
+                    && reading.topics().missing(List.of(topic)).contains(topic);
+            int found = reading.topics().prepare(topic);
+            if (restored && isFirst) {
+                end = reading.topics().end(topic);
+            }
+            partitions = found;
+            refusal = null;
+            deleted |= isGone;
+            reading.watch().add(topic, this);
+        } catch (IOException e) {
+            refusal = e.getMessage();
+            throw e;
+        } finally {
+            reading.wakeUp().run();
+        }
+    }
+
+    boolean isRestored() {
+        return restored;
+    }
+
+    TopicEnd end() {
+        return end;
+    }
+
+    int partitions() {
+        return partitions;
+    }
+
+    /** Why it cannot be made or read now; null if it can, or nobody has tried. */
+    String refusal() {
+        return refusal;
+    }
+
+    /** Whether it was deleted since this was asked last. */
+    boolean wasDeleted() {
+        boolean was = deleted;
+        deleted = false;
+        return was;
+    }
+
+    /** @param nobody whether nobody plays on it */
+    void setResting(boolean nobody) {
+        rests = nobody;
+    }
+
+    @Override
+    public boolean isPlaying() {
+        return !rests;
+    }
+
+    @Override
+    public void deleted(int left) {
+        partitions = left;
+        deleted = true;
+        reading.wakeUp().run();
+    }
+}

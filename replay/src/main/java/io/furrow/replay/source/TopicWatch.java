@@ -1,0 +1,93 @@
+package io.furrow.replay.source;
+
+import java.io.IOException;
+import java.time.Duration;
+import java.util.HashSet;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+import java.util.concurrent.Executors;
+import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.TimeUnit;
+
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
+
+/**
+ * Asks every second whether the topics that replays are played on are still there. One that was deleted is made again before its replay is
+ * told: a record that is under way to a missing topic would hold up those of all other replays. What is missing twice was deleted; a broker
+ * may hear of a topic late.
+ */
+final class TopicWatch implements AutoCloseable {
+    private static final Logger LOG = LoggerFactory.getLogger(TopicWatch.class);
+
+    private final ReplayTopics.Writing topics;
+    private final Map<String, Watched> watched = new ConcurrentHashMap<>();
+    private final ScheduledExecutorService thread;
+    private Set<String> missedBefore = Set.of();
+
+    /** Who plays on a topic. Called by the watching thread. */
+    interface Watched {
+        boolean isPlaying();
+
+        /** @param partitions of the topic in its place; 0 if none could be made */
+        void deleted(int partitions);
+    }
+
+    TopicWatch(ReplayTopics.Writing topics, Duration interval) {
+        this.topics = topics;
+        thread = Executors.newSingleThreadScheduledExecutor(task -> {
+            Thread watching = new Thread(task, "replay-topics");
+            watching.setDaemon(true);
+            return watching;
+        });
+        thread.scheduleWithFixedDelay(this::check, interval.toMillis(), interval.toMillis(), TimeUnit.MILLISECONDS);
+    }
+
+    void add(String topic, Watched player) {
+        watched.put(topic, player);
+    }
+
+    void remove(String topic) {
+        watched.remove(topic);
+    }
+
+    private void check() {
+        List<String> played = watched.entrySet().stream()
+                .filter(each -> each.getValue().isPlaying())
+                .map(Map.Entry::getKey)
+                .toList();
+        try {
+            Set<String> missing = played.isEmpty() ? Set.of() : topics.missing(played);
+            Set<String> deleted = new HashSet<>(missing);
+            deleted.retainAll(missedBefore);
+            for (String topic : deleted) {
+                replace(topic);
+            }
+            missedBefore = missing;
+        } catch (IOException e) {
+            LOG.debug("It cannot be asked now whether topics are there", e);
+        } catch (InterruptedException e) {
+            Thread.currentThread().interrupt();
+        }
+    }
+
+    private void replace(String topic) throws InterruptedException {
+        int partitions = 0;
+        try {
+            partitions = topics.prepare(topic);
+        } catch (IOException e) {
+            LOG.warn("Topic {} was deleted while a replay was played on it, and cannot be made again", topic, e);
+        }
+        Watched player = watched.get(topic);
+        if (player != null) {
+            player.deleted(partitions);
+        }
+    }
+
+    @Override
+    public void close() {
+        thread.shutdownNow();
+    }
+}
