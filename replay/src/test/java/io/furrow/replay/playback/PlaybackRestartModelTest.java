@@ -1,0 +1,133 @@
+package io.furrow.replay.playback;
+
+import java.util.ArrayDeque;
+import java.util.Deque;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Random;
+import java.util.TreeMap;
+
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.MethodSource;
+
+import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.replay.WantedReplay;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+/**
+ * Random programs of commands, of which pages know nothing: an answer comes after any number of commands. Now and then the replay is
+ * restored from an older snapshot, to which only the newest command comes.
+ */
+class PlaybackRestartModelTest {
+    private static final int SHORT = 20;
+    private static final int LONG = 100;
+    private static final int MAX_TURNS = 200;
+
+    private List<StoredEvent> mission;
+    private List<Wishes.Wish> wishes;
+    private Random random;
+    private Playback playback;
+    private long now;
+    private final Deque<Fetched> answers = new ArrayDeque<>();
+    private final Map<String, String> contents = new HashMap<>();
+    private final TreeMap<Long, Long> stamps = new TreeMap<>();
+    private PlaybackState snapshot;
+    private WantedReplay wantedThen;
+
+    static List<Long> some() {
+        return new Random(20261125).longs(SHORT).boxed().toList();
+    }
+
+    static List<Long> many() {
+        return new Random(20261126).longs(LONG).boxed().toList();
+    }
+
+    @ParameterizedTest(name = "seed {0}")
+    @MethodSource("some")
+    void givesNoEpochTwoContentsAndStepsNotBackInTime(long seed) {
+        play(seed);
+    }
+
+    @Tag("full")
+    @ParameterizedTest(name = "seed {0}")
+    @MethodSource("many")
+    void givesNoEpochTwoContentsWhateverComes(long seed) {
+        play(seed);
+    }
+
+    private void play(long seed) {
+        random = new Random(seed);
+        mission = Missions.random(random);
+        wishes = Wishes.random(random, mission);
+        playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0, Wishes::wall);
+        for (int next = 1; next < wishes.size(); next++) {
+            for (int turn = random.nextInt(MAX_TURNS); turn > 0; turn--) {
+                turn(wishes.get(next - 1).wanted());
+            }
+            note(playback.apply(wishes.get(next).wanted(), now));
+        }
+        assertThat(playback.isOver()).isTrue();
+    }
+
+    private void turn(WantedReplay newest) {
+        playback.fetch().ifPresent(fetch -> answers.add(answer(fetch)));
+        switch (random.nextInt(8)) {
+            case 0 -> now += random.nextInt(5_000);
+            case 1, 2, 3 -> {
+                if (!answers.isEmpty()) {
+                    note(playback.take(answers.remove(), now));
+                }
+            }
+            case 4 -> restartNowAndThen(newest);
+            default -> note(playback.poll(now));
+        }
+    }
+
+    private Fetched answer(Fetch fetch) {
+        return fetch instanceof Fetch.Back back
+                ? Missions.back(back, mission, playback.wanted().plan().devices())
+                : Missions.answer(fetch, mission, random);
+    }
+
+    private void restartNowAndThen(WantedReplay newest) {
+        if (snapshot == null || random.nextInt(5) == 0) {
+            snapshot = playback.snapshot(now);
+            wantedThen = playback.wanted();
+        } else if (random.nextInt(5) == 0) {
+            answers.clear();
+            now += random.nextInt(60_000);
+            playback = new Playback(wantedThen, snapshot, now, Wishes::wall);
+            if (!stamps.isEmpty()) {
+                long newestStamp = stamps.values().stream().max(Long::compare).orElseThrow();
+                playback.goOnAfter(stamps.lastKey(), newestStamp);
+            }
+            note(playback.apply(newest, now));
+        }
+    }
+
+    /** An end may be said twice of an epoch, of which events came again. */
+    private void note(Optional<Played> record) {
+        record.ifPresent(played -> {
+            Long before = stamps.lowerEntry(played.epoch()) == null
+                    ? null
+                    : stamps.headMap(played.epoch()).values().stream()
+                            .max(Long::compare)
+                            .orElseThrow();
+            assertThat(played.stamp())
+                    .as("%s after epochs until %s", played, before)
+                    .isGreaterThanOrEqualTo(before == null ? 0 : before);
+            stamps.merge(played.epoch(), played.stamp(), Math::max);
+            if (played.kind() != Played.Kind.END) {
+                String content = played.kind() + " " + played.event().id() + " at " + played.time();
+                String place = played.epoch() + " " + played.sequence();
+                assertThat(contents.merge(place, content, (known, same) -> known))
+                        .as("record %s", place)
+                        .isEqualTo(content);
+            }
+        });
+    }
+}
