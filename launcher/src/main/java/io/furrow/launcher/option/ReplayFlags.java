@@ -50,7 +50,8 @@ public final class ReplayFlags {
             names = "--max-replays",
             paramLabel = "N",
             defaultValue = "256",
-            description = "Replays that are not over, at one time; a start beyond is refused. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Replays that are not over, at one time; a start beyond is refused. Default: ${DEFAULT-VALUE}.")
     private int max;
 
     /** @throws CommandException where they cannot be used */
