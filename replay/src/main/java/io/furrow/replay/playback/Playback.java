@@ -386,8 +386,9 @@ public final class Playback {
 
     private Played played(Played.Kind kind, StoredEvent event, String reason, long time, long now) {
         boolean rebased = wanted.plan().stamps() == ReplayPlan.Stamps.NOW;
-        long today = Math.max(time, wall.applyAsLong(now)); // no offset is negative
-        long offset = rebased ? Math.max(at.stamp(), today) - time : at.offset();
+        long offset = rebased // none is negative
+                ? Math.max(at.stamp(), Math.max(time, wall.applyAsLong(now))) - time
+                : at.offset();
         Played played = new Played(kind, event, reason, at.epoch(), at.number(), time, offset);
         at = Moves.played(at, played);
         return played;
@@ -428,6 +429,15 @@ public final class Playback {
         return wanted;
     }
 
+    /** Of the desired replay that was applied last. */
+    public long sequence() {
+        return at.sequence();
+    }
+
+    public long epoch() {
+        return at.epoch();
+    }
+
     public boolean isOver() {
         return at.phase().isOver();
     }
@@ -463,7 +473,7 @@ public final class Playback {
     }
 
     /** What it waits for; null if it waits for nothing. */
-    private String awaited(long now) {
+    public String awaited(long now) {
         boolean early = !at.phase().isOver() && !isHeld() && now < timeline.anchor();
         return waiting == null && early
                 ? "begins at " + Instant.ofEpochMilli(wall.applyAsLong(now) + timeline.anchor() - now)

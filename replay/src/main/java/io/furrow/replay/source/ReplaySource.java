@@ -54,7 +54,7 @@ public final class ReplaySource
 
     @Override
     public SourceReader<TopicRecord, ReplaySplit> createReader(SourceReaderContext context) {
-        return new ReplayReader(context, recordings, limits, topics.open());
+        return new ReplayReader(context, recordings, limits, topics.open(), ReplayClock.SYSTEM);
     }
 
     @Override

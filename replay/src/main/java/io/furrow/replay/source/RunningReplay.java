@@ -28,6 +28,9 @@ import io.furrow.replay.playback.Played;
  * answers of its {@link PageReader} come in from another.
  */
 final class RunningReplay {
+    /** Records before another replay's turn, statuses and ends excepted. */
+    private static final int TURN = 16;
+
     /** Stands for the end of it among the wishes. */
     private static final byte[] REMOVED = {};
 
@@ -41,6 +44,7 @@ final class RunningReplay {
     private String refusal;
     private Playback playback;
     private PageReader pages;
+    private long due;
     private boolean removed;
     /** Whether it is over and nothing is read for it. */
     private boolean rests;
@@ -56,23 +60,25 @@ final class RunningReplay {
     /**
      * What replays share.
      *
-     * @param wakeUp lets the reader come again, from any thread
+     * @param call lets the reader run a replay soon, from any thread
      */
     record Reading(
             RecordingSources recordings,
             PageLimits limits,
             ReplayTopics.Writing topics,
             DeadCounters dead,
-            Runnable wakeUp) {}
+            ReplayClock clock,
+            Consumer<RunningReplay> call) {}
 
-    RunningReplay(ReplaySplit split, Reading reading, long now) {
+    RunningReplay(ReplaySplit split, Reading reading) {
         this.name = split.replay();
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
         this.refusedAt = split.state();
         this.restored = split.state().sequence() >= 0;
         this.wanted = split.wanted();
-        take(split.wanted(), now);
+        take(split.wanted());
+        dueNow();
     }
 
     String name() {
@@ -85,7 +91,8 @@ final class RunningReplay {
     }
 
     /** Begins the playback, or the next part of it; a record that this ends the epoch with is returned. */
-    private Optional<Played> take(byte[] next, long now) {
+    private Optional<Played> take(byte[] next) {
+        long now = reading.clock().now();
         try {
             WantedReplay replay = WantedReplay.read(name, next);
             wanted = next;
@@ -93,10 +100,10 @@ final class RunningReplay {
             if (playback != null) {
                 return playback.apply(replay, now);
             }
-            playback = new Playback(replay, refusedAt, now, ReplayReader::wall);
+            playback = new Playback(replay, refusedAt, now, reading.clock()::wall);
             pages = new PageReader(replay, () -> prepare(replay), reading.recordings(), reading.limits(), answer -> {
                 answers.add(answer);
-                reading.wakeUp().run();
+                reading.call().accept(this);
             });
             return Optional.empty();
         } catch (UnreadableException e) {
@@ -111,7 +118,7 @@ final class RunningReplay {
             newestEpoch = reading.topics().newestEpoch(replay.topic());
         }
         partitions = found;
-        reading.wakeUp().run();
+        reading.call().accept(this);
     }
 
     /**
@@ -133,15 +140,24 @@ final class RunningReplay {
         return wishes.stream().anyMatch(wish -> wish != REMOVED);
     }
 
-    /**
-     * Does what is to be done by now.
-     *
-     * @param most records that are written at most, statuses and ends excepted
-     * @return when it wants to be called again; not after now where more is to be done
-     */
-    long run(long now, int most, Consumer<TopicRecord> out) {
+    /** When it wants to be run, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
+    long due() {
+        return due;
+    }
+
+    void dueNow() {
+        due = Math.min(due, reading.clock().now());
+    }
+
+    /** Does what is to be done by now, or a turn of it; who has more to do comes after all that are due. */
+    void run(Consumer<TopicRecord> out) {
+        long next = runOnce(out);
+        due = Math.max(next, reading.clock().now());
+    }
+
+    private long runOnce(Consumer<TopicRecord> out) {
         if (awaitsTopic()) {
-            reports.report(playback, now, out);
+            reports.report(playback, reading.clock().now(), out);
             return reports.due(playback);
         }
         if (restored && playback != null) {
@@ -150,27 +166,26 @@ final class RunningReplay {
         while (!wishes.isEmpty()) {
             byte[] wish = wishes.remove();
             if (wish == REMOVED) {
-                remove(now, out);
+                remove(out);
                 return Long.MAX_VALUE;
             }
-            take(wish, now).ifPresent(played -> write(played, out));
+            take(wish).ifPresent(played -> write(played, out));
         }
         if (playback == null) {
-            reports.reportRefused(Math.max(0, refusedAt.sequence()), refusal, now, out);
+            reports.reportRefused(Math.max(0, refusedAt.sequence()), refusal, out);
             return Long.MAX_VALUE;
         }
         for (Fetched answer = answers.poll(); answer != null; answer = answers.poll()) {
-            playback.take(answer, now).ifPresent(played -> write(played, out));
+            playback.take(answer, reading.clock().now()).ifPresent(played -> write(played, out));
         }
-        for (int i = 0; i < most; i++) {
-            Optional<Played> played = playback.poll(now);
+        boolean more = true;
+        for (int i = 0; more && i < TURN; i++) {
+            Optional<Played> played = playback.poll(reading.clock().now());
             playback.fetch().ifPresent(pages::read);
-            if (played.isEmpty()) {
-                break;
-            }
-            write(played.get(), out);
+            played.ifPresent(one -> write(one, out));
+            more = played.isPresent();
         }
-        reports.report(playback, now, out);
+        reports.report(playback, reading.clock().now(), out);
         if (playback.rests() != rests) {
             rests = playback.rests();
             if (rests) {
@@ -208,9 +223,9 @@ final class RunningReplay {
         }
     }
 
-    private void remove(long now, Consumer<TopicRecord> out) {
+    private void remove(Consumer<TopicRecord> out) {
         if (playback != null) {
-            playback.fail("nobody wants it any more", now).ifPresent(played -> write(played, out));
+            playback.fail("nobody wants it any more", reading.clock().now()).ifPresent(played -> write(played, out));
         }
         removed = true;
     }
@@ -233,24 +248,26 @@ final class RunningReplay {
         return status.state() == ReplayStatus.State.FAILED ? Optional.of(status.reason()) : Optional.empty();
     }
 
-    boolean isRunning() {
-        return playback != null && playback.state() == ReplayStatus.State.RUNNING;
-    }
-
     StatusReports reports() {
         return reports;
     }
 
-    ReplaySplit snapshot(long checkpoint, long now) {
+    ReplaySplit snapshot(long checkpoint) {
         if (isOver()) {
             reports.stored(checkpoint);
         }
-        return new ReplaySplit(name, wanted, playback == null ? refusedAt : playback.snapshot(now));
+        return new ReplaySplit(
+                name,
+                wanted,
+                playback == null ? refusedAt : playback.snapshot(reading.clock().now()));
     }
 
-    /** @param checkpoint that is complete */
-    void completed(long checkpoint) {
-        reports.completed(checkpoint);
+    /**
+     * @param checkpoint that is complete
+     * @return whether there is something to be reported therefore
+     */
+    boolean completed(long checkpoint) {
+        return reports.completed(checkpoint);
     }
 
     void close() {

@@ -38,7 +38,8 @@ class ReplayReaderTest {
     private ReplayReader reader = newReader();
 
     private ReplayReader newReader() {
-        ReplayReader fresh = new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics);
+        ReplayReader fresh = new ReplayReader(
+                context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, ReplayClock.SYSTEM);
         fresh.start();
         return fresh;
     }
