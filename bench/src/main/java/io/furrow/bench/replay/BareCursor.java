@@ -22,6 +22,7 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.replay.record.EventEncoder;
 
 /** Reads a mission by event time with a cursor of MongoDB's driver, decodes each document and sends its record, in one thread. */
 final class BareCursor {
@@ -29,13 +30,13 @@ final class BareCursor {
     static final int FIRST_QUERY = 2_000;
 
     private static final long QUERY_BYTES = Math.max(
-            2L * 1024 * 1024,
-            Math.min(64L * 1024 * 1024, Runtime.getRuntime().maxMemory() / 256));
+            2L * 1024 * 1024, Math.min(64L * 1024 * 1024, Runtime.getRuntime().maxMemory() / 256));
     private static final int BATCH = 500;
     private static final Bson ONE_TIME = Filters.not(Filters.type(EventDocumentCodec.TIME, BsonType.ARRAY));
 
     private final String mongo;
     private final WantedReplay replay;
+    private final EventEncoder encoder;
     private final int most;
     private int perQuery;
     private final AtomicReference<Exception> lost = new AtomicReference<>();
@@ -50,6 +51,7 @@ final class BareCursor {
     BareCursor(String mongo, WantedReplay replay, int most, int perQuery) {
         this.mongo = mongo;
         this.replay = replay;
+        this.encoder = PlayedRecord.encoder(replay);
         this.most = most;
         this.perQuery = perQuery;
     }
@@ -86,7 +88,7 @@ final class BareCursor {
                 StoredEvent event = EventDocumentCodec.read(document);
                 if (isNew(event)) {
                     producer.send(
-                            PlayedRecord.written(event, replay, sequence++, event.time()),
+                            PlayedRecord.written(event, replay, encoder, sequence++, event.time()),
                             (done, failure) -> lost.compareAndSet(null, failure));
                 }
             }

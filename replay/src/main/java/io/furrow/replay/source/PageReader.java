@@ -24,6 +24,8 @@ import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
+import io.furrow.replay.playback.ReadyPage;
+import io.furrow.replay.record.EventEncoder;
 
 /**
  * Reads the recording of one replay, in a thread that it has as long as there is something to read: a recording that is slow or away
@@ -37,8 +39,7 @@ final class PageReader implements AutoCloseable {
 
     private final WantedReplay replay;
     private final Preparation preparation;
-    private final RecordingSources recordings;
-    private final PageLimits limits;
+    private final RunningReplay.Reading shared;
     private final Consumer<Fetched> out;
     private final ScheduledThreadPoolExecutor thread;
     private volatile Fetch newest;
@@ -51,6 +52,8 @@ final class PageReader implements AutoCloseable {
 
     private long primesPoint;
     private Recording recording;
+    private EventEncoder encoder;
+    private long encodedEpoch;
 
     /** What has to be done before the first page is read. */
     interface Preparation {
@@ -58,16 +61,10 @@ final class PageReader implements AutoCloseable {
     }
 
     /** @param out takes the answers, in the reading thread */
-    PageReader(
-            WantedReplay replay,
-            Preparation preparation,
-            RecordingSources recordings,
-            PageLimits limits,
-            Consumer<Fetched> out) {
+    PageReader(WantedReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<Fetched> out) {
         this.replay = replay;
         this.preparation = preparation;
-        this.recordings = recordings;
-        this.limits = limits;
+        this.shared = shared;
         this.out = out;
         thread = new ScheduledThreadPoolExecutor(1, task -> {
             Thread reader = new Thread(task, "replay-pages-" + replay.replay());
@@ -148,9 +145,9 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    private Fetched answer(Fetch fetch) throws RecordingException {
+    private Fetched answer(Fetch fetch) throws IOException, InterruptedException {
         if (recording == null) {
-            Optional<Recording> opened = recordings.open(replay);
+            Optional<Recording> opened = shared.recordings().open(replay);
             if (opened.isEmpty()) {
                 return new Fetched.Gone(fetch.epoch(), missing());
             }
@@ -158,16 +155,35 @@ final class PageReader implements AutoCloseable {
         }
         if (fetch instanceof Fetch.Begin begin) {
             if (!begin.primed() || primes == null || primesPoint != begin.point()) {
-                primes = begin.primed() ? List.copyOf(LatestState.before(recording, begin.point(), limits)) : List.of();
+                primes = begin.primed()
+                        ? List.copyOf(LatestState.before(recording, begin.point(), shared.limits()))
+                        : List.of();
                 primesPoint = begin.point();
             }
-            return new Fetched.Begun(begin.epoch(), primes, recording.read(begin.first(), limits));
+            return new Fetched.Begun(
+                    begin.epoch(),
+                    encoder(begin).primes(primes, begin.point()),
+                    page(begin, begin.first(), begin.events()));
         } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), recording.read(next.after(), limits));
+            return new Fetched.More(next.epoch(), page(next, next.after(), next.events()));
         } else if (fetch instanceof Fetch.Back back) {
             return new Fetched.Back(back.epoch(), back.count(), back(back));
         }
         return new Fetched.Opened(fetch.epoch(), recording.span());
+    }
+
+    private ReadyPage page(Fetch fetch, Cursor after, int events) throws IOException, InterruptedException {
+        PageLimits most = shared.limits();
+        return encoder(fetch)
+                .page(recording.read(after, new PageLimits(Math.min(events, most.events()), most.bytes())));
+    }
+
+    private EventEncoder encoder(Fetch fetch) {
+        if (encoder == null || encodedEpoch != fetch.epoch()) {
+            encodedEpoch = fetch.epoch();
+            encoder = new EventEncoder(replay, encodedEpoch, shared.topics()::writable);
+        }
+        return encoder;
     }
 
     private String missing() {
@@ -187,13 +203,14 @@ final class PageReader implements AutoCloseable {
                 back.first(),
                 back.count(),
                 event -> devices.isEmpty() || devices.contains(event.entityId()),
-                limits);
+                shared.limits());
     }
 
     private void release() {
         Recording released = recording;
         recording = null;
         primes = null;
+        encoder = null;
         if (released != null) {
             try {
                 released.close();

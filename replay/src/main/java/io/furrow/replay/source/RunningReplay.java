@@ -1,14 +1,11 @@
 package io.furrow.replay.source;
 
 import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.util.ArrayDeque;
 import java.util.Optional;
 import java.util.Queue;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.function.Consumer;
-
-import org.apache.flink.util.FlinkRuntimeException;
 
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
@@ -17,11 +14,11 @@ import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.replay.ReplayRecords;
 import io.furrow.replay.playback.Fetched;
 import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.playback.Played;
+import io.furrow.replay.record.ReplayRecords;
 
 /**
  * A replay assigned to a reader, and its playback while its desired state is readable. Used by the task's thread; only
@@ -101,7 +98,7 @@ final class RunningReplay {
                 return playback.apply(replay, now);
             }
             playback = new Playback(replay, refusedAt, now, reading.clock()::wall);
-            pages = new PageReader(replay, () -> prepare(replay), reading.recordings(), reading.limits(), answer -> {
+            pages = new PageReader(replay, () -> prepare(replay), reading, answer -> {
                 answers.add(answer);
                 reading.call().accept(this);
             });
@@ -198,28 +195,17 @@ final class RunningReplay {
     /** An end goes to every partition: event time of a reader follows the slowest, so each one has to hear of it. */
     private void write(Played played, Consumer<TopicRecord> out) {
         reports.count(played, playback.lateness());
-        TopicRecord record = ReplayRecords.of(played, playback.wanted());
+        WantedReplay replay = playback.wanted();
+        TopicRecord record = ReplayRecords.of(played, replay);
         if (played.kind() == Played.Kind.END) {
             for (int partition = 0; partition < partitions; partition++) {
                 out.accept(record.toPartition(partition));
             }
         } else {
-            out.accept(writable(record));
-        }
-    }
-
-    private TopicRecord writable(TopicRecord record) {
-        try {
-            TopicRecord taken = reading.topics().writable(record);
-            if (!taken.topic().equals(record.topic())) {
+            if (!record.topic().equals(replay.topic())) {
                 reading.dead().count(Reason.TOO_LARGE);
             }
-            return taken;
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new FlinkRuntimeException("Interrupted while the size of a record was checked", e);
+            out.accept(record);
         }
     }
 
