@@ -15,7 +15,7 @@ import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.source.RecordingSources;
 import io.furrow.replay.source.ReplaySource;
-import io.furrow.replay.source.ReplayTopics;
+import io.furrow.replay.topic.ReplayTopics;
 
 /** Plays stored missions back, any number at once, each on a topic of its own. */
 public final class ReplayJob {

@@ -3,12 +3,14 @@ package io.furrow.replay;
 import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
+import java.util.Map;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.UUID;
 
 import com.fasterxml.jackson.databind.node.TextNode;
 import org.apache.kafka.clients.CommonClientConfigs;
+import org.apache.kafka.clients.producer.ProducerConfig;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
@@ -136,6 +138,19 @@ public final class ReplayOptions extends JobOptions {
             paramLabel = "NAME",
             description = "With --once: data.<mission>.replay.<eight hexadecimal digits>. Default: of new digits.")
     private String topic;
+
+    /**
+     * Records of many topics, each of which should be there at once. A batch takes its whole size of the producer's memory, for each
+     * partition. The producer learns of a new topic when the first record is sent to it, and what is due on others waits meanwhile: it
+     * asks no more often than it retries.
+     */
+    @Override
+    public Map<String, String> producerDefaults() {
+        return Map.of(
+                ProducerConfig.BATCH_SIZE_CONFIG, "16384",
+                ProducerConfig.LINGER_MS_CONFIG, "0",
+                ProducerConfig.RETRY_BACKOFF_MS_CONFIG, "5");
+    }
 
     public TopicOptions topics() {
         return topics;

@@ -12,7 +12,9 @@ import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.Sorts;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.bson.BsonDateTime;
+import org.bson.BsonType;
 import org.bson.RawBsonDocument;
+import org.bson.conversions.Bson;
 
 import io.furrow.mission.StoredEvent;
 import io.furrow.mission.mongo.EventDocumentCodec;
@@ -20,18 +22,23 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.replay.record.EventEncoder;
 
 /** Reads a mission by event time with a cursor of MongoDB's driver, decodes each document and sends its record, in one thread. */
 final class BareCursor {
-    /** As a recording in MongoDB is read. */
-    static final int PART = 10_000;
+    /** As a recording in MongoDB is read: of the first query; a full one is followed by one twice as long, within the bytes. */
+    static final int FIRST_QUERY = 2_000;
 
+    private static final long QUERY_BYTES = Math.max(
+            2L * 1024 * 1024, Math.min(64L * 1024 * 1024, Runtime.getRuntime().maxMemory() / 256));
     private static final int BATCH = 500;
+    private static final Bson ONE_TIME = Filters.not(Filters.type(EventDocumentCodec.TIME, BsonType.ARRAY));
 
     private final String mongo;
     private final WantedReplay replay;
+    private final EventEncoder encoder;
     private final int most;
-    private final int perQuery;
+    private int perQuery;
     private final AtomicReference<Exception> lost = new AtomicReference<>();
     private final Set<String> atTime = new HashSet<>();
     private long time = Long.MIN_VALUE;
@@ -39,11 +46,12 @@ final class BareCursor {
 
     /**
      * @param most events
-     * @param perQuery documents of one query, more than are of one millisecond
+     * @param perQuery documents of the first query, more than are of one millisecond
      */
     BareCursor(String mongo, WantedReplay replay, int most, int perQuery) {
         this.mongo = mongo;
         this.replay = replay;
+        this.encoder = PlayedRecord.encoder(replay);
         this.most = most;
         this.perQuery = perQuery;
     }
@@ -52,10 +60,10 @@ final class BareCursor {
         try (MongoClient client = MongoClients.create(mongo)) {
             MongoCollection<RawBsonDocument> collection = client.getDatabase(MongoAccess.DATABASE)
                     .getCollection(MissionCollections.nameOf(replay.mission()), RawBsonDocument.class);
-            int found;
+            boolean more;
             do {
-                found = writePart(collection, producer);
-            } while (found == perQuery && sequence < most);
+                more = writePart(collection, producer);
+            } while (more && sequence < most);
         }
         producer.flush();
         if (lost.get() != null) {
@@ -63,25 +71,31 @@ final class BareCursor {
         }
     }
 
-    private int writePart(MongoCollection<RawBsonDocument> collection, KafkaProducer<byte[], byte[]> producer)
+    /** Whether there may be more. */
+    private boolean writePart(MongoCollection<RawBsonDocument> collection, KafkaProducer<byte[], byte[]> producer)
             throws UnreadableException {
         int found = 0;
+        long bytes = 0;
         try (MongoCursor<RawBsonDocument> documents = collection
-                .find(Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(time)))
+                .find(Filters.and(Filters.gte(EventDocumentCodec.TIME, new BsonDateTime(time)), ONE_TIME))
                 .sort(Sorts.ascending(EventDocumentCodec.TIME))
                 .limit(perQuery)
                 .batchSize(BATCH)
                 .cursor()) {
             for (; sequence < most && documents.hasNext(); found++) {
-                StoredEvent event = EventDocumentCodec.read(documents.next());
+                RawBsonDocument document = documents.next();
+                bytes += document.getByteBuffer().remaining();
+                StoredEvent event = EventDocumentCodec.read(document);
                 if (isNew(event)) {
                     producer.send(
-                            PlayedRecord.written(event, replay, sequence++, event.time()),
+                            PlayedRecord.written(event, replay, encoder, sequence++, event.time()),
                             (done, failure) -> lost.compareAndSet(null, failure));
                 }
             }
         }
-        return found;
+        boolean full = found == perQuery;
+        perQuery = full && bytes <= QUERY_BYTES / 2 ? 2 * perQuery : perQuery;
+        return full;
     }
 
     private boolean isNew(StoredEvent event) {

@@ -14,14 +14,15 @@ import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
 
 import io.furrow.mission.StoredEvent;
+import io.furrow.replay.record.EventEncoder;
 
 /** Writes the events of replays when they are due: one thread, one producer, and sleep until the next. */
 final class BareSchedule {
     private final List<Turn> turns = new ArrayList<>();
 
-    private record Turn(long due, ScheduledReplay replay, StoredEvent event, long sequence) {
+    private record Turn(long due, ScheduledReplay replay, EventEncoder encoder, StoredEvent event, long sequence) {
         ProducerRecord<byte[], byte[]> record(long now) {
-            return PlayedRecord.written(event, replay.replay(), sequence, now);
+            return PlayedRecord.written(event, replay.replay(), encoder, sequence, now);
         }
     }
 
@@ -30,9 +31,10 @@ final class BareSchedule {
         Map<StoredMission, List<StoredEvent>> events = new HashMap<>();
         for (ScheduledReplay replay : replays) {
             long sequence = 0;
+            EventEncoder encoder = PlayedRecord.encoder(replay.replay());
             for (StoredEvent event : events.computeIfAbsent(replay.mission(), StoredMission::all)) {
                 if (event.time() < until) {
-                    turns.add(new Turn(replay.due(event.time()), replay, event, sequence++));
+                    turns.add(new Turn(replay.due(event.time()), replay, encoder, event, sequence++));
                 }
             }
         }

@@ -62,7 +62,7 @@ public final class MaxMeasurement {
             int events = turn == 0 ? Math.min(WARM_UP_EVENTS, mission.events()) : mission.events();
             Turn measured = new Turn(
                     replay(3 * turn, events),
-                    bare(3 * turn + 1, events, BareCursor.PART),
+                    bare(3 * turn + 1, events, BareCursor.FIRST_QUERY),
                     bare(3 * turn + 2, events, mission.events()));
             progress.accept(String.format(
                     Locale.ROOT,

@@ -1,19 +1,20 @@
 package io.furrow.bench.replay;
 
+import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.apache.kafka.common.header.Header;
-import org.apache.kafka.common.header.internals.RecordHeaders;
 
-import io.furrow.flink.record.TopicRecord;
+import io.furrow.flink.record.TopicRecordFormat;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.replay.ReplayRecords;
 import io.furrow.replay.playback.Played;
+import io.furrow.replay.record.EventEncoder;
+import io.furrow.replay.record.ReplayRecords;
 
 /**
  * An event on the topic of a replay whose records are stamped with the time at which they are played.
@@ -25,6 +26,7 @@ import io.furrow.replay.playback.Played;
  */
 record PlayedRecord(long sequence, long time, long handedOver, long appended) {
     private static final String EVENT = "event";
+    private static final TopicRecordFormat FORMAT = new TopicRecordFormat();
 
     static boolean isEvent(ConsumerRecord<byte[], byte[]> record) {
         return header(record, HeaderNames.REPLAY_KIND).equals(EVENT);
@@ -38,13 +40,20 @@ record PlayedRecord(long sequence, long time, long handedOver, long appended) {
         return new PlayedRecord(sequence, time, time + offset, record.timestamp());
     }
 
-    /** The record that a replay would write at this moment. */
-    static ProducerRecord<byte[], byte[]> written(StoredEvent event, WantedReplay replay, long sequence, long now) {
-        Played played = new Played(Played.Kind.EVENT, event, null, 0, sequence, event.time(), now - event.time());
-        TopicRecord record = ReplayRecords.of(played, replay);
-        RecordHeaders headers = new RecordHeaders();
-        record.headers().forEach((name, text) -> headers.add(name, text.getBytes(StandardCharsets.UTF_8)));
-        return new ProducerRecord<>(record.topic(), null, record.timestamp(), record.key(), record.value(), headers);
+    /** The record that a replay would write at this moment. @param encoder of the replay */
+    static ProducerRecord<byte[], byte[]> written(
+            StoredEvent event, WantedReplay replay, EventEncoder encoder, long sequence, long now) {
+        try {
+            Played played = new Played(
+                    Played.Kind.EVENT, encoder.event(event), null, 0, sequence, event.time(), now - event.time());
+            return FORMAT.serialize(ReplayRecords.of(played, replay), null, null);
+        } catch (IOException | InterruptedException e) {
+            throw new IllegalStateException("an event was not encoded", e);
+        }
+    }
+
+    static EventEncoder encoder(WantedReplay replay) {
+        return new EventEncoder(replay, 0, record -> record);
     }
 
     private static String header(ConsumerRecord<byte[], byte[]> record, String name) {

@@ -189,6 +189,11 @@ public abstract class JobOptions {
         }
     }
 
+    /** Settings of its producers in which a job differs from the others; {@code --kafka-properties} goes before them. */
+    public Map<String, String> producerDefaults() {
+        return Map.of();
+    }
+
     public List<String> input() {
         return List.copyOf(input);
     }

@@ -132,6 +132,7 @@ public final class KafkaConnectors {
     /** Settings of the producers of a job beside the bootstrap servers; what {@code --kafka-properties} says goes before them. */
     public static Properties producerProperties(JobOptions options) {
         Properties properties = options.kafkaProperties();
+        options.producerDefaults().forEach(properties::putIfAbsent);
         properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
         properties.putIfAbsent("batch.size", "131072");
         properties.putIfAbsent("compression.type", "lz4");

@@ -17,6 +17,8 @@ import org.apache.kafka.common.header.internals.RecordHeader;
  * one, because most headers pass through a job unread.
  */
 public final class HeaderTexts extends AbstractMap<String, String> {
+    public static final HeaderTexts NONE = new HeaderTexts(new Header[0]);
+
     private static final byte[] EMPTY = {};
 
     private final Header[] headers;
@@ -38,7 +40,7 @@ public final class HeaderTexts extends AbstractMap<String, String> {
     }
 
     public static HeaderTexts of(Map<String, String> texts) {
-        return texts instanceof HeaderTexts same ? same : new HeaderTexts(new Header[0]).with(texts);
+        return texts instanceof HeaderTexts same ? same : NONE.with(texts);
     }
 
     /** The same with more, some of which may stand for others of the name. */
@@ -51,6 +53,13 @@ public final class HeaderTexts extends AbstractMap<String, String> {
                     new RecordHeader(one.getKey(), one.getValue().getBytes(StandardCharsets.UTF_8));
         }
         return new HeaderTexts(count == all.length ? all : Arrays.copyOf(all, count));
+    }
+
+    /** The same with more. @param more with values, and with names that are neither here nor repeated; that is not checked */
+    public HeaderTexts plus(Header... more) {
+        Header[] all = Arrays.copyOf(headers, headers.length + more.length);
+        System.arraycopy(more, 0, all, headers.length, more.length);
+        return new HeaderTexts(all);
     }
 
     public List<Header> bytes() {

@@ -59,8 +59,8 @@ final class MongoRecording implements Recording {
     /** Counted once, as no index helps; null until then. */
     private Long untimed;
 
-    /** Null until the server is asked what it keeps. */
-    private StateBefore.Bounds bounds;
+    /** Null until the server is asked. */
+    private Boolean indexed;
 
     /** @param where for messages */
     MongoRecording(
@@ -189,8 +189,10 @@ final class MongoRecording implements Recording {
     public List<StoredEvent> stateBefore(long time, Set<String> entities, PageLimits limits) throws RecordingException {
         Optional<List<StoredEvent>> found;
         try {
-            bounds = bounds == null ? boundsOfServer() : bounds;
-            found = new StateBefore(collection, time, entities, bounds).read();
+            indexed = indexed == null ? MissionCollections.hasIndexes(database()) : indexed;
+            found = indexed
+                    ? new StateBefore(collection, time, entities, StateBefore.Bounds.INDEXED).read()
+                    : Optional.empty();
         } catch (MongoCommandException e) {
             LOG.debug("The newest documents of mission {} cannot be found by an index", mission, e);
             found = Optional.empty();
@@ -198,11 +200,6 @@ final class MongoRecording implements Recording {
             throw MongoRecordings.unreadable(mission, where, e);
         }
         return found.isPresent() ? found.get() : Recording.super.stateBefore(time, entities, limits);
-    }
-
-    private StateBefore.Bounds boundsOfServer() {
-        boolean indexed = MissionCollections.hasIndexes(database());
-        return indexed ? StateBefore.Bounds.INDEXED : StateBefore.Bounds.WITHOUT_INDEX;
     }
 
     private MongoDatabase database() {

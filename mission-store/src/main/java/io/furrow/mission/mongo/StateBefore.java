@@ -58,8 +58,6 @@ final class StateBefore {
         private static final long BYTES = 8L * 1024 * 1024;
 
         static final Bounds INDEXED = new Bounds(2_000, 1_000, 256, BYTES);
-        /** The embedded server looks at the whole mission for each query. */
-        static final Bounds WITHOUT_INDEX = new Bounds(2_000, 4, 256, BYTES);
     }
 
     /**

@@ -16,11 +16,16 @@ public sealed interface Fetch {
      * @param point epoch ms
      * @param first where the page begins
      * @param primed whether states are requested: nothing is known before the recording's first event
+     * @param events of the page, at most
      */
-    record Begin(long epoch, long point, Cursor first, boolean primed) implements Fetch {}
+    record Begin(long epoch, long point, Cursor first, boolean primed, int events) implements Fetch {}
 
-    /** The page after the cursor. */
-    record Next(long epoch, Cursor after) implements Fetch {}
+    /**
+     * The page after the cursor.
+     *
+     * @param events at most
+     */
+    record Next(long epoch, Cursor after, int events) implements Fetch {}
 
     /**
      * The event so many before the cursor.

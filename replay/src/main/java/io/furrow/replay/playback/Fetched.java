@@ -4,9 +4,7 @@ import java.util.List;
 import java.util.Optional;
 
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
 import io.furrow.mission.Span;
-import io.furrow.mission.StoredEvent;
 
 /** The answer to a {@link Fetch} of the same epoch. */
 public sealed interface Fetched {
@@ -15,10 +13,10 @@ public sealed interface Fetched {
     /** @param span empty if the recording has no event */
     record Opened(long epoch, Optional<Span> span) implements Fetched {}
 
-    /** @param primes the entities' last known states, in any order */
-    record Begun(long epoch, List<StoredEvent> primes, Page first) implements Fetched {}
+    /** @param primes the entities' last known states, in the same order whenever they are read */
+    record Begun(long epoch, List<ReadyEvent> primes, ReadyPage first) implements Fetched {}
 
-    record More(long epoch, Page page) implements Fetched {}
+    record More(long epoch, ReadyPage page) implements Fetched {}
 
     /**
      * @param count as was asked for

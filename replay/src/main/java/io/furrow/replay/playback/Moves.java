@@ -172,7 +172,7 @@ final class Moves {
         next.stamp = Math.max(s.stamp(), played.stamp());
         next.position = played.time();
         if (played.kind() == Played.Kind.EVENT) {
-            next.cursor = Cursor.after(played.event());
+            next.cursor = played.event().cursor();
             next.events++;
         } else if (played.kind() == Played.Kind.PRIME) {
             next.primes++;

@@ -1,15 +1,12 @@
 package io.furrow.replay.playback;
 
 import java.time.Instant;
-import java.util.Comparator;
 import java.util.List;
 import java.util.Optional;
-import java.util.Set;
 import java.util.function.LongUnaryOperator;
 
 import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.WantedReplay;
@@ -32,18 +29,18 @@ public final class Playback {
     static final int MAX_BACK = 100_000;
 
     private static final String NO_EPOCH_LEFT = "all " + (Epochs.LAST + 1) + " epochs are used; start another replay";
-    private static final Comparator<StoredEvent> BY_ENTITY =
-            Comparator.comparing(StoredEvent::entityId).thenComparing(StoredEvent::id);
+    /** A page is what is played in this time, ms. */
+    private static final double PAGE = 2_000;
 
     private final LongUnaryOperator wall;
     private WantedReplay wanted;
     private PlaybackState at;
     private Timeline timeline;
     /** The next event that has been looked at for what lies before it. */
-    private StoredEvent approached;
+    private ReadyEvent approached;
 
     private ReadAhead ahead;
-    private List<StoredEvent> primes;
+    private List<ReadyEvent> primes;
     private boolean fetching;
     /** Whether it is in the pass of a loop that the group's clock comes to next. */
     private boolean aheadOfClock;
@@ -86,7 +83,7 @@ public final class Playback {
 
     private void startOver(long now) {
         anchor(now, at.position());
-        ahead = new ReadAhead(Set.copyOf(wanted.plan().devices()), at.cursor());
+        ahead = new ReadAhead(at.cursor());
         primes = null;
         fetching = false;
         waiting = null;
@@ -238,14 +235,18 @@ public final class Playback {
             next = new Fetch.Open(at.epoch());
         } else if (at.phase() == Phase.PRIMING && primes == null) {
             Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
-            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first());
+            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first(), pageEvents());
         } else if (wantsBack()) {
             next = new Fetch.Back(at.epoch(), at.cursor(), beginning(), stepsBack());
         } else if (at.phase() == Phase.PLAYING && ahead.wantsMore(wanted.to())) {
-            next = new Fetch.Next(at.epoch(), ahead.loaded());
+            next = new Fetch.Next(at.epoch(), ahead.loaded(), pageEvents());
         }
         fetching = next != null;
         return Optional.ofNullable(next);
+    }
+
+    private int pageEvents() {
+        return ahead.expected(PAGE * wanted.speed());
     }
 
     /** Takes what was read; a record that this ends the epoch with is returned. */
@@ -269,15 +270,12 @@ public final class Playback {
             at = Moves.opened(at, opened.span().get(), wanted);
             startOver(now);
         } else if (fetched instanceof Fetched.Begun begun) {
-            primes = begun.primes().stream()
-                    .filter(ahead::isWanted)
-                    .sorted(BY_ENTITY)
-                    .toList();
+            primes = begun.primes();
             anchor(now, at.point());
-            at = Moves.skipped(at, ahead.add(begun.first()));
+            add(begun.first());
         } else if (fetched instanceof Fetched.More more) {
             boolean stood = ahead.peek() == null;
-            at = Moves.skipped(at, ahead.add(more.page()));
+            add(more.page());
             resumeAfterStall(stood, now);
         } else if (fetched instanceof Fetched.Back back) {
             return goBack(back, now);
@@ -285,8 +283,13 @@ public final class Playback {
         return Optional.empty();
     }
 
+    private void add(ReadyPage page) {
+        ahead.add(page);
+        at = Moves.skipped(at, page.skipped());
+    }
+
     private void resumeAfterStall(boolean stood, long now) {
-        StoredEvent next = next();
+        ReadyEvent next = next();
         if (stood && next != null && !isOfGroup() && !isHeld() && now - timeline.due(next.time()) > STALL) {
             slip += now - timeline.due(next.time());
             anchor(now, next.time());
@@ -313,8 +316,8 @@ public final class Playback {
     }
 
     /** The next event; null if it is not known. What lies before it is shortened to the longest gap. */
-    private StoredEvent next() {
-        StoredEvent next = ahead.peek();
+    private ReadyEvent next() {
+        ReadyEvent next = ahead.peek();
         Long longest = wanted.plan().maxGap();
         if (next != null && next != approached && longest != null && !isHeld() && !isOfGroup()) {
             approached = next;
@@ -350,7 +353,7 @@ public final class Playback {
             }
             return Optional.of(end);
         }
-        StoredEvent next = isAtEnd() ? null : next();
+        ReadyEvent next = isAtEnd() ? null : next();
         dropWhatCannotBeStepped(next);
         if (next == null || !mayStep(next) && now < timeline.due(next.time())) {
             return Optional.empty();
@@ -365,8 +368,8 @@ public final class Playback {
     }
 
     /** A goal that lies behind what is played next or at all, and steps forward at the end. */
-    private void dropWhatCannotBeStepped(StoredEvent next) {
-        boolean passed = next != null && at.goal() != null && Cursor.after(next).compareTo(at.goal()) > 0;
+    private void dropWhatCannotBeStepped(ReadyEvent next) {
+        boolean passed = next != null && at.goal() != null && next.cursor().compareTo(at.goal()) > 0;
         if (passed || isAtEnd()) {
             at = Moves.towards(at, null);
         }
@@ -375,10 +378,10 @@ public final class Playback {
         }
     }
 
-    private void step(StoredEvent next, long now) {
+    private void step(ReadyEvent next, long now) {
         if (at.goal() == null) {
             at = Moves.steps(at, at.steps() + 1);
-        } else if (Cursor.after(next).compareTo(at.goal()) >= 0) {
+        } else if (next.cursor().compareTo(at.goal()) >= 0) {
             at = Moves.towards(at, null);
         }
         anchor(now, next.time());
@@ -386,8 +389,8 @@ public final class Playback {
     }
 
     /** Whether a replay that is held plays the event. */
-    private boolean mayStep(StoredEvent next) {
-        boolean repeats = at.goal() != null && Cursor.after(next).compareTo(at.goal()) <= 0;
+    private boolean mayStep(ReadyEvent next) {
+        boolean repeats = at.goal() != null && next.cursor().compareTo(at.goal()) <= 0;
         boolean steps = wanted.step() != null && wanted.step().total() > at.steps();
         return isHeld() && !isOfGroup() && (repeats || steps);
     }
@@ -424,10 +427,11 @@ public final class Playback {
         return isOfGroup() ? timeline.due(wanted.to()) : Long.MIN_VALUE;
     }
 
-    private Played played(Played.Kind kind, StoredEvent event, String reason, long time, long now) {
+    private Played played(Played.Kind kind, ReadyEvent event, String reason, long time, long now) {
         boolean rebased = wanted.plan().stamps() == ReplayPlan.Stamps.NOW;
-        long today = Math.max(time, wall.applyAsLong(now)); // no offset is negative
-        long offset = rebased ? Math.max(at.stamp(), today) - time : at.offset();
+        long offset = rebased // none is negative
+                ? Math.max(at.stamp(), Math.max(time, wall.applyAsLong(now))) - time
+                : at.offset();
         Played played = new Played(kind, event, reason, at.epoch(), at.number(), time, offset);
         at = Moves.played(at, played);
         return played;
@@ -442,7 +446,7 @@ public final class Playback {
                 if (isAtEnd()) {
                     yield endDue();
                 }
-                StoredEvent next = next();
+                ReadyEvent next = next();
                 yield next == null ? Timeline.NEVER : mayStep(next) ? Long.MIN_VALUE : timeline.due(next.time());
             }
             default -> Timeline.NEVER;
@@ -454,7 +458,7 @@ public final class Playback {
         if (at.phase() != Phase.PLAYING) {
             return at.position();
         }
-        StoredEvent next = next();
+        ReadyEvent next = next();
         long most = next == null ? at.position() : next.time(); // of what is not read yet nobody knows when it was
         return timeline.at(now, at.position(), Math.max(at.position(), most));
     }
@@ -466,6 +470,15 @@ public final class Playback {
 
     public WantedReplay wanted() {
         return wanted;
+    }
+
+    /** Of the desired replay that was applied last. */
+    public long sequence() {
+        return at.sequence();
+    }
+
+    public long epoch() {
+        return at.epoch();
     }
 
     public boolean isOver() {
@@ -508,7 +521,7 @@ public final class Playback {
     }
 
     /** What it waits for; null if it waits for nothing. */
-    private String awaited(long now) {
+    public String awaited(long now) {
         if (waiting == null && isSeeking() && now - passBegan >= STALL) {
             return at.phase() == Phase.OPENING
                     ? "seeking: the recording is being opened"

@@ -1,7 +1,5 @@
 package io.furrow.replay.playback;
 
-import io.furrow.mission.StoredEvent;
-
 /**
  * A record of a replay.
  *
@@ -11,7 +9,7 @@ import io.furrow.mission.StoredEvent;
  * @param time event time, epoch ms: of an event its own, of a prime that of the point at which the epoch begins
  * @param offset ms that the record's timestamp is ahead of the time
  */
-public record Played(Kind kind, StoredEvent event, String reason, long epoch, long sequence, long time, long offset) {
+public record Played(Kind kind, ReadyEvent event, String reason, long epoch, long sequence, long time, long offset) {
     /** What the record is there for. */
     public enum Kind {
         EVENT,

@@ -2,55 +2,37 @@ package io.furrow.replay.playback;
 
 import java.util.ArrayDeque;
 import java.util.Deque;
-import java.util.Set;
 
-import io.furrow.flink.time.Epochs;
 import io.furrow.mission.Cursor;
-import io.furrow.mission.Page;
-import io.furrow.mission.Skipped;
-import io.furrow.mission.StoredEvent;
 
 /** The events that come next: at most what is left of one page, and the page after it. */
 final class ReadAhead {
-    private final Set<String> devices;
-    private final Deque<StoredEvent> events = new ArrayDeque<>();
+    /** Events of a page at least: each is a question. */
+    static final int MIN_EVENTS = 32;
+
+    private final Deque<ReadyEvent> events = new ArrayDeque<>();
     private Cursor loaded;
     private int newest;
+    /** Events of the recording in a millisecond of event time, of the newest page; 0 while that is not known. */
+    private double density;
     /** Whether the newest page was the last one of the recording when it was read. */
     private boolean complete;
     /** Whether there was still no more when all had been played: a mission may be recorded while it is replayed. */
     private boolean confirmed;
 
-    /**
-     * @param devices ids of the entities whose events count; empty for all
-     * @param from where the first page begins
-     */
-    ReadAhead(Set<String> devices, Cursor from) {
-        this.devices = devices;
+    /** @param from where the first page begins */
+    ReadAhead(Cursor from) {
         this.loaded = from;
     }
 
-    /** @return how many of its records are no events that can be played */
-    long add(Page page) {
+    void add(ReadyPage page) {
         boolean drained = complete && events.isEmpty();
-        long skipped = page.skipped().stream().mapToLong(Skipped::count).sum();
-        newest = 0;
-        for (StoredEvent event : page.events()) {
-            if (event.time() < 0 || event.time() >= Epochs.SPAN) { // no timestamp of a record could say it
-                skipped++;
-            } else if (isWanted(event)) {
-                events.add(event);
-                newest++;
-            }
-        }
+        events.addAll(page.events());
+        newest = page.events().size();
+        density = page.read() < 2 ? density : page.read() / Math.max(1.0, page.span());
         loaded = page.next();
         complete = page.last();
         confirmed = drained && complete && newest == 0;
-        return skipped;
-    }
-
-    boolean isWanted(StoredEvent event) {
-        return devices.isEmpty() || devices.contains(event.entityId());
     }
 
     /**
@@ -65,12 +47,20 @@ final class ReadAhead {
         return loaded.time() < to && events.size() <= newest;
     }
 
+    /** How many events a page of so much event time, ms, has if the recording goes on as it was. */
+    int expected(double millis) {
+        if (Double.isInfinite(millis)) {
+            return Integer.MAX_VALUE;
+        }
+        return (int) Math.max(MIN_EVENTS, Math.min(Integer.MAX_VALUE, Math.ceil(density * millis)));
+    }
+
     Cursor loaded() {
         return loaded;
     }
 
     /** The next event; null if it is not known. */
-    StoredEvent peek() {
+    ReadyEvent peek() {
         return events.peek();
     }
 

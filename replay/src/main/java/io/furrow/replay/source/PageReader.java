@@ -26,6 +26,8 @@ import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
+import io.furrow.replay.playback.ReadyPage;
+import io.furrow.replay.record.EventEncoder;
 
 /**
  * Reads the recording of one replay, in a thread that it has as long as there is something to read: a recording that is slow or away
@@ -40,8 +42,7 @@ final class PageReader implements AutoCloseable {
 
     private final WantedReplay replay;
     private final Preparation preparation;
-    private final RecordingSources recordings;
-    private final PageLimits limits;
+    private final RunningReplay.Reading shared;
     private final Consumer<Fetched> out;
     private final ScheduledThreadPoolExecutor thread;
     private volatile Fetch newest;
@@ -57,6 +58,8 @@ final class PageReader implements AutoCloseable {
     private final Set<String> leftOut = new HashSet<>();
 
     private Recording recording;
+    private EventEncoder encoder;
+    private long encodedEpoch;
 
     /** What has to be done before the first page is read. */
     interface Preparation {
@@ -64,16 +67,10 @@ final class PageReader implements AutoCloseable {
     }
 
     /** @param out takes the answers, in the reading thread */
-    PageReader(
-            WantedReplay replay,
-            Preparation preparation,
-            RecordingSources recordings,
-            PageLimits limits,
-            Consumer<Fetched> out) {
+    PageReader(WantedReplay replay, Preparation preparation, RunningReplay.Reading shared, Consumer<Fetched> out) {
         this.replay = replay;
         this.preparation = preparation;
-        this.recordings = recordings;
-        this.limits = limits;
+        this.shared = shared;
         this.out = out;
         thread = new ScheduledThreadPoolExecutor(1, task -> {
             Thread reader = new Thread(task, "replay-pages-" + replay.replay());
@@ -154,9 +151,9 @@ final class PageReader implements AutoCloseable {
         }
     }
 
-    private Fetched answer(Fetch fetch) throws RecordingException {
+    private Fetched answer(Fetch fetch) throws IOException, InterruptedException {
         if (recording == null) {
-            Optional<Recording> opened = recordings.open(replay);
+            Optional<Recording> opened = shared.recordings().open(replay);
             if (opened.isEmpty()) {
                 return new Fetched.Gone(fetch.epoch(), missing());
             }
@@ -164,20 +161,29 @@ final class PageReader implements AutoCloseable {
         }
         if (fetch instanceof Fetch.Begin begin) {
             if (!begin.primed() || primes == null || primesPoint != begin.point()) {
-                primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), limits) : List.of();
+                primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), shared.limits()) : List.of();
                 primesPoint = begin.point();
             }
-            return new Fetched.Begun(begin.epoch(), primes, page(begin.first()));
+            return new Fetched.Begun(
+                    begin.epoch(),
+                    encoder(begin).primes(primes, begin.point()),
+                    page(begin, begin.first(), begin.events()));
         } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), page(next.after()));
+            return new Fetched.More(next.epoch(), page(next, next.after(), next.events()));
         } else if (fetch instanceof Fetch.Back back) {
             return new Fetched.Back(back.epoch(), back.count(), back(back));
         }
         return new Fetched.Opened(fetch.epoch(), recording.span());
     }
 
-    private Page page(Cursor after) throws RecordingException {
-        Page page = recording.read(after, limits);
+    private ReadyPage page(Fetch fetch, Cursor after, int events) throws IOException, InterruptedException {
+        PageLimits most = shared.limits();
+        Page page = recording.read(after, new PageLimits(Math.min(events, most.events()), most.bytes()));
+        logSkipped(page);
+        return encoder(fetch).page(page);
+    }
+
+    private void logSkipped(Page page) {
         for (Skipped skipped : page.skipped()) {
             if (leftOut.size() < MAX_LOGGED && leftOut.add(skipped.what() + ": " + skipped.reason())) {
                 LOG.info(
@@ -188,7 +194,14 @@ final class PageReader implements AutoCloseable {
                         skipped.reason());
             }
         }
-        return page;
+    }
+
+    private EventEncoder encoder(Fetch fetch) {
+        if (encoder == null || encodedEpoch != fetch.epoch()) {
+            encodedEpoch = fetch.epoch();
+            encoder = new EventEncoder(replay, encodedEpoch, shared.topics()::writable);
+        }
+        return encoder;
     }
 
     private String missing() {
@@ -208,7 +221,7 @@ final class PageReader implements AutoCloseable {
                 back.first(),
                 back.count(),
                 event -> devices.isEmpty() || devices.contains(event.entityId()),
-                limits);
+                shared.limits());
     }
 
     private Set<String> devices() {
@@ -219,6 +232,7 @@ final class PageReader implements AutoCloseable {
         Recording released = recording;
         recording = null;
         primes = null;
+        encoder = null;
         if (released != null) {
             try {
                 released.close();

@@ -1,17 +1,17 @@
 package io.furrow.replay.source;
 
 import java.io.IOException;
-import java.util.List;
 
 import io.furrow.replay.playback.PlaybackState;
+import io.furrow.replay.topic.TopicEnd;
+import io.furrow.replay.topic.TopicWatch;
 
 /** What is known of the topic of a replay. Learned by the threads that read pages and watch topics, asked by the task's. */
 final class PlayedTopic implements TopicWatch.Watched {
     private final RunningReplay.Reading reading;
+    private final Runnable changed;
     /** Whether it goes on after a restart, and first has to know what its topic has. */
     private final boolean restored;
-    /** Whether it was played on before the restart, and still is. */
-    private final boolean played;
     /** Valid as soon as the partitions are known. */
     private volatile TopicEnd end = TopicEnd.EMPTY;
     /** 0 until they are known. */
@@ -21,34 +21,32 @@ final class PlayedTopic implements TopicWatch.Watched {
     private volatile boolean deleted;
     private volatile boolean rests;
 
-    /** @param state of the replay when it was assigned */
-    PlayedTopic(PlaybackState state, RunningReplay.Reading reading) {
+    /**
+     * @param state of the replay when it was assigned
+     * @param changed called by any thread when something else is known
+     */
+    PlayedTopic(PlaybackState state, RunningReplay.Reading reading, Runnable changed) {
         this.reading = reading;
-        boolean checkpointed = state.sequence() >= 0;
-        this.restored = checkpointed || state.epoch() > 0;
-        this.played = checkpointed && !state.phase().isOver() && state.epoch() + state.number() > 0;
+        this.changed = changed;
+        this.restored = state.sequence() >= 0 || state.epoch() > 0;
     }
 
-    /** Makes the topic where it is not there. Of one that was played on before a restart that is its deletion. */
+    /** Makes the topic where it is not there, also after a restart: a savepoint goes on at a cluster that is new. */
     void prepare(String topic) throws IOException, InterruptedException {
         try {
             boolean isFirst = partitions == 0;
-            boolean isGone = isFirst
-                    && played
-                    && reading.topics().missing(List.of(topic)).contains(topic);
             int found = reading.topics().prepare(topic);
             if (restored && isFirst) {
                 end = reading.topics().end(topic);
             }
             partitions = found;
             refusal = null;
-            deleted |= isGone;
             reading.watch().add(topic, this);
         } catch (IOException e) {
             refusal = e.getMessage();
             throw e;
         } finally {
-            reading.wakeUp().run();
+            changed.run();
         }
     }
 
@@ -90,6 +88,6 @@ final class PlayedTopic implements TopicWatch.Watched {
     public void deleted(int left) {
         partitions = left;
         deleted = true;
-        reading.wakeUp().run();
+        changed.run();
     }
 }

@@ -1,11 +1,13 @@
 package io.furrow.replay.source;
 
-import java.util.HashMap;
 import java.util.Map;
+import java.util.concurrent.ConcurrentHashMap;
 
 import org.apache.flink.metrics.Gauge;
 import org.apache.flink.metrics.MetricGroup;
 import org.apache.flink.runtime.metrics.groups.AbstractMetricGroup;
+
+import io.furrow.model.control.replay.ReplayStatus;
 
 /**
  * Gauges of a reader: {@code replaysRunning}, and of each replay, as its newest status says, {@code state} (0 running, 1 paused, 2
@@ -14,18 +16,14 @@ import org.apache.flink.runtime.metrics.groups.AbstractMetricGroup;
  */
 final class ReplayMetrics {
     private final MetricGroup reader;
-    private final Map<String, MetricGroup> groups = new HashMap<>();
-
-    private volatile int running;
+    private final Map<RunningReplay, MetricGroup> groups = new ConcurrentHashMap<>();
 
     ReplayMetrics(MetricGroup reader) {
         this.reader = reader;
-        Gauge<Integer> replaysRunning = () -> running;
+        Gauge<Long> replaysRunning = () -> groups.keySet().stream()
+                .filter(replay -> replay.reports().state() == ReplayStatus.State.RUNNING.ordinal())
+                .count();
         reader.gauge("replaysRunning", replaysRunning);
-    }
-
-    void setRunning(int replays) {
-        running = replays;
     }
 
     void add(RunningReplay replay) {
@@ -40,12 +38,12 @@ final class ReplayMetrics {
         group.gauge("lateness", lateness);
         group.gauge("slip", slip);
         group.gauge("eventsPerSecond", rate);
-        groups.put(replay.name(), group);
+        groups.put(replay, group);
     }
 
     /** Flink keeps the metrics of a group for as long as the task lives, unless it is closed. */
     void remove(RunningReplay replay) {
-        if (groups.remove(replay.name()) instanceof AbstractMetricGroup<?> group) {
+        if (groups.remove(replay) instanceof AbstractMetricGroup<?> group) {
             group.close();
         }
     }

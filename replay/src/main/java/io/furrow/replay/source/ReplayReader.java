@@ -2,16 +2,17 @@ package io.furrow.replay.source;
 
 import java.time.Duration;
 import java.util.ArrayList;
-import java.util.Iterator;
+import java.util.Comparator;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.PriorityQueue;
+import java.util.Queue;
 import java.util.concurrent.CompletableFuture;
-import java.util.concurrent.Executors;
-import java.util.concurrent.ScheduledExecutorService;
+import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.concurrent.ScheduledFuture;
+import java.util.concurrent.ScheduledThreadPoolExecutor;
 import java.util.concurrent.TimeUnit;
-import java.util.concurrent.atomic.AtomicBoolean;
 
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.api.connector.source.SourceEvent;
@@ -23,58 +24,63 @@ import org.apache.flink.runtime.execution.SuppressRestartsException;
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
+import io.furrow.replay.topic.ReplayTopics;
+import io.furrow.replay.topic.TopicWatch;
 
 /**
  * Plays its replays, each when it is due, and rests in between: a timer or the answer of a {@link PageReader} wakes it up. Nothing in
- * the task's thread waits for a recording.
+ * the task's thread waits for a recording. What is due takes turns, the longest due first, for about a millisecond; then a barrier may
+ * pass.
  */
 final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
-    /** Records of one replay before another one's turn. */
-    private static final int TURN = 100;
+    private static final long PASS_NANOS = TimeUnit.MILLISECONDS.toNanos(1);
 
     private static final Duration TOPIC_CHECKS = Duration.ofSeconds(1);
 
+    private final ReplayClock clock;
     private final RunningReplay.Reading reading;
     private final ReplayMetrics metrics;
     private final Map<String, RunningReplay> replays = new LinkedHashMap<>();
-    private final AtomicBoolean wokenUp = new AtomicBoolean();
+    private final PriorityQueue<RunningReplay> byDue =
+            new PriorityQueue<>(Comparator.comparingLong(RunningReplay::due));
+    /** Have received something, and are due therefore. */
+    private final Queue<RunningReplay> called = new ConcurrentLinkedQueue<>();
+
+    private volatile boolean wokenUp;
     private volatile CompletableFuture<Void> available = CompletableFuture.completedFuture(null);
-    private ScheduledExecutorService timer;
+    private ScheduledThreadPoolExecutor timer;
     private ScheduledFuture<?> alarm;
     private boolean noMoreSplits;
 
     ReplayReader(
-            SourceReaderContext context, RecordingSources recordings, PageLimits limits, ReplayTopics.Writing topics) {
+            SourceReaderContext context,
+            RecordingSources recordings,
+            PageLimits limits,
+            ReplayTopics.Writing topics,
+            ReplayClock clock) {
+        this.clock = clock;
         DeadCounters dead = new DeadCounters(context.metricGroup());
         this.reading = new RunningReplay.Reading(
-                recordings, limits, topics, new TopicWatch(topics, TOPIC_CHECKS), dead, this::wakeUp);
+                recordings, limits, topics, new TopicWatch(topics, TOPIC_CHECKS), dead, clock, this::call);
         this.metrics = new ReplayMetrics(context.metricGroup());
-    }
-
-    /** Milliseconds of a clock that never steps. */
-    private static long now() {
-        return TimeUnit.NANOSECONDS.toMillis(System.nanoTime());
-    }
-
-    /** Epoch ms at a time of that clock. */
-    static long wall(long time) {
-        return System.currentTimeMillis() - (now() - time);
     }
 
     @Override
     public void start() {
-        timer = Executors.newSingleThreadScheduledExecutor(task -> {
+        timer = new ScheduledThreadPoolExecutor(1, task -> {
             Thread thread = new Thread(task, "replay-timer");
             thread.setDaemon(true);
             return thread;
         });
+        timer.setRemoveOnCancelPolicy(true);
     }
 
     @Override
     public void addSplits(List<ReplaySplit> splits) {
         for (ReplaySplit split : splits) {
-            RunningReplay replay = new RunningReplay(split, reading, now());
+            RunningReplay replay = new RunningReplay(split, reading);
             replays.put(split.replay(), replay);
+            byDue.add(replay);
             metrics.add(replay);
         }
         wakeUp();
@@ -83,8 +89,9 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
     @Override
     public void handleSourceEvents(SourceEvent event) {
         if (event instanceof WantedEvent wanted && replays.containsKey(wanted.replay())) {
-            replays.get(wanted.replay()).wish(wanted.wanted());
-            wakeUp();
+            RunningReplay replay = replays.get(wanted.replay());
+            replay.wish(wanted.wanted());
+            call(replay);
         }
     }
 
@@ -96,26 +103,41 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
 
     @Override
     public InputStatus pollNext(ReaderOutput<TopicRecord> output) {
-        wokenUp.set(false);
-        long now = now();
-        long next = Long.MAX_VALUE;
-        int running = 0;
-        for (Iterator<RunningReplay> each = replays.values().iterator(); each.hasNext(); ) {
-            RunningReplay replay = each.next();
-            next = Math.min(next, replay.run(now, TURN, output::collect));
-            running += replay.isRunning() ? 1 : 0;
-            if (replay.isRemoved()) {
-                each.remove();
-                metrics.remove(replay);
-                replay.close();
+        wokenUp = false;
+        for (RunningReplay replay = called.poll(); replay != null; replay = called.poll()) {
+            if (byDue.remove(replay)) { // else it was removed meanwhile
+                replay.dueNow();
+                byDue.add(replay);
             }
         }
-        metrics.setRunning(running);
+        long until = clock.nanos().getAsLong() + PASS_NANOS;
+        do {
+            runNext(output);
+        } while (isDue() && clock.nanos().getAsLong() - until < 0);
         if (noMoreSplits && replays.values().stream().allMatch(RunningReplay::isOver)) {
             replays.values().forEach(ReplayReader::requireSuccess);
             return InputStatus.END_OF_INPUT;
         }
-        return next <= now ? goOn() : rest(next);
+        return isDue() ? goOn() : rest();
+    }
+
+    private boolean isDue() {
+        return !byDue.isEmpty() && byDue.peek().due() <= clock.now();
+    }
+
+    private void runNext(ReaderOutput<TopicRecord> output) {
+        if (!isDue()) {
+            return;
+        }
+        RunningReplay replay = byDue.remove();
+        replay.run(output::collect);
+        if (replay.isRemoved()) {
+            replays.remove(replay.name());
+            metrics.remove(replay);
+            replay.close();
+        } else {
+            byDue.add(replay);
+        }
     }
 
     /** Nobody reads a status of a job that ends: it fails in its replay's stead. */
@@ -131,24 +153,29 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         return InputStatus.MORE_AVAILABLE;
     }
 
-    private InputStatus rest(long until) {
+    private InputStatus rest() {
         available = new CompletableFuture<>();
         if (alarm != null) {
             alarm.cancel(false);
             alarm = null;
         }
-        if (wokenUp.get()) { // after the future was made: who wakes from now on completes it
+        if (wokenUp) { // after the future was made: who wakes from now on completes it
             return goOn();
         }
-        if (until != Long.MAX_VALUE) {
-            alarm = timer.schedule(this::wakeUp, Math.max(1, until - now()), TimeUnit.MILLISECONDS);
+        if (!byDue.isEmpty() && byDue.peek().due() != Long.MAX_VALUE) {
+            alarm = timer.schedule(this::wakeUp, clock.nanosUntil(byDue.peek().due()), TimeUnit.NANOSECONDS);
         }
         return InputStatus.NOTHING_AVAILABLE;
     }
 
     /** From any thread. */
+    private void call(RunningReplay replay) {
+        called.add(replay);
+        wakeUp();
+    }
+
     private void wakeUp() {
-        wokenUp.set(true);
+        wokenUp = true;
         available.complete(null);
     }
 
@@ -159,16 +186,18 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
 
     @Override
     public List<ReplaySplit> snapshotState(long checkpoint) {
-        long now = now();
         List<ReplaySplit> splits = new ArrayList<>();
-        replays.values().forEach(replay -> splits.add(replay.snapshot(checkpoint, now)));
+        replays.values().forEach(replay -> splits.add(replay.snapshot(checkpoint)));
         return splits;
     }
 
     @Override
     public void notifyCheckpointComplete(long checkpoint) {
-        replays.values().forEach(replay -> replay.completed(checkpoint));
-        wakeUp();
+        for (RunningReplay replay : replays.values()) {
+            if (replay.completed(checkpoint)) {
+                call(replay);
+            }
+        }
     }
 
     @Override

@@ -13,6 +13,7 @@ import org.apache.flink.core.io.SimpleVersionedSerializer;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
+import io.furrow.replay.topic.ReplayTopics;
 
 /**
  * Plays all replays that are requested; its records name their topics, {@code service.replays.status} among them. Replays are divided
@@ -54,7 +55,7 @@ public final class ReplaySource
 
     @Override
     public SourceReader<TopicRecord, ReplaySplit> createReader(SourceReaderContext context) {
-        return new ReplayReader(context, recordings, limits, topics.open());
+        return new ReplayReader(context, recordings, limits, topics.open(), ReplayClock.SYSTEM);
     }
 
     @Override

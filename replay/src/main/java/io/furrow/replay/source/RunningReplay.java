@@ -1,15 +1,11 @@
 package io.furrow.replay.source;
 
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.util.ArrayDeque;
 import java.util.Deque;
 import java.util.Optional;
 import java.util.Queue;
 import java.util.concurrent.ConcurrentLinkedQueue;
 import java.util.function.Consumer;
-
-import org.apache.flink.util.FlinkRuntimeException;
 
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
@@ -18,17 +14,22 @@ import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
-import io.furrow.replay.ReplayRecords;
 import io.furrow.replay.playback.Fetched;
 import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.playback.Played;
+import io.furrow.replay.record.ReplayRecords;
+import io.furrow.replay.topic.ReplayTopics;
+import io.furrow.replay.topic.TopicWatch;
 
 /**
  * A replay assigned to a reader, and its playback while its desired state is readable. Used by the task's thread; only
  * answers of its {@link PageReader} come in from another.
  */
 final class RunningReplay {
+    /** Records before another replay's turn, statuses and ends excepted. */
+    private static final int TURN = 16;
+
     /** Stands for the end of it among the wishes. */
     private static final byte[] REMOVED = {};
 
@@ -47,6 +48,7 @@ final class RunningReplay {
 
     private Playback playback;
     private PageReader pages;
+    private long due;
     private boolean removed;
     /** Whether it is over and nothing is read for it. */
     private boolean rests;
@@ -60,7 +62,7 @@ final class RunningReplay {
     /**
      * What replays share.
      *
-     * @param wakeUp lets the reader come again, from any thread
+     * @param call lets the reader run a replay soon, from any thread
      */
     record Reading(
             RecordingSources recordings,
@@ -68,16 +70,19 @@ final class RunningReplay {
             ReplayTopics.Writing topics,
             TopicWatch watch,
             DeadCounters dead,
-            Runnable wakeUp) {}
+            ReplayClock clock,
+            Consumer<RunningReplay> call) {}
 
-    RunningReplay(ReplaySplit split, Reading reading, long now) {
+    RunningReplay(ReplaySplit split, Reading reading) {
         this.name = split.replay();
         this.reading = reading;
         this.reports = new StatusReports(name, split.state().phase().isOver());
         this.refusedAt = split.state();
-        this.topic = new PlayedTopic(split.state(), reading);
+        this.topic =
+                new PlayedTopic(split.state(), reading, () -> reading.call().accept(this));
         this.wanted = split.wanted();
-        take(split.wanted(), now);
+        take(split.wanted());
+        dueNow();
     }
 
     String name() {
@@ -90,7 +95,8 @@ final class RunningReplay {
     }
 
     /** Begins the playback, or the next part of it; a record that this ends the epoch with is returned. */
-    private Optional<Played> take(byte[] next, long now) {
+    private Optional<Played> take(byte[] next) {
+        long now = reading.clock().now();
         try {
             WantedReplay replay = WantedReplay.read(name, next);
             wanted = next;
@@ -98,12 +104,11 @@ final class RunningReplay {
             if (playback != null) {
                 return playback.apply(replay, now);
             }
-            playback = new Playback(replay, refusedAt, now, ReplayReader::wall);
-            pages = new PageReader(
-                    replay, () -> topic.prepare(replay.topic()), reading.recordings(), reading.limits(), answer -> {
-                        answers.add(answer);
-                        reading.wakeUp().run();
-                    });
+            playback = new Playback(replay, refusedAt, now, reading.clock()::wall);
+            pages = new PageReader(replay, () -> topic.prepare(replay.topic()), reading, answer -> {
+                answers.add(answer);
+                reading.call().accept(this);
+            });
             return Optional.empty();
         } catch (UnreadableException e) {
             refusal = "the record of service.replays cannot be read: " + e.getMessage();
@@ -145,16 +150,25 @@ final class RunningReplay {
         return wishes.stream().anyMatch(wish -> wish != REMOVED);
     }
 
-    /**
-     * Does what is to be done by now.
-     *
-     * @param most records that are written at most, statuses and ends excepted
-     * @return when it wants to be called again; not after now where more is to be done
-     */
-    long run(long now, int most, Consumer<TopicRecord> out) {
+    /** When it wants to be run, ms of the clock; {@link Long#MAX_VALUE} where something else must happen first. */
+    long due() {
+        return due;
+    }
+
+    void dueNow() {
+        due = Math.min(due, reading.clock().now());
+    }
+
+    /** Does what is to be done by now, or a turn of it; who has more to do comes after all that are due. */
+    void run(Consumer<TopicRecord> out) {
+        long next = runOnce(out);
+        due = Math.max(next, reading.clock().now());
+    }
+
+    private long runOnce(Consumer<TopicRecord> out) {
         if (awaitsTopic()) {
             playback.awaitTopic(topic.refusal());
-            reports.report(playback, now, out);
+            reports.report(playback, reading.clock().now(), out);
             return reports.due(playback);
         }
         if (topic.isRestored() && !goesOn && playback != null && topic.partitions() > 0) {
@@ -164,30 +178,29 @@ final class RunningReplay {
         while (!wishes.isEmpty()) {
             byte[] wish = wishes.remove();
             if (wish == REMOVED) {
-                remove(now, out);
+                remove(out);
                 return Long.MAX_VALUE;
             }
-            take(wish, now).ifPresent(played -> write(played, out));
+            take(wish).ifPresent(played -> write(played, out));
         }
         if (playback == null) {
-            reports.reportRefused(Math.max(refused, refusedAt.sequence()), refusal, now, out);
+            reports.reportRefused(Math.max(refused, refusedAt.sequence()), refusal, out);
             return Long.MAX_VALUE;
         }
         if (topic.wasDeleted() && !playback.isOver()) {
-            playback.fail(DELETED, now).ifPresent(played -> write(played, out));
+            playback.fail(DELETED, reading.clock().now()).ifPresent(played -> write(played, out));
         }
         for (Fetched answer = answers.poll(); answer != null; answer = answers.poll()) {
-            playback.take(answer, now).ifPresent(played -> write(played, out));
+            playback.take(answer, reading.clock().now()).ifPresent(played -> write(played, out));
         }
-        for (int i = 0; i < most; i++) {
-            Optional<Played> played = playback.poll(now);
+        boolean more = true;
+        for (int i = 0; more && i < TURN; i++) {
+            Optional<Played> played = playback.poll(reading.clock().now());
             playback.fetch().ifPresent(pages::read);
-            if (played.isEmpty()) {
-                break;
-            }
-            write(played.get(), out);
+            played.ifPresent(one -> write(one, out));
+            more = played.isPresent();
         }
-        reports.report(playback, now, out);
+        reports.report(playback, reading.clock().now(), out);
         if (playback.rests() != rests) {
             rests = playback.rests();
             topic.setResting(rests);
@@ -201,34 +214,23 @@ final class RunningReplay {
     /** An end goes to every partition: event time of a reader follows the slowest, so each one has to hear of it. */
     private void write(Played played, Consumer<TopicRecord> out) {
         reports.count(played, playback.lateness());
-        TopicRecord record = ReplayRecords.of(played, playback.wanted());
+        WantedReplay replay = playback.wanted();
+        TopicRecord record = ReplayRecords.of(played, replay);
         if (played.kind() == Played.Kind.END) {
             for (int partition = 0; partition < topic.partitions(); partition++) {
                 out.accept(record.toPartition(partition));
             }
         } else {
-            out.accept(writable(record));
-        }
-    }
-
-    private TopicRecord writable(TopicRecord record) {
-        try {
-            TopicRecord taken = reading.topics().writable(record);
-            if (!taken.topic().equals(record.topic())) {
+            if (!record.topic().equals(replay.topic())) {
                 reading.dead().count(Reason.TOO_LARGE);
             }
-            return taken;
-        } catch (IOException e) {
-            throw new UncheckedIOException(e);
-        } catch (InterruptedException e) {
-            Thread.currentThread().interrupt();
-            throw new FlinkRuntimeException("Interrupted while the size of a record was checked", e);
+            out.accept(record);
         }
     }
 
-    private void remove(long now, Consumer<TopicRecord> out) {
+    private void remove(Consumer<TopicRecord> out) {
         if (playback != null) {
-            playback.fail("nobody wants it any more", now).ifPresent(played -> write(played, out));
+            playback.fail("nobody wants it any more", reading.clock().now()).ifPresent(played -> write(played, out));
         }
         removed = true;
     }
@@ -251,24 +253,26 @@ final class RunningReplay {
         return status.state() == ReplayStatus.State.FAILED ? Optional.of(status.reason()) : Optional.empty();
     }
 
-    boolean isRunning() {
-        return playback != null && playback.state() == ReplayStatus.State.RUNNING;
-    }
-
     StatusReports reports() {
         return reports;
     }
 
-    ReplaySplit snapshot(long checkpoint, long now) {
+    ReplaySplit snapshot(long checkpoint) {
         if (isOver()) {
             reports.stored(checkpoint);
         }
-        return new ReplaySplit(name, wanted, playback == null ? refusedAt : playback.snapshot(now));
+        return new ReplaySplit(
+                name,
+                wanted,
+                playback == null ? refusedAt : playback.snapshot(reading.clock().now()));
     }
 
-    /** @param checkpoint that is complete */
-    void completed(long checkpoint) {
-        reports.completed(checkpoint);
+    /**
+     * @param checkpoint that is complete
+     * @return whether there is something to be reported therefore
+     */
+    boolean completed(long checkpoint) {
+        return reports.completed(checkpoint);
     }
 
     void close() {

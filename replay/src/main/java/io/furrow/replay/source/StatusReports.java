@@ -11,19 +11,22 @@ import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.Played;
 
 /**
- * Reports the status of a replay: twice a second while it runs, and on each change. A replay that is over is reported
+ * Reports the status of a replay: twice a second while it runs, not all replays at once, and on each change. A replay that is over is reported
  * again, as settled, when a checkpoint holds that it is over: whoever forgets it then will not see it come back.
  */
 final class StatusReports {
-    private static final long INTERVAL_MILLIS = 500;
+    private static final int INTERVAL_MILLIS = 500;
     private static final long NONE = -1;
     private static final double MILLIS = 1_000;
 
     private final String replay;
+    /** Of its ticks, ms. */
+    private final int phase;
     /** Read by metrics, too. */
     private volatile ReplayStatus told;
 
     private long toldAt;
+    private long tick;
     private long events;
     private long worst;
     private long lateness;
@@ -34,6 +37,7 @@ final class StatusReports {
     /** @param settled whether the state from which it continues is that of a replay that is over */
     StatusReports(String replay, boolean settled) {
         this.replay = replay;
+        this.phase = Math.floorMod(replay.hashCode(), INTERVAL_MILLIS);
         this.settled = settled;
     }
 
@@ -79,8 +83,11 @@ final class StatusReports {
         }
     }
 
-    void completed(long checkpoint) {
-        settled |= storedIn != NONE && checkpoint >= storedIn;
+    /** @return whether that settles it */
+    boolean completed(long checkpoint) {
+        boolean settles = !settled && storedIn != NONE && checkpoint >= storedIn;
+        settled |= settles;
+        return settles;
     }
 
     void report(Playback playback, long now, Consumer<TopicRecord> out) {
@@ -92,43 +99,49 @@ final class StatusReports {
             long millis = Math.max(1, told == null ? INTERVAL_MILLIS : now - toldAt);
             rate = Math.round(events * MILLIS / millis * 10) / 10.0;
             lateness = worst;
-            write(playback.status(now, worst, rate), now, out);
+            write(playback.status(now, worst, rate), out);
+            toldAt = now;
+            tick = tickAfter(now);
             events = 0;
             worst = 0;
         }
     }
 
+    /** At least half an interval later, so that rates are of a time that counts. */
+    private long tickAfter(long now) {
+        long half = now + INTERVAL_MILLIS / 2;
+        return half + INTERVAL_MILLIS - Math.floorMod(half - phase, INTERVAL_MILLIS);
+    }
+
     private boolean hasChanged(Playback playback, long now) {
-        ReplayStatus status = playback.status(now, 0, 0);
-        return told.sequence() != status.sequence()
-                || told.state() != status.state()
+        return told.sequence() != playback.sequence()
+                || told.state() != playback.state()
                 || told.settled() != (settled && playback.isOver())
                 || told.progress() == null
-                || told.progress().epoch() != status.progress().epoch()
-                || !Objects.equals(told.progress().waiting(), status.progress().waiting());
+                || told.progress().epoch() != playback.epoch()
+                || !Objects.equals(told.progress().waiting(), playback.awaited(now));
     }
 
     /** Of a replay of which it cannot be read what is requested. */
-    void reportRefused(long sequence, String reason, long now, Consumer<TopicRecord> out) {
+    void reportRefused(long sequence, String reason, Consumer<TopicRecord> out) {
         if (told == null || told.settled() != settled || told.sequence() != sequence || !reason.equals(told.reason())) {
-            write(new ReplayStatus(sequence, ReplayStatus.State.FAILED, reason, false, null), now, out);
+            write(new ReplayStatus(sequence, ReplayStatus.State.FAILED, reason, false, null), out);
         }
     }
 
-    private void write(ReplayStatus status, long now, Consumer<TopicRecord> out) {
+    private void write(ReplayStatus status, Consumer<TopicRecord> out) {
         told = new ReplayStatus(
                 status.sequence(),
                 status.state(),
                 status.reason(),
                 settled && status.state().isOver(),
                 status.progress());
-        toldAt = now;
         out.accept(TopicRecord.of(Topics.REPLAYS_STATUS, System.currentTimeMillis(), replay, told.toBytes(), Map.of()));
     }
 
     /** When the next report is due, unless something changes before. */
     long due(Playback playback) {
         boolean moves = playback.state() == ReplayStatus.State.RUNNING || playback.isSeeking() || events > 0;
-        return moves ? toldAt + INTERVAL_MILLIS : Long.MAX_VALUE;
+        return moves ? tick : Long.MAX_VALUE;
     }
 }

@@ -1,5 +1,6 @@
 package io.furrow.replay.playback;
 
+import java.io.IOException;
 import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
@@ -15,6 +16,8 @@ import io.furrow.mission.Cursor;
 import io.furrow.mission.Page;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.replay.record.EventEncoder;
 
 /** Made-up recordings in memory. */
 final class Missions {
@@ -54,14 +57,33 @@ final class Missions {
     }
 
     /** What is asked, from the recording, in a page of any size. */
-    static Fetched answer(Fetch fetch, List<StoredEvent> recording, Random random) {
+    static Fetched answer(Fetch fetch, List<StoredEvent> recording, WantedReplay wanted, Random random) {
         if (fetch instanceof Fetch.Begin begin) {
             List<StoredEvent> primes = begin.primed() ? known(recording, begin.point()) : List.of();
-            return new Fetched.Begun(begin.epoch(), primes, page(recording, begin.first(), random));
+            return new Fetched.Begun(
+                    begin.epoch(),
+                    primes(primes, begin, wanted),
+                    ready(page(recording, begin.first(), random), wanted, begin.epoch()));
         } else if (fetch instanceof Fetch.Next next) {
-            return new Fetched.More(next.epoch(), page(recording, next.after(), random));
+            return new Fetched.More(next.epoch(), ready(page(recording, next.after(), random), wanted, next.epoch()));
         }
         return new Fetched.Opened(fetch.epoch(), span(recording));
+    }
+
+    static ReadyPage ready(Page page, WantedReplay wanted, long epoch) {
+        try {
+            return new EventEncoder(wanted, epoch, record -> record).page(page);
+        } catch (IOException | InterruptedException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    private static List<ReadyEvent> primes(List<StoredEvent> known, Fetch.Begin begin, WantedReplay wanted) {
+        try {
+            return new EventEncoder(wanted, begin.epoch(), record -> record).primes(known, begin.point());
+        } catch (IOException | InterruptedException e) {
+            throw new AssertionError(e);
+        }
     }
 
     /** What is asked, of these devices or of all. */

@@ -17,7 +17,7 @@ import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.replay.ReplayStatus.State;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
-import io.furrow.replay.ReplayRecords;
+import io.furrow.replay.record.ReplayRecords;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -126,7 +126,7 @@ class PlaybackModelTest {
         for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
             Fetched answer = fetch.get() instanceof Fetch.Back back
                     ? Missions.back(back, mission, playback.wanted().plan().devices())
-                    : Missions.answer(fetch.get(), mission, random);
+                    : Missions.answer(fetch.get(), mission, playback.wanted(), random);
             playback.take(answer, now).ifPresent(end -> lines.add(line(now, end, playback.wanted())));
             any = true;
         }

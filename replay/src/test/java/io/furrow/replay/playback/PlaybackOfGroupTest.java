@@ -46,7 +46,7 @@ class PlaybackOfGroupTest {
         Optional<Played> played;
         do {
             for (Optional<Fetch> fetch = playback.fetch(); fetch.isPresent(); fetch = playback.fetch()) {
-                playback.take(Missions.answer(fetch.get(), recording, new Random(1)), now);
+                playback.take(Missions.answer(fetch.get(), recording, playback.wanted(), new Random(1)), now);
             }
             played = playback.poll(now);
             played.ifPresent(one -> lines.add(now + " "

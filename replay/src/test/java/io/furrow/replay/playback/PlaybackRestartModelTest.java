@@ -90,7 +90,7 @@ class PlaybackRestartModelTest {
     private Fetched answer(Fetch fetch) {
         return fetch instanceof Fetch.Back back
                 ? Missions.back(back, mission, playback.wanted().plan().devices())
-                : Missions.answer(fetch, mission, random);
+                : Missions.answer(fetch, mission, playback.wanted(), random);
     }
 
     private void restartNowAndThen(WantedReplay newest) {

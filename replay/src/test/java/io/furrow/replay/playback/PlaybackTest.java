@@ -30,18 +30,18 @@ class PlaybackTest {
         playback.fetch();
         playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, false)), 0);
-        assertThat(playback.poll(0)).map(Played::event).contains(FIRST);
+        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, wanted, false)), 0);
+        assertThat(playback.poll(0)).map(one -> one.event().id()).contains("a");
         playback.fetch();
 
         assertThat(playback.snapshot(100).position()).isEqualTo(FIRST.time());
         WantedReplay paused = Wishes.with(wanted, State.PAUSED, 1, null, 0);
         playback.apply(paused, 100);
         playback.apply(Wishes.with(paused, State.RUNNING, 1, null, 0), 200);
-        playback.take(new Fetched.More(0, page(NEXT, true)), 300);
+        playback.take(new Fetched.More(0, page(NEXT, wanted, true)), 300);
 
         assertThat(playback.poll(1_199)).as("a second after it went on").isEmpty();
-        assertThat(playback.poll(1_200)).map(Played::event).contains(NEXT);
+        assertThat(playback.poll(1_200)).map(one -> one.event().id()).contains("b");
     }
 
     @Test
@@ -53,7 +53,8 @@ class PlaybackTest {
         playback.fetch();
         playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time() + 9_000))), 0);
         playback.fetch();
-        playback.take(new Fetched.Begun(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), false)), 0);
+        playback.take(
+                new Fetched.Begun(0, List.of(), page(Missions.event("c", NEXT.time(), "urn:d1"), wanted, false)), 0);
 
         assertThat(playback.poll(0)).map(Played::reason).contains("ended");
         assertThat(playback.fetch()).isEmpty();
@@ -73,7 +74,7 @@ class PlaybackTest {
                 .isEqualTo("seeking: what was known before 2023-11-14T22:13:21Z is being read");
         assertThat(playback.isSeeking()).isTrue();
 
-        playback.take(new Fetched.Begun(0, List.of(FIRST), page(NEXT, true)), 1_300);
+        playback.take(new Fetched.Begun(0, page(FIRST, wanted, false).events(), page(NEXT, wanted, true)), 1_300);
         assertThat(waiting(playback, 1_300)).isNull();
         assertThat(playback.isSeeking()).isFalse();
     }
@@ -105,7 +106,7 @@ class PlaybackTest {
                 .containsExactly(State.FAILED, "all 262144 epochs are used; start another replay");
     }
 
-    private static Page page(StoredEvent event, boolean last) {
-        return new Page(List.of(event), List.of(), Cursor.after(event), last);
+    private static ReadyPage page(StoredEvent event, WantedReplay wanted, boolean last) {
+        return Missions.ready(new Page(List.of(event), List.of(), Cursor.after(event), last), wanted, 0);
     }
 }

@@ -7,6 +7,8 @@ import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.replay.topic.ReplayTopics;
+import io.furrow.replay.topic.TopicEnd;
 
 /** Topics that take everything. */
 final class OnePartition implements ReplayTopics.Writing {

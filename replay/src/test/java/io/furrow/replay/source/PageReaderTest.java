@@ -25,8 +25,14 @@ class PageReaderTest {
     private final PageReader pages = new PageReader(
             WantedReplay.started("m", Topics.replay("m", "0a1b2c3d"), ReplayPlan.PLAIN, 1, 0, 1),
             () -> {},
-            RecordingSources.of(missions),
-            new PageLimits(2, 1_000),
+            new RunningReplay.Reading(
+                    RecordingSources.of(missions),
+                    new PageLimits(2, 1_000),
+                    new OnePartition(),
+                    null,
+                    null,
+                    ReplayClock.SYSTEM,
+                    replay -> {}),
             answers::add);
 
     @AfterEach
@@ -64,6 +70,6 @@ class PageReaderTest {
     }
 
     private static Fetch seek(long epoch, long point) {
-        return new Fetch.Begin(epoch, point, Cursor.before(point), true);
+        return new Fetch.Begin(epoch, point, Cursor.before(point), true, 2);
     }
 }

@@ -1,4 +1,4 @@
-package io.furrow.replay.source;
+package io.furrow.replay.topic;
 
 import java.io.IOException;
 import java.time.Duration;
@@ -19,7 +19,7 @@ import org.slf4j.LoggerFactory;
  * told: a record that is under way to a missing topic would hold up those of all other replays. What is missing twice was deleted; a broker
  * may hear of a topic late.
  */
-final class TopicWatch implements AutoCloseable {
+public final class TopicWatch implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicWatch.class);
 
     private final ReplayTopics.Writing topics;
@@ -28,14 +28,14 @@ final class TopicWatch implements AutoCloseable {
     private Set<String> missedBefore = Set.of();
 
     /** Who plays on a topic. Called by the watching thread. */
-    interface Watched {
+    public interface Watched {
         boolean isPlaying();
 
         /** @param partitions of the topic in its place; 0 if none could be made */
         void deleted(int partitions);
     }
 
-    TopicWatch(ReplayTopics.Writing topics, Duration interval) {
+    public TopicWatch(ReplayTopics.Writing topics, Duration interval) {
         this.topics = topics;
         thread = Executors.newSingleThreadScheduledExecutor(task -> {
             Thread watching = new Thread(task, "replay-topics");
@@ -45,11 +45,11 @@ final class TopicWatch implements AutoCloseable {
         thread.scheduleWithFixedDelay(this::check, interval.toMillis(), interval.toMillis(), TimeUnit.MILLISECONDS);
     }
 
-    void add(String topic, Watched player) {
+    public void add(String topic, Watched player) {
         watched.put(topic, player);
     }
 
-    void remove(String topic) {
+    public void remove(String topic) {
         watched.remove(topic);
     }
 

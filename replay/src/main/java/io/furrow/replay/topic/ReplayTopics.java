@@ -1,4 +1,4 @@
-package io.furrow.replay.source;
+package io.furrow.replay.topic;
 
 import java.io.IOException;
 import java.io.Serializable;
