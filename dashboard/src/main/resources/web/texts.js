@@ -34,6 +34,8 @@ export const texts = {
     hint: 'The control plane knows the tokens; whoever runs it can give you one.',
     submit: 'Sign in',
     wrong: 'The control plane does not know this token.',
+    notByProxy: 'You came back, but are not signed in. Whoever runs the proxy can say why.',
+    byProxy: 'Sign in again', or: 'or with an access token', submitToken: 'Use the token',
   },
 
   opening: {
