@@ -114,6 +114,7 @@ class Feeds {
     } catch {
       // lines and trails begin now
     }
+    store.pastKnown = true;
   }
 
   // --- replays -----------------------------------------------------------------------------------------------------
