@@ -28,6 +28,8 @@ class Store {
     this.cursor = null;
     this.filter = '';
     this.primed = false;
+    /** What was reported before the page was opened has been read. */
+    this.pastKnown = false;
     this.fields = new Map();
     this.clearShown();
     // the frame that was waited for is not drawn in a hidden tab
@@ -40,7 +42,7 @@ class Store {
     this.encounters = new Map();
     this.suspects = new Map();
     this.images = new Map();
-    this.fields.forEach((field) => (field.average = null));
+    this.averages = new Map();
     this.all = true;
     ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.tell(name));
   }
@@ -243,26 +245,24 @@ class Store {
   takeTemperature(record) {
     const value = record.value;
     const of = (name) => value?.[name]?.value;
-    const field = this.fields.get(of('field'));
-    if (value?.type !== 'Analytics:FieldTemperature' || !field) {
-      return;
-    }
-    if (field.average && field.average.time > record.time) {
+    const field = of('field');
+    // the field itself may come later: its topic is another one
+    if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
       return;
     }
     const suspects = Array.isArray(of('suspects')) ? of('suspects') : [];
-    field.average = {
+    this.averages.set(field, {
       value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
       verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
-    };
+    });
     for (const [device, suspect] of this.suspects) {
-      if (suspect.field === field.id && !suspects.includes(device)) {
+      if (suspect.field === field && !suspects.includes(device)) {
         this.suspects.delete(device);
         this.remark(device);
       }
     }
     for (const device of suspects) {
-      this.suspects.set(device, { field: field.id, mean: of('averageTemperature'), time: record.time });
+      this.suspects.set(device, { field, mean: of('averageTemperature'), time: record.time });
       this.remark(device);
     }
     this.tell('suspects');
@@ -292,7 +292,7 @@ class Store {
       const properties = record.value.properties ?? {};
       this.fields.set(id, {
         id, validFrom, properties, geometry: record.value.geometry, name: typeof properties.name === 'string' ? properties.name : id,
-        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined, average: known?.average ?? null,
+        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined,
       });
     }
     this.tell('fields');

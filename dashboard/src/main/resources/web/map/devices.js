@@ -2,7 +2,7 @@
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
-import { drawEncounter, placeEncounters } from './encounters.js';
+import { drawEncounter, isOver, placeEncounters } from './encounters.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colourOf } from './palette.js';
 import { isOnMap, project, projectPoint } from './projection.js';
@@ -46,7 +46,7 @@ export class DeviceDrawing {
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
     standing.forEach((spot) => blockSymbol(places, spot));
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
-    this.fields.drawLabels(frame, palette, places, encounters);
+    this.fields.drawLabels(frame, palette, places, encounters.filter(({ encounter }) => !isOver(encounter)));
     moving.forEach((spot) => blockSymbol(places, spot));
     encounters.forEach((each) => drawEncounter(frame, each, palette, places));
     for (const each of clusters) {
@@ -168,7 +168,7 @@ export class DeviceDrawing {
 function devicesOfEncounters() {
   const found = new Set();
   for (const { a, b, phase } of store.encounters.values()) {
-    phase === 'ended' || phase === 'crossed' || found.add(a).add(b);
+    isOver({ phase }) || found.add(a).add(b);
   }
   return found;
 }

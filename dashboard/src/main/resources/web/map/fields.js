@@ -7,6 +7,8 @@ import { groundScale, isOnMap, project } from './projection.js';
 import { drawText, widthOf } from './labels.js';
 
 const NARROWEST_ROW = 7;
+/** From one place that is tried for a name to the next, px. */
+const STEP = 40;
 
 export class FieldDrawing {
   constructor() {
@@ -97,7 +99,7 @@ export function isFound(field) {
 }
 
 function averageOf(field, now) {
-  const average = field.average;
+  const average = store.averages.get(field.id);
   if (field.exclusion) {
     return { text: t('map.noAlarms') };
   }
@@ -211,10 +213,11 @@ function spotIn(ring, width, below, frame, isFree) {
     const lower = spansAt(ring, y + below);
     for (const [left, right] of above) {
       for (const [lowLeft, lowRight] of lower) {
-        const start = Math.max(left, lowLeft, 0) + 14;
-        const room = Math.min(right, lowRight, frame.width) - start - 8;
-        if (room >= width && isFree(start - 4, y - 10, start + width + 4, y + below)) {
-          return { x: start, y, below };
+        const end = Math.min(right, lowRight, frame.width) - 8 - width;
+        for (let x = Math.max(left, lowLeft, 0) + 14; x <= end; x += STEP) {
+          if (isFree(x - 4, y - 10, x + width + 4, y + below)) {
+            return { x, y, below };
+          }
         }
       }
     }

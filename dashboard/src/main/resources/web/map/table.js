@@ -81,7 +81,7 @@ function encounterRow(encounter, now) {
 }
 
 function fieldRow(field, now) {
-  const { average } = field;
+  const average = store.averages.get(field.id);
   return h('tr', null,
     h('th', { scope: 'row' }, field.name),
     h('td.numbers', null, field.exclusion ? t('map.noAlarms') : average ? temperature(average.value) : '–'),
