@@ -48,6 +48,25 @@ class AlarmsIT {
         org.assertj.core.api.Assertions.assertThat(acknowledged).isTrue();
     }
 
+    /** What it is about lasts, so another one is raised with the next windows. */
+    @Tag("full")
+    @Test
+    void closesAnAlarm(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        String known =
+                "[...store.alarms.values()].find((each) => each.kind.includes('suspect') && each.state !== 'closed')?.alarm";
+        farm.untilStore(known + " !== undefined");
+        String alarm = (String) farm.store(known);
+        Locator row = farm.find("furrow-alarms li.alarm:has([id='alarm-" + alarm + "'])");
+        farm.find("furrow-alarms .alarm-fold").evaluate("(fold) => { fold.open = true; }");
+
+        row.getByLabel("Mute or close").click();
+        row.locator(".alarm-menu").getByText("Close").click();
+
+        assertThat(row).hasCount(0);
+        farm.untilStore("store.alarms.get('" + alarm + "').state === 'closed'");
+    }
+
     @Tag("full")
     @Test
     void tellsANewAlarmToScreenReadersAndCountsIt(PageSuite suite) {

@@ -63,6 +63,28 @@ class MissionsIT {
         assertThat(farm.find("#missions-panel")).containsText("zone without alarms");
     }
 
+    @Tag("full")
+    @Test
+    void makesAndDeletesADomain(PageSuite suite) {
+        FarmPage farm = suite.open("#/missions?tab=domains");
+        farm.button("New domain").click();
+        Locator dialog = farm.find("dialog[open]");
+        dialog.getByLabel("Name in topics").fill("orchard");
+        dialog.getByLabel("Name for people").fill("The old orchard");
+        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+                .click();
+        assertThat(dialog).hasCount(0);
+        Locator orchard =
+                farm.find("#missions-panel li.card").filter(new Locator.FilterOptions().setHasText("The old orchard"));
+        assertThat(orchard).containsText("0 missions, 0 fields");
+
+        orchard.getByLabel("Delete domain orchard").click();
+        dialog.getByText("Delete", new Locator.GetByTextOptions().setExact(true))
+                .click();
+        assertThat(dialog).hasCount(0);
+        assertThat(orchard).hasCount(0);
+    }
+
     /** The fields that there are already: other tests count them. */
     @Tag("full")
     @Test
