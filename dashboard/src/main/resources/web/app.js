@@ -143,7 +143,7 @@ class App extends HTMLElement {
     this.classList.toggle('replaying', replaying);
     document.documentElement.classList.toggle('replaying', replaying);
     const name = missions?.length > 1 ? missions.join(' + ') : mission;
-    setText(this.mode, replaying ? t('app.replayOf', { mission: name, day: day(position) }) : t('app.live'));
+    replace(this.mode, replaying ? aroundName(t('app.replayOf', { mission: name, day: day(position) }), name) : t('app.live'));
     this.leave.hidden = !replaying;
     if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
       setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));
@@ -228,6 +228,12 @@ class App extends HTMLElement {
       this.find.focus();
     }
   }
+}
+
+/** A narrow window shows the name alone: sign and colour say that it is a replay. */
+function aroundName(words, name) {
+  const at = words.indexOf(name);
+  return [h('span.mode-more', null, words.slice(0, at)), name, h('span.mode-more', null, words.slice(at + name.length))];
 }
 
 customElements.define('furrow-app', App);

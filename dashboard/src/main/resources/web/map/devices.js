@@ -16,6 +16,8 @@ const TRAIL_PAUSE = 500;
 /** So many names at most; beyond it only those that matter have one. */
 const MOST_LABELS = 60;
 const REACH = 14;
+/** From a symbol to the ring around the one that is selected, px. */
+const RING = 7;
 /** Px; nearer to each other than so, devices cannot be told apart. */
 const SAME_SPOT = 4;
 /** Px; on a narrower map only those that matter have a name. */
@@ -116,7 +118,7 @@ export class DeviceDrawing {
     for (const { entity, x, y } of spots) {
       const chosen = entity.id === store.selection;
       if (chosen || entity.id === store.hovered) {
-        drawRing(context, x, y, SIZE[shapeOf(entity)] + 7, chosen ? palette.accent : palette.muted);
+        drawRing(context, x, y, SIZE[shapeOf(entity)] + RING, chosen ? palette.accent : palette.muted);
       }
       drawSymbol(context, entity, x, y, colourOf(entity, palette), palette, { ratio, alpha: dimmed(entity) ? 0.25 : 1 });
     }
@@ -133,7 +135,8 @@ export class DeviceDrawing {
       const stale = entity.state === 'stale';
       const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
       context.font = `${look || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
-      const place = places.beside(x, y, SIZE[shapeOf(entity)], widthOf(context, text), frame.width);
+      const ring = entity.id === store.selection || entity.id === store.hovered ? RING : 0;
+      const place = places.beside(x, y, SIZE[shapeOf(entity)] + ring, widthOf(context, text), frame.width);
       if (place) {
         drawText(context, text, place.x, place.y, look ? palette.warning : stale ? palette.muted : palette.text, palette.background);
       }

@@ -7,7 +7,7 @@ import { t } from '../texts.js';
 import { isOnMap } from './projection.js';
 
 const COLUMNS = ['name', 'kind', 'state', 'position', 'speed', 'age'];
-const NUMBERS = new Set(['speed', 'age', 'average', 'devices', 'distance', 'closest']);
+const NUMBERS = new Set(['position', 'speed', 'age', 'average', 'devices', 'distance', 'closest']);
 const MOST_ROWS = 500;
 const REDRAW_MILLIS = 1_000;
 

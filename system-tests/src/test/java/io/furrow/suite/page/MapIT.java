@@ -168,6 +168,7 @@ class MapIT {
         FarmPage farm = suite.open("");
         farm.untilStore("store.primed && store.fields.size === 4");
         report(farm, 2, 40.3125, -3.4822);
+        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) > 200, FarmPage.TIMEOUT); // the suspect thermometer
         int before = farm.mapPixels(WARNING);
 
         collision(farm, "predicted");
@@ -176,8 +177,9 @@ class MapIT {
         assertThat(farm.find(".map-table table[aria-label=Encounters] tbody"))
                 .containsText("Tractor 0 – Tractor 1predicted");
 
+        int with = farm.mapPixels(WARNING);
         collision(farm, "withdrawn");
-        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) < before + 300);
+        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) < with - 300);
     }
 
     private static void collision(FarmPage farm, String phase) {

@@ -33,7 +33,7 @@ class MissionsIT {
         dialog.getByLabel("Domain").selectOption("farm");
         dialog.getByLabel("Template").selectOption("demo-scouting@1");
         // Its devices are at work in another mission.
-        assertThat(dialog).containsText("need a look");
+        assertThat(dialog).containsText("are in the way");
         assertThat(dialog).containsText("runs in mission scouting");
         dialog.getByLabel("Template").selectOption("thesis-demo@1");
         dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
