@@ -143,7 +143,7 @@ class App extends HTMLElement {
     this.classList.toggle('replaying', replaying);
     document.documentElement.classList.toggle('replaying', replaying);
     const name = missions?.length > 1 ? missions.join(' + ') : mission;
-    replace(this.mode, replaying ? aroundName(t('app.replayOf', { mission: name, day: day(position) }), name) : t('app.live'));
+    replace(this.mode, replaying ? h('span.cut', null, aroundName(t('app.replayOf', { mission: name, day: day(position) }), name)) : t('app.live'));
     this.leave.hidden = !replaying;
     if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
       setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));

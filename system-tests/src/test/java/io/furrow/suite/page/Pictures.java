@@ -28,6 +28,7 @@ final class Pictures {
         FarmPage farm = suite.open("", look);
         farm.untilStore(
                 "store.averages.has('field-1') && store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 40");
+        assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
         farm.untilStore(ENCOUNTER);
         save(farm, folder, name);
     }
