@@ -25,7 +25,8 @@ Starts a suite with the demonstration farm and opens its dashboard in the machin
 delay   an event in Kafka is a pixel on the map, and a number on the card, within 500 ms (p95)
 heap    the page's heap after collection in the last minute is at most 1.1 of that in the first, devices moving at 1 Hz
 hidden  a hidden page costs the suite at most 2 % of a core
-frames  the main thread takes at most twice as long for a frame of the map as for one of a bare page of OpenLayers with the same points; no suite runs
+frames  the main thread takes at most twice as long for a frame of the map, alone and with cards in view, as for one of a bare page of OpenLayers
+        with the same points; no suite runs
 Needs the Debian packages chromium and fonts-dejavu-core.
 
   --only NAME      One of delay, heap, hidden and frames.

@@ -6,7 +6,9 @@ import { h, replace, setText } from './core/dom.js';
 import { icon } from './core/icons.js';
 import { linkTo, navigate, onRoute, route } from './core/router.js';
 import { store } from './core/store.js';
-import { t, texts } from './texts.js';
+import { settingsMenu } from './settings.js';
+import { mayLeave, signIn, signInAgain, signOut, signedIn, takeTokenOfLink } from './sign-in.js';
+import { t } from './texts.js';
 
 const PLACES = [
   ['map', 'map'], ['missions', 'flag'], ['replays', 'history'], ['analyses', 'chart'], ['topics', 'list'], ['platform', 'server'],
@@ -141,7 +143,7 @@ class App extends HTMLElement {
     this.classList.toggle('replaying', replaying);
     document.documentElement.classList.toggle('replaying', replaying);
     const name = missions?.length > 1 ? missions.join(' + ') : mission;
-    setText(this.mode, replaying ? t('app.replayOf', { mission: name, day: day(position) }) : t('app.live'));
+    replace(this.mode, replaying ? h('span.cut', null, aroundName(t('app.replayOf', { mission: name, day: day(position) }), name)) : t('app.live'));
     this.leave.hidden = !replaying;
     if (this.wasReplaying !== undefined && this.wasReplaying !== replaying) {
       setText(this.announcer, replaying ? t('app.enteredReplay', { mission: name }) : t('app.enteredLive'));
@@ -228,43 +230,11 @@ class App extends HTMLElement {
   }
 }
 
-/** Who one is, and the colours. */
-function settingsMenu() {
-  const schemes = h('div', { role: 'group', 'aria-label': t('app.scheme') });
-  const { user, role } = store.me;
-  const list = h('div.scheme-menu', { id: 'settings', popover: 'auto' },
-    user && h('p.me.small', null, h('strong', null, user), h('span.muted', null, ` · ${role}`)),
-    schemes,
-    api.token && h('button.button.quiet', { type: 'button', on: { click: signOut } }, icon('leave', 18), t('app.signOut')));
-  const symbols = { system: 'contrast', dark: 'moon', light: 'sun', sunlight: 'sun' };
-  const draw = () => replace(schemes, Object.entries(texts.app.schemes).map(([name, words]) => {
-    const chosen = (localStorage.getItem('furrow-scheme') ?? 'system') === name;
-    return h('button.button.quiet', {
-      type: 'button', 'aria-pressed': String(chosen),
-      on: { click: () => { chooseScheme(name); draw(); list.hidePopover(); } },
-    }, icon(chosen ? 'check' : symbols[name], 18), words);
-  }));
-  draw();
-  return h('div.menu', null,
-    h('button.button.quiet.square', { type: 'button', 'aria-label': t('app.settings'), title: t('app.settings'), popovertarget: 'settings' }, icon('contrast', 18)), list);
+/** A narrow window shows the name alone: sign and colour say that it is a replay. */
+function aroundName(words, name) {
+  const at = words.indexOf(name);
+  return [h('span.mode-more', null, words.slice(0, at)), name, h('span.mode-more', null, words.slice(at + name.length))];
 }
-
-function signOut() {
-  api.token = null;
-  location.reload();
-}
-
-function chooseScheme(name) {
-  if (name === 'system') {
-    localStorage.removeItem('furrow-scheme');
-    delete document.documentElement.dataset.scheme;
-  } else {
-    localStorage.setItem('furrow-scheme', name);
-    document.documentElement.dataset.scheme = name;
-  }
-  window.dispatchEvent(new Event('schemechange'));
-}
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => window.dispatchEvent(new Event('schemechange')));
 
 customElements.define('furrow-app', App);
 
@@ -276,15 +246,6 @@ const opening = document.querySelector('.opening');
 let failures = 0;
 let retrying = null;
 
-/** A link with `#token=…` signs in; the token leaves the address bar at once. */
-function takeTokenOfLink() {
-  const found = /^#token=([^&]+)/.exec(location.hash);
-  if (found) {
-    api.token = decodeURIComponent(found[1]);
-    history.replaceState(null, '', `${location.pathname}#/map`);
-  }
-}
-
 /** What the map place needs is loaded while the server is asked who this is. */
 function loadFirst() {
   ['furrow-map', 'furrow-alarms', 'furrow-cards', 'furrow-timeline'].forEach((name) => import(MODULES[name]).catch(() => {})); // said where it is shown
@@ -295,28 +256,12 @@ async function start() {
   try {
     await introduce();
   } catch (error) {
-    return error.status === 401 ? signIn() : unreachable(error);
+    return error.status === 401 ? signIn(start) : unreachable(error);
   }
+  signedIn();
   feeds.start();
   replace(document.body, document.createElement('furrow-app'));
-  api.onSignedOut(() => location.reload());
-}
-
-function signIn(wrong = Boolean(api.token)) {
-  api.token = null;
-  const token = h('input', { type: 'password', id: 'token', name: 'token', autocomplete: 'current-password', required: true, 'aria-describedby': 'token-hint' });
-  const submit = async (event) => {
-    event.preventDefault();
-    api.token = token.value.trim();
-    start();
-  };
-  replace(document.body, h('main.sign-in', null, h('form', { on: { submit } },
-    h('div.brand', null, icon('furrow', 26), t('app.title')),
-    h('h1', null, t('signIn.title')),
-    wrong && h('p.error-note', { role: 'alert' }, icon('warning'), t('signIn.wrong')),
-    h('div.field-row', null, h('label', { for: 'token' }, t('signIn.token')), token, h('p.small.muted', { id: 'token-hint' }, t('signIn.hint'))),
-    h('button.button.primary', { type: 'submit' }, t('signIn.submit')))));
-  token.focus();
+  api.onSignedOut(signInAgain);
 }
 
 /** Tried again by itself, each time after a longer while; the frame that index.html draws stays. */
@@ -325,7 +270,9 @@ function unreachable(error) {
   const words = h('div.opening-words', null, h('div.stack', null,
     h('p.error-note', { role: 'alert' }, icon('warning'), t('opening.away', { reason: error.message })),
     h('p.small.muted', null, t('opening.again')),
-    h('button.button.primary', { type: 'button', on: { click: start } }, t('opening.retry'))));
+    h('div.row', null,
+      h('button.button.primary', { type: 'button', on: { click: start } }, t('opening.retry')),
+      error.status === 403 && mayLeave() && h('button.button', { type: 'button', on: { click: signOut } }, t('app.signOut')))));
   const shown = document.querySelector('.opening-words');
   shown?.textContent === words.textContent || replace(opening.querySelector('.middle'), words);
   opening.isConnected || replace(document.body, opening);

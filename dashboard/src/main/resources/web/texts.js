@@ -34,12 +34,20 @@ export const texts = {
     hint: 'The control plane knows the tokens; whoever runs it can give you one.',
     submit: 'Sign in',
     wrong: 'The control plane does not know this token.',
+    notByProxy: 'You came back, but are not signed in. Whoever runs the proxy can say why.',
+    byProxy: 'Sign in again', or: 'or with an access token', submitToken: 'Use the token',
   },
 
   opening: {
     away: 'The farm cannot be shown yet: {reason}',
     again: 'It is tried again by itself.',
     retry: 'Try now',
+  },
+
+  units: {
+    second: 's', minute: 'min', hour: 'h', day: 'd', meter: 'm', kilometer: 'km', millimeter: 'mm', meterPerSecond: 'm/s', kilometerPerHour: 'km/h',
+    celsius: '°C', percent: '%', degree: '°', hectopascal: 'hPa', lux: 'lx', volt: 'V', ampere: 'A', watt: 'W', wattPerSquareMeter: 'W/m²',
+    byte: 'B', kilobyte: 'kB', megabyte: 'MB', gigabyte: 'GB', terabyte: 'TB',
   },
 
   format: { ago: '{duration} ago', yes: 'yes', no: 'no' },
@@ -76,9 +84,10 @@ export const texts = {
     title: 'Devices', count: '{count} · {reporting} reporting', filter: 'Show only', loading: 'Devices are being read',
     state: 'State', fieldMean: 'Field mean', suspect: 'suspect', noPosition: 'no position', details: 'All attributes of {name}',
     line: '{label}: now {now} {unit}, between {least} and {most} {unit}',
+    lineConstant: '{label}: {now} {unit} all the time',
     tooLarge: 'Too large to show', omitted: '{count} more attributes are not shown.',
     noPicture: 'No picture stored yet', pictureOf: 'Picture of {age}', pictureAlt: 'Newest picture of {name}', pictureFailed: 'No picture: {reason}',
-    recorded: 'recorded, not sent', notAllowed: 'Commands need the role operator', confirm: 'Send “{command}” to {name}?', refused: '{command} was not sent: {reason}',
+    recorded: 'recorded, not sent', confirm: 'Send “{command}” to {name}?', refused: '{command} was not sent: {reason}',
     outcomes: { pending: '{command} sent {ago}, no answer yet', ok: '✓ {command}, {ago}', failed: '✗ {command} failed {ago}. {info}', unanswered: '{command}: no answer since {ago}' },
     none: 'No devices yet', noneHint: 'As soon as a device reports, its card is here.',
     noneYet: 'Nothing yet at this moment', noneYetHint: 'The replay has not reached a report, or none is in it.',
@@ -116,12 +125,12 @@ export const texts = {
     none: 'No missions yet', noneHint: 'A mission says which devices work where. Create one from a template.',
     states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
     confirmed: '{confirmed} of {devices} devices', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices that are as wanted',
-    startedAt: 'started {time}', lasts: 'for {duration}', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay', notAllowed: 'This needs the role operator',
+    startedAt: 'started {time}', lasts: 'for {duration}', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
     startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Its devices are switched off. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can look at everything. To command takes the role of an operator', noDevicesYet: 'Its devices are being made.', planned: '{count} devices are planned; they are made when it starts.', moreDevices: 'and {count} more',
     check: 'Check of each device', unnamed: 'Device', levels: { ok: 'in order', unknown: 'not known', warning: 'needs a look', problem: 'in the way' },
-    checkGood: 'All {count} in order', checkBad: '{bad} of {count} need a look', checkProblem: '{problems} of {count} are in the way, {bad} more need a look',
+    checkGood: 'All {count} in order', checkBad: '{bad} of {count} need a look', checkProblem: '{problems} of {count} are in the way', checkProblemMore: '{problems} of {count} are in the way, {bad} more need a look',
     findings: {
       made: '{count} made when the mission starts', neverSeen: 'never heard of: whether it is reachable is not known', seen: 'heard {ago} ago', silent: 'silent for {ago}', off: 'switched off; the mission switches it on',
       noBattery: 'tells no battery', battery: 'battery {percent} %', batteryLow: 'battery low, {percent} %', used: 'runs in mission {mission}',
@@ -130,7 +139,7 @@ export const texts = {
     audit: 'Who commanded what', noAudit: 'Nobody has commanded anything yet.', noAuditOf: 'Nobody has commanded anything of it.', noAuditYet: 'Nothing of it is among the newest commands.', showOlder: 'Show older', readingOlder: 'Reading older ones …', noOlder: 'There are no older ones.', auditOf: { mission: 'Mission', device: 'Device', all: 'all' }, auditColumns: { time: 'When', user: 'Who', command: 'Command', about: 'About', result: 'Result' },
     targets: { mission: 'mission', domain: 'domain', replay: 'replay', alarm: 'alarm', device: 'device', field: 'fields', marker: 'marker', other: 'other' }, refusedBecause: 'refused: {reason}',
     domains: 'Domains', newDomain: 'New domain', noDomains: 'No domains yet', noDomainsHint: 'A domain is a farm, or a part of one; missions and fields belong to it.', domainId: 'Name in topics', domainName: 'Name for people', description: 'Description',
-    domainHas: '{missions} missions, {fields} fields', deleteDomain: 'Delete domain {domain}', deleteDomainText: 'It is refused while missions run in it.', noDomain: 'none',
+    countMission: '{count} mission', countMissions: '{count} missions', countField: '{count} field', countFields: '{count} fields', deleteDomain: 'Delete domain {domain}', deleteDomainText: 'It is refused while missions run in it.', noDomain: 'none',
     fields: 'Fields', noFields: 'No fields yet', noFieldsHint: 'Import the borders of fields as GeoJSON, or drop a file here; averages and presence are told for each.', fieldColumns: { field: 'Field', domain: 'Domain', kind: 'Kind', from: 'Since' },
     field: 'field', zone: 'zone without alarms', always: 'always', importFields: 'Import fields', import: 'Import', file: 'File', fileHint: 'GeoJSON with polygons, or a GeoPackage with one layer; at most 16 MiB. Shapefiles: ./furrow fields import.', asFeaturesSay: 'as each feature says', close: 'Close',
     previewFields: 'Areas in the file: {count}', previewSome: 'Areas in the file: {areas}. Other features, which will be refused: {others}', previewGeoPackage: 'A GeoPackage is read by the server.', tooLarge: 'The file has {size} MiB; at most 16 are taken.', imported: 'Imported: {imported}. Unchanged: {unchanged}', feature: 'Feature {number} {id}', noGeoJson: 'The file is no GeoJSON.', refusedFields: '{count} refused',
@@ -154,7 +163,7 @@ export const texts = {
     plan: 'New replay',
     planOf: 'Replay of {missions}',
     oneClock: 'On one clock: at one moment all show the same event time.',
-    from: 'From', to: 'To', wrongRange: 'The end must be after the beginning.',
+    from: 'From ({zone})', to: 'To ({zone})', wrongRange: 'The end must be after the beginning.',
     speed: 'Speed', times: '{speed} ×', fastest: 'as fast as it goes',
     analytics: 'With analytics', analyticsHint: 'Encounters, averages and presence are found anew and shown with the replay.',
     loop: 'Over and over',
@@ -168,7 +177,7 @@ export const texts = {
     copyLink: 'Copy link to this moment', copied: 'Copied. The link leads to {time}.', copyFailed: 'The browser does not let the link be copied: {link}',
     position: '{position} of {length} at {speed} ×', positionFast: '{position} of {length}, as fast as it goes',
     states: { starting: 'starting', waiting: 'waiting', running: 'playing', paused: 'paused', ended: 'at its end', stopped: 'stopped', failed: 'failed', over: 'over' },
-    link: 'A link to a moment of {missions}', linkHint: '{time}. That replay is over; it can be started there.', linkStart: 'Start it there',
+    link: 'A link to a moment of {missions}', linkHint: '{time}. That replay is over; it can be started there.', linkOver: '{time}. That replay is over.', linkStart: 'Start it there',
   },
 
   // ------------------------------------------------------------------------------------------------------------------
@@ -224,7 +233,7 @@ export const texts = {
     toMoment: 'To the moment', toMomentOf: 'Show the moment of {pair} at {time} on the map', startFrom: 'Starts a replay of {mission} there',
     noRecording: 'not recorded', more: '{shown} of {count} are shown',
     stay: '{device} in {field}, {from} to {to}', stillIn: 'still there', device: 'Device', entered: 'Entered', left: 'Left', stayed: 'Stayed',
-    celsius: '°C', at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
+    at: '{value} at {time}', chartLabel: 'Averages per field over time; the table has the same numbers',
   },
 
   // ------------------------------------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ class FurrowAlarms extends HTMLElement {
     this.notify = h('button.button.quiet.small', { type: 'button', hidden: true, on: { click: () => this.askForNotifications() } }, icon('bell', 16), t('alarms.notify'));
     replace(this, h('h2.section-title', null, h('span', null, t('alarms.title')), this.count), this.liveNote, this.none, this.list, this.fold, this.notify, this.polite, this.assertive);
     this.rows = new Map();
-    this.offs = [...['alarms', 'filter'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
+    this.offs = [...['alarms', 'filter', 'fields'].map((name) => store.on(name, () => this.draw())), store.on('clock', () => this.drawAges()), store.on('mode', () => this.draw()), store.on('me', () => this.draw())];
     this.draw();
   }
 

@@ -78,7 +78,7 @@ export class Card {
     facts.push(...telling(entity, 3));
     const suspect = store.suspects.get(entity.id);
     if (suspect) {
-      facts.splice(2, 0, { label: t('cards.fieldMean'), value: temperature(suspect.mean).replace(' °C', ''), unit: '°C' });
+      facts.splice(2, 0, { label: t('cards.fieldMean'), value: temperature(suspect.mean), unit: '' });
     }
     if (entity.cut) {
       facts.unshift({ label: t('cards.tooLarge'), value: bytes(entity.cut), unit: '' });
@@ -99,27 +99,24 @@ export class Card {
 
   drawCommands() {
     const { entity } = this;
-    const commands = commandsOf(entity);
+    const commands = store.may('operate') ? commandsOf(entity) : [];
     const recorded = store.isReplay;
-    const allowed = store.may('operate');
-    const key = `${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${allowed} ${this.sent?.waiting}`;
+    const key = `${commands.map((each) => `${each.name}${each.primary}${isPointless(entity, each.name)}`).join()} ${recorded} ${this.sent?.waiting}`;
     if (key !== this.commandsKey) {
       this.commandsKey = key;
       replace(this.buttons, commands.map((command) => h('button.button.small', {
-        type: 'button', class: command.primary ? 'primary' : '', disabled: recorded || !allowed || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
-        title: allowed ? null : t('cards.notAllowed'), on: { click: () => this.ask(command) },
+        type: 'button', class: command.primary ? 'primary' : '', disabled: recorded || isPointless(entity, command.name) || Boolean(this.sent?.waiting),
+        on: { click: () => this.ask(command) },
       }, command.name.charAt(0).toUpperCase() + command.name.slice(1))));
       this.buttons.parentElement.hidden = commands.length === 0;
     }
-    this.drawOutcome(recorded, allowed);
+    this.drawOutcome(recorded);
   }
 
-  drawOutcome(recorded, allowed) {
+  drawOutcome(recorded) {
     let [text, kind] = ['', ''];
     if (recorded) {
       text = t('cards.recorded');
-    } else if (!allowed && this.buttons.children.length) {
-      text = t('cards.notAllowed');
     } else if (this.sent) {
       const { command, at, error } = this.sent;
       const ago = t('format.ago', { duration: duration(Date.now() - at) });

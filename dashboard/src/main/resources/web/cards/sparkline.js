@@ -36,8 +36,9 @@ export class Sparkline {
       const y = most === least ? HEIGHT / 2 : HEIGHT - 3 - (values[index] - least) / height * (HEIGHT - 6);
       return `${x.toFixed(1)} ${y.toFixed(1)}`;
     });
+    this.path.classList.toggle('constant', most === least);
     this.path.setAttribute('d', `M${steps.join('L')}`);
-    this.svg.setAttribute('aria-label', t('cards.line', { label, least: number(least), most: number(most), unit, now: number(values.at(-1)) }));
+    this.svg.setAttribute('aria-label', t(most === least ? 'cards.lineConstant' : 'cards.line', { label, least: number(least), most: number(most), unit, now: number(values.at(-1)) }));
     this.cursor();
   }
 

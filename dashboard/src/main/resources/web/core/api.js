@@ -51,6 +51,8 @@ async function send(path, { method = 'GET', body, headers = {}, signal } = {}) {
       signal,
       cache: 'no-store',
       headers: {
+        // a proxy that signs users in answers 401 to who asks for JSON, and leads others to another page
+        Accept: 'application/json, */*',
         ...(token ? { Authorization: `Bearer ${token}` } : {}),
         ...(isJson ? { 'Content-Type': 'application/json' } : {}),
         ...headers,

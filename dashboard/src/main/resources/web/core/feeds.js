@@ -114,6 +114,7 @@ class Feeds {
     } catch {
       // lines and trails begin now
     }
+    store.pastKnown = true;
   }
 
   // --- replays -----------------------------------------------------------------------------------------------------
@@ -247,7 +248,7 @@ export const feeds = new Feeds();
 
 /** Who asks, and what the server says of itself. @throws {import('./api.js').ApiError} */
 export async function introduce() {
-  store.me = await api.get('/api/me');
   store.config = await api.get('/config.json').catch(() => ({}));
+  store.me = await api.get('/api/me');
   store.tell('me');
 }

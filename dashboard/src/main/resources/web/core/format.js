@@ -24,15 +24,15 @@ export function duration(ms) {
     return '–';
   }
   if (ms < 10 * SECOND) {
-    return `${(ms / SECOND).toFixed(1)} s`;
+    return inUnit((ms / SECOND).toFixed(1), 'second');
   }
   if (ms < 2 * MINUTE) {
-    return `${Math.floor(ms / SECOND)} s`;
+    return inUnit(Math.floor(ms / SECOND), 'second');
   }
   if (ms < 2 * HOUR) {
-    return `${Math.floor(ms / MINUTE)} min`;
+    return inUnit(Math.floor(ms / MINUTE), 'minute');
   }
-  return ms < 2 * DAY ? `${Math.floor(ms / HOUR)} h` : `${Math.floor(ms / DAY)} d`;
+  return ms < 2 * DAY ? inUnit(Math.floor(ms / HOUR), 'hour') : inUnit(Math.floor(ms / DAY), 'day');
 }
 
 /** "1:02:03" or "2:03": of a length on a time axis. */
@@ -83,32 +83,42 @@ export function distance(meters) {
   if (!Number.isFinite(meters)) {
     return '–';
   }
-  return meters < 1000 ? `${meters.toFixed(meters < 100 ? 1 : 0)} m` : `${(meters / 1000).toFixed(1)} km`;
+  return meters < 1000 ? inUnit(meters.toFixed(meters < 100 ? 1 : 0), 'meter') : inUnit((meters / 1000).toFixed(1), 'kilometer');
 }
 
 /** "12.4 °C". */
 export function temperature(celsius) {
-  return Number.isFinite(celsius) ? `${celsius.toFixed(1)} °C` : '–';
+  return Number.isFinite(celsius) ? inUnit(celsius.toFixed(1), 'celsius') : '–';
 }
 
 /** "1.2 kB", "3.4 MB". */
 export function bytes(count) {
-  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
+  const units = ['byte', 'kilobyte', 'megabyte', 'gigabyte', 'terabyte'];
   let value = count;
   let unit = 0;
   while (value >= 1000 && unit < units.length - 1) {
     value /= 1000;
     unit++;
   }
-  return `${unit === 0 ? value : value.toFixed(1)} ${units[unit]}`;
+  return inUnit(unit === 0 ? value : value.toFixed(1), units[unit]);
+}
+
+function inUnit(value, unit) {
+  return `${value} ${t(`units.${unit}`)}`;
 }
 
 /** Units of UN/CEFACT that FIWARE's data models use, and those of attributes that say none. */
-const UNIT_CODES = { CEL: '°C', MTS: 'm/s', KMH: 'km/h', P1: '%', MTR: 'm', DD: '°', HPA: 'hPa', A97: 'hPa', LUX: 'lx', VLT: 'V', AMP: 'A', WTT: 'W', MMT: 'mm', D54: 'W/m²' };
-const KNOWN_UNITS = {
-  temperature: '°C', soiltemperature: '°C', dewpoint: '°C', speed: 'm/s', windspeed: 'm/s', heading: '°', winddirection: '°', humidity: '%', relativehumidity: '%',
-  soilmoisture: '%', battery: '%', pressure: 'hPa', atmosphericpressure: 'hPa', altitude: 'm', illuminance: 'lx', voltage: 'V', precipitation: 'mm', rainfall: 'mm', solarradiation: 'W/m²',
+const UNIT_CODES = {
+  CEL: 'celsius', MTS: 'meterPerSecond', KMH: 'kilometerPerHour', P1: 'percent', MTR: 'meter', DD: 'degree', HPA: 'hectopascal', A97: 'hectopascal', LUX: 'lux',
+  VLT: 'volt', AMP: 'ampere', WTT: 'watt', MMT: 'millimeter', D54: 'wattPerSquareMeter',
 };
+const KNOWN_UNITS = {
+  temperature: 'celsius', soiltemperature: 'celsius', dewpoint: 'celsius', speed: 'meterPerSecond', windspeed: 'meterPerSecond', heading: 'degree', winddirection: 'degree',
+  humidity: 'percent', relativehumidity: 'percent', soilmoisture: 'percent', battery: 'percent', pressure: 'hectopascal', atmosphericpressure: 'hectopascal', altitude: 'meter',
+  illuminance: 'lux', voltage: 'volt', precipitation: 'millimeter', rainfall: 'millimeter', solarradiation: 'wattPerSquareMeter',
+};
+/** They are told without a fraction. */
+const WHOLE = new Set(['percent', 'degree']);
 const SHARES = new Set(['battery', 'relativehumidity', 'humidity', 'batterylevel']);
 
 /**
@@ -123,11 +133,12 @@ export function quantity(name, attribute) {
   let value = attribute.value;
   if (typeof value === 'number') {
     const code = attribute.metadata?.unitCode?.value ?? attribute.metadata?.unit?.value;
-    const unit = typeof code === 'string' ? UNIT_CODES[code] ?? code.slice(0, 12) : KNOWN_UNITS[known] ?? '';
-    if (SHARES.has(known) && value >= 0 && value <= 1 && unit === '%') {
+    const unit = typeof code === 'string' ? UNIT_CODES[code] : KNOWN_UNITS[known];
+    if (SHARES.has(known) && value >= 0 && value <= 1 && unit === 'percent') {
       value *= 100;
     }
-    return { label: label(name), value: unit === '%' || unit === '°' ? String(Math.round(value)) : number(value), unit, numeric: true };
+    const words = unit ? t(`units.${unit}`) : typeof code === 'string' ? code.slice(0, 12) : '';
+    return { label: label(name), value: WHOLE.has(unit) ? String(Math.round(value)) : number(value), unit: words, numeric: true };
   }
   return { label: label(name), value: plain(value), unit: '', numeric: false };
 }

@@ -1,13 +1,13 @@
 /** All that the page shows. Feeds write it, elements listen to it. */
-import { newEntity, stateOf, takePast, takeReport } from './entity.js';
+import { stateOf } from './entity.js';
+import { Taking } from './taking.js';
 
-/** Most entities that are kept; beyond it those not heard of for longest go. */
-const MOST_ENTITIES = 5_000;
 /** How long an encounter that ended stays to be seen, ms of what is shown. */
 const ENDED_SHOWN = 10_000;
 
-class Store {
+class Store extends Taking(Object) {
   constructor() {
+    super();
     this.handlers = new Map();
     this.changed = new Map();
     this.domains = new Map();
@@ -28,6 +28,8 @@ class Store {
     this.cursor = null;
     this.filter = '';
     this.primed = false;
+    /** What was reported before the page was opened has been read. */
+    this.pastKnown = false;
     this.fields = new Map();
     this.clearShown();
     // the frame that was waited for is not drawn in a hidden tab
@@ -40,7 +42,7 @@ class Store {
     this.encounters = new Map();
     this.suspects = new Map();
     this.images = new Map();
-    this.fields.forEach((field) => (field.average = null));
+    this.averages = new Map();
     this.all = true;
     ['entities', 'encounters', 'suspects', 'images', 'fields'].forEach((name) => this.tell(name));
   }
@@ -134,60 +136,6 @@ class Store {
     this.feeds?.leaveReplay();
   }
 
-  // --- records -----------------------------------------------------------------------------------------------------
-
-  /** @param {import('./stream.js').TopicRecord} record of an entity */
-  takeEntity(record) {
-    const id = record.value?.id ?? record.key;
-    if (typeof id !== 'string' || id === '') {
-      return;
-    }
-    if (record.value === null && !record.cut) {
-      this.entities.delete(id);
-      this.all = true;
-      this.tell('entities', id);
-      return;
-    }
-    let entity = this.entities.get(id);
-    if (!entity) {
-      entity = newEntity(id);
-      this.entities.set(id, entity);
-      this.entities.size > MOST_ENTITIES && this.forgetOldest();
-    }
-    if (record.cut) {
-      entity.cut = record.cut;
-      entity.time = Math.max(entity.time, record.time);
-    } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
-      takeReport(entity, record);
-    }
-    entity.suspect = this.suspects.has(id);
-    entity.state = this.stateOf(entity);
-    this.tell('entities', id);
-  }
-
-  /** What was reported before the page was opened. @param {import('./stream.js').TopicRecord[]} records oldest first */
-  takePast(records) {
-    const reports = new Map();
-    records.forEach((record) => reports.has(record.key) ? reports.get(record.key).push(record) : reports.set(record.key, [record]));
-    for (const [id, of] of reports) {
-      const entity = this.entities.get(id);
-      if (entity) {
-        takePast(entity, of);
-        entity.state = this.stateOf(entity);
-        this.tell('entities', id);
-      }
-    }
-  }
-
-  forgetOldest() {
-    let oldest = null;
-    for (const each of this.entities.values()) {
-      oldest = oldest === null || each.time < oldest.time ? each : oldest;
-    }
-    this.entities.delete(oldest.id);
-    this.all = true;
-  }
-
   /** States that change by time alone. */
   tick() {
     for (const entity of this.entities.values()) {
@@ -206,115 +154,6 @@ class Store {
       }
     }
     this.tell('clock');
-  }
-
-  takeEncounter(record) {
-    const value = record.value;
-    if (!value || value.type !== 'Analytics:Collision') {
-      return;
-    }
-    const of = (name) => value[name]?.value;
-    const [a, b, phase] = [of('Device1_ID'), of('Device2_ID'), of('phase')];
-    if (typeof a !== 'string' || typeof b !== 'string') {
-      return;
-    }
-    const pair = `${a}|${b}`;
-    const known = this.encounters.get(pair);
-    if (known && known.time > record.time) {
-      return;
-    }
-    if (phase === 'withdrawn') {
-      this.encounters.delete(pair);
-      this.tell('encounters');
-      return;
-    }
-    if (phase === 'predicted' && known && (known.phase === 'started' || known.phase === 'ongoing')) {
-      return;
-    }
-    this.encounters.set(pair, {
-      pair, a, b, phase, id: of('encounter'),
-      distance: of('distance'), minDistance: of('minDistance') ?? of('dcpa') ?? of('distance'),
-      time: record.time, start: of('startTime') ?? record.time, tcpa: of('tcpa'),
-      at: [[of('Device1_longitude'), of('Device1_latitude')], [of('Device2_longitude'), of('Device2_latitude')]],
-    });
-    this.tell('encounters');
-  }
-
-  takeTemperature(record) {
-    const value = record.value;
-    const of = (name) => value?.[name]?.value;
-    const field = this.fields.get(of('field'));
-    if (value?.type !== 'Analytics:FieldTemperature' || !field) {
-      return;
-    }
-    if (field.average && field.average.time > record.time) {
-      return;
-    }
-    const suspects = Array.isArray(of('suspects')) ? of('suspects') : [];
-    field.average = {
-      value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
-      verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
-    };
-    for (const [device, suspect] of this.suspects) {
-      if (suspect.field === field.id && !suspects.includes(device)) {
-        this.suspects.delete(device);
-        this.remark(device);
-      }
-    }
-    for (const device of suspects) {
-      this.suspects.set(device, { field: field.id, mean: of('averageTemperature'), time: record.time });
-      this.remark(device);
-    }
-    this.tell('suspects');
-    this.tell('fields');
-  }
-
-  remark(id) {
-    const entity = this.entities.get(id);
-    if (entity) {
-      entity.suspect = this.suspects.has(id);
-      entity.state = this.stateOf(entity);
-      this.tell('entities', id);
-    }
-  }
-
-  /** A version of a field; of several the one that holds now. */
-  takeField(record) {
-    const [id, from] = String(record.key).split('@');
-    const validFrom = Date.parse(from) || 0;
-    const known = this.fields.get(id);
-    if ((known && known.validFrom > validFrom) || validFrom > this.now()) {
-      return;
-    }
-    if (!record.value?.geometry) {
-      this.fields.delete(id);
-    } else {
-      const properties = record.value.properties ?? {};
-      this.fields.set(id, {
-        id, validFrom, properties, geometry: record.value.geometry, name: typeof properties.name === 'string' ? properties.name : id,
-        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined, average: known?.average ?? null,
-      });
-    }
-    this.tell('fields');
-  }
-
-  takeImage(record) {
-    const image = record.value;
-    if (image?.entity) {
-      this.images.set(image.entity, { ...image, time: record.time });
-      this.tell('images', image.entity);
-    }
-  }
-
-  takeAlarm(record) {
-    record.value ? this.alarms.set(record.key, record.value) : this.alarms.delete(record.key);
-    this.tell('alarms');
-  }
-
-  /** All alarms that there were are known. */
-  alarmsRead() {
-    this.alarmsKnown = true;
-    this.tell('alarms');
   }
 
   // --- what is looked at -------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
-import { drawEncounter, placeEncounters } from './encounters.js';
+import { drawEncounter, isOver, placeEncounters } from './encounters.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colourOf } from './palette.js';
 import { isOnMap, project, projectPoint } from './projection.js';
@@ -16,6 +16,8 @@ const TRAIL_PAUSE = 500;
 /** So many names at most; beyond it only those that matter have one. */
 const MOST_LABELS = 60;
 const REACH = 14;
+/** From a symbol to the ring around the one that is selected, px. */
+const RING = 7;
 /** Px; nearer to each other than so, devices cannot be told apart. */
 const SAME_SPOT = 4;
 /** Px; on a narrower map only those that matter have a name. */
@@ -46,7 +48,7 @@ export class DeviceDrawing {
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
     standing.forEach((spot) => blockSymbol(places, spot));
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
-    this.fields.drawLabels(frame, palette, places, encounters);
+    this.fields.drawLabels(frame, palette, places, encounters.filter(({ encounter }) => !isOver(encounter)));
     moving.forEach((spot) => blockSymbol(places, spot));
     encounters.forEach((each) => drawEncounter(frame, each, palette, places));
     for (const each of clusters) {
@@ -116,7 +118,7 @@ export class DeviceDrawing {
     for (const { entity, x, y } of spots) {
       const chosen = entity.id === store.selection;
       if (chosen || entity.id === store.hovered) {
-        drawRing(context, x, y, SIZE[shapeOf(entity)] + 7, chosen ? palette.accent : palette.muted);
+        drawRing(context, x, y, SIZE[shapeOf(entity)] + RING, chosen ? palette.accent : palette.muted);
       }
       drawSymbol(context, entity, x, y, colourOf(entity, palette), palette, { ratio, alpha: dimmed(entity) ? 0.25 : 1 });
     }
@@ -133,7 +135,8 @@ export class DeviceDrawing {
       const stale = entity.state === 'stale';
       const text = stale ? `${entity.name} · ${age(store.now() - entity.time)}` : entity.name;
       context.font = `${look || entity.id === store.selection ? 600 : 400} 13px ${palette.family}`;
-      const place = places.beside(x, y, SIZE[shapeOf(entity)], widthOf(context, text), frame.width);
+      const ring = entity.id === store.selection || entity.id === store.hovered ? RING : 0;
+      const place = places.beside(x, y, SIZE[shapeOf(entity)] + ring, widthOf(context, text), frame.width);
       if (place) {
         drawText(context, text, place.x, place.y, look ? palette.warning : stale ? palette.muted : palette.text, palette.background);
       }
@@ -168,7 +171,7 @@ export class DeviceDrawing {
 function devicesOfEncounters() {
   const found = new Set();
   for (const { a, b, phase } of store.encounters.values()) {
-    phase === 'ended' || phase === 'crossed' || found.add(a).add(b);
+    isOver({ phase }) || found.add(a).add(b);
   }
   return found;
 }

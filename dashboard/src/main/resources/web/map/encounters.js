@@ -33,6 +33,11 @@ export function covers({ x, y, radius }, left, top, right, bottom) {
   return left < x + radius && right > x - radius && top < y + radius && bottom > y - radius - PILL;
 }
 
+/** What is over only fades: it takes no place from what is known of a field. */
+export function isOver({ phase }) {
+  return phase === 'ended' || phase === 'crossed';
+}
+
 function reported(frame, [lon, lat]) {
   if (!isOnMap(lon, lat)) {
     return null;
@@ -57,7 +62,8 @@ export function drawEncounter(frame, { encounter, from, to, x, y, radius, look }
   context.arc(x, y, radius, 0, 2 * Math.PI);
   context.stroke();
   context.setLineDash([]);
-  drawPill(frame, textOf(encounter), { x, y: y - radius - 14 }, look, palette, places);
+  const above = { x, y: y - radius - 14 };
+  drawPill(frame, textOf(encounter), isOver(encounter) ? [above, { x, y: y + radius + 14 }] : [above], look, palette, places);
   context.globalAlpha = 1;
 }
 
@@ -65,7 +71,7 @@ function lookOf(encounter, palette) {
   if (encounter.phase === 'predicted' && store.now() - encounter.time > (encounter.tcpa ?? 0) * 1000 + PREDICTION_STAYS) {
     return { alpha: 0 };
   }
-  if (encounter.phase === 'ended' || encounter.phase === 'crossed') {
+  if (isOver(encounter)) {
     const alpha = 0.9 * (1 - (store.now() - encounter.time) / FADING);
     return { colour: palette.muted, ink: palette.background, dash: [], alpha: Math.min(0.9, alpha) };
   }
@@ -78,7 +84,7 @@ function textOf(encounter) {
   if (encounter.phase === 'predicted') {
     return t('map.predicted', { distance: distance(encounter.minDistance), time: Math.max(0, Math.round(encounter.tcpa ?? 0)) });
   }
-  if (encounter.phase === 'ended' || encounter.phase === 'crossed') {
+  if (isOver(encounter)) {
     return t('map.ended', { distance: distance(encounter.minDistance) });
   }
   // once they move apart, how near they were says more than how far they are
@@ -97,21 +103,28 @@ function currentDistance(encounter) {
   return Math.hypot(x, b.position[1] - a.position[1]) * radians * 6_371_008.8;
 }
 
-/** At the edge of the map it stays on the map. */
-function drawPill(frame, text, place, look, palette, places) {
+/** At the edge of the map it stays on the map. Of several places it takes the first that is free, or none. */
+function drawPill(frame, text, wanted, look, palette, places) {
   const { context } = frame;
   context.font = `700 13px ${palette.family}`;
   const half = context.measureText(text).width / 2 + 12;
-  const isInView = place.x > 0 && place.x < frame.width && place.y > -2 * PILL && place.y < frame.height;
-  const x = isInView ? Math.max(half + 2, Math.min(frame.width - half - 2, place.x)) : place.x;
-  const y = isInView ? Math.max(14, place.y) : place.y;
+  const boxes = wanted.map((place) => {
+    const isInView = place.x > 0 && place.x < frame.width && place.y > -2 * PILL && place.y < frame.height;
+    const x = isInView ? Math.max(half + 2, Math.min(frame.width - half - 2, place.x)) : place.x;
+    const y = isInView ? Math.max(14, place.y) : place.y;
+    return { x, y, box: [x - half, y - 12, x + half, y + 12] };
+  });
+  const place = boxes.length > 1 ? boxes.find(({ box }) => places.isFree(...box)) : boxes[0];
+  if (!place) {
+    return;
+  }
   context.beginPath();
-  context.roundRect(x - half, y - 12, 2 * half, 24, 12);
+  context.roundRect(place.box[0], place.box[1], 2 * half, 24, 12);
   context.fillStyle = look.colour;
   context.fill();
   context.fillStyle = look.ink;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
-  context.fillText(text, x, y + 0.5);
-  places.block(x - half, y - 12, x + half, y + 12);
+  context.fillText(text, place.x, place.y + 0.5);
+  places.block(...place.box);
 }

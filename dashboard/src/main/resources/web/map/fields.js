@@ -7,6 +7,10 @@ import { groundScale, isOnMap, project } from './projection.js';
 import { drawText, widthOf } from './labels.js';
 
 const NARROWEST_ROW = 7;
+/** From one place that is tried for a name to the next, px. */
+const STEP = 20;
+/** Px; on a narrower map texts go nearer to the borders of fields. */
+const NARROW = 560;
 
 export class FieldDrawing {
   constructor() {
@@ -70,20 +74,19 @@ export class FieldDrawing {
       }
       context.font = `600 14px ${palette.family}`;
       const wide = widthOf(context, field.name);
-      const line = averageOf(field, now);
       context.font = `400 12px ${palette.family}`;
-      const second = widthOf(context, line.text);
-      const spot = spotIn(rings[0], Math.max(wide, second), 28, frame, isFree) ?? spotIn(rings[0], wide, 10, frame, isFree);
+      const [spot, line] = spotOf(context, rings[0], wide, linesOf(field, now), frame, isFree);
       if (!spot) {
         continue;
       }
+      const second = widthOf(context, line);
       context.globalAlpha = isFound(field) ? 1 : 0.3;
       context.font = `600 14px ${palette.family}`;
       drawText(context, field.name, spot.x, spot.y, field.exclusion ? palette.muted : palette.text, palette.field);
       places.block(spot.x - 4, spot.y - 10, spot.x + wide + 4, spot.y + 10);
       context.font = `400 12px ${palette.family}`;
-      if (line.text && spot.below > 10) {
-        drawText(context, line.text, spot.x, spot.y + 18, line.warn ? palette.warning : palette.muted, palette.field);
+      if (line) {
+        drawText(context, line, spot.x, spot.y + 18, palette.muted, palette.field);
         places.block(spot.x - 4, spot.y + 8, spot.x + second + 4, spot.y + 28);
       }
     }
@@ -96,19 +99,30 @@ export function isFound(field) {
   return store.isFound(field.name, field.id);
 }
 
-function averageOf(field, now) {
-  const average = field.average;
+/** What is written below the name, the longest first: where there is no room for it the value alone, or nothing. */
+function linesOf(field, now) {
+  const average = store.averages.get(field.id);
   if (field.exclusion) {
-    return { text: t('map.noAlarms') };
+    return [t('map.noAlarms'), ''];
   }
   if (!average) {
-    return { text: '' };
+    return [''];
   }
-  const parts = [temperature(average.value)];
-  parts.push(average.verified ? t('map.devices', { count: average.count }) : t('map.unverified'));
+  const value = temperature(average.value);
+  const parts = [value, average.verified ? t('map.devices', { count: average.count }) : t('map.unverified')];
   average.suspects.length && parts.push(t('map.suspects', { count: average.suspects.length }));
   parts.push(age(now - average.time));
-  return { text: parts.join(' · '), warn: false };
+  return [parts.join(' · '), value, ''];
+}
+
+function spotOf(context, ring, wide, lines, frame, isFree) {
+  for (const line of lines) {
+    const spot = spotIn(ring, Math.max(wide, widthOf(context, line)), line ? 28 : 10, frame, isFree);
+    if (spot) {
+      return [spot, line];
+    }
+  }
+  return [null, ''];
 }
 
 function ringsOf(geometry) {
@@ -211,10 +225,11 @@ function spotIn(ring, width, below, frame, isFree) {
     const lower = spansAt(ring, y + below);
     for (const [left, right] of above) {
       for (const [lowLeft, lowRight] of lower) {
-        const start = Math.max(left, lowLeft, 0) + 14;
-        const room = Math.min(right, lowRight, frame.width) - start - 8;
-        if (room >= width && isFree(start - 4, y - 10, start + width + 4, y + below)) {
-          return { x: start, y, below };
+        const end = Math.min(right, lowRight, frame.width) - (frame.width < NARROW ? 4 : 8) - width;
+        for (let x = Math.max(left, lowLeft, 0) + (frame.width < NARROW ? 6 : 14); x <= end; x += STEP) {
+          if (isFree(x - 4, y - 10, x + width + 4, y + below)) {
+            return { x, y, below };
+          }
         }
       }
     }

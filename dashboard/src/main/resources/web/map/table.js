@@ -7,7 +7,7 @@ import { t } from '../texts.js';
 import { isOnMap } from './projection.js';
 
 const COLUMNS = ['name', 'kind', 'state', 'position', 'speed', 'age'];
-const NUMBERS = new Set(['speed', 'age', 'average', 'devices', 'distance', 'closest']);
+const NUMBERS = new Set(['position', 'speed', 'age', 'average', 'devices', 'distance', 'closest']);
 const MOST_ROWS = 500;
 const REDRAW_MILLIS = 1_000;
 
@@ -81,7 +81,7 @@ function encounterRow(encounter, now) {
 }
 
 function fieldRow(field, now) {
-  const { average } = field;
+  const average = store.averages.get(field.id);
   return h('tr', null,
     h('th', { scope: 'row' }, field.name),
     h('td.numbers', null, field.exclusion ? t('map.noAlarms') : average ? temperature(average.value) : '–'),

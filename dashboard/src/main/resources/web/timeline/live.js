@@ -3,6 +3,8 @@ import { api } from '../core/api.js';
 import { store } from '../core/store.js';
 
 export const LIVE_LENGTH = 15 * 60_000;
+/** As short as it may be where little came yet. */
+const SHORTEST = 60_000;
 const WIDTH = 5_000;
 const TOPIC = 'data.raw';
 
@@ -51,6 +53,19 @@ export class LiveDensity {
     } catch {
       // until it is asked again the page's own count stands
     }
+  }
+
+  /** From the first record of the last quarter of an hour to now. */
+  extent() {
+    const now = Date.now();
+    return [this.countedTo === null ? now - LIVE_LENGTH : Math.max(now - LIVE_LENGTH, Math.min(now - SHORTEST, this.first)), now];
+  }
+
+  /** When the first of what is counted came, epoch ms. */
+  get first() {
+    let first = Infinity;
+    this.counts.forEach((count, start) => count > 0 && (first = Math.min(first, start)));
+    return first;
   }
 
   show() {

@@ -126,8 +126,8 @@ export class Pointer {
 
   hover(at) {
     this.timeline.showTip(at.x, at.time);
-    this.track.classList.toggle('over-edge', store.isReplay && Boolean(this.edgeAt(at)));
-    this.track.classList.toggle('over-ruler', store.isReplay && at.y < RULER);
+    this.track.classList.toggle('over-edge', this.timeline.may && Boolean(this.edgeAt(at)));
+    this.track.classList.toggle('over-ruler', this.timeline.may && at.y < RULER);
     store.setCursor(at.time);
   }
 

@@ -4,9 +4,9 @@ import { clock, dateTime, distance, span } from '../core/format.js';
 import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
-import { LIVE_LENGTH } from './live.js';
 
 const SECOND = 1_000;
+const MINUTE = 60_000;
 const DAY = 86_400_000;
 const MOST_FLAGS = 80;
 const NOTE_SHOWN = 8_000;
@@ -57,7 +57,7 @@ export const Showing = (Base) => class extends Base {
   showState() {
     const counts = `${counted('encounter', this.countShown(this.encounters, 'start'))} · ${counted('marker', this.countShown(this.markers, 'time'))}`;
     if (!store.isReplay) {
-      setText(this.sub, `${t('timeline.lastMinutes', { minutes: LIVE_LENGTH / 60_000 })} · ${counted('encounter', this.encounters.length)}`);
+      setText(this.sub, `${t('timeline.lastMinutes', { minutes: Math.max(1, Math.round((this.extent[1] - this.extent[0]) / MINUTE)) })} · ${counted('encounter', this.encounters.length)}`);
       return;
     }
     const { state } = this;
@@ -97,14 +97,13 @@ export const Showing = (Base) => class extends Base {
     const may = store.may('operate');
     const over = replaying && this.state === 'over';
     for (const each of [this.back, this.play, this.forward, this.speed, this.loop, this.mark]) {
-      each.hidden = !replaying || over;
-      each.disabled = !may;
+      each.hidden = !replaying || over || !may;
     }
-    this.mark.hidden = !replaying;
-    this.more.hidden = !replaying || over;
+    this.mark.hidden = !replaying || !may;
+    this.more.hidden = !replaying || over || !may;
     const mission = replaying ? store.mode.mission : this.missionToReplay();
-    const words = over ? t('timeline.startAgain')
-      : !may ? t('timeline.chooseReplay')
+    const words = !may ? t('timeline.chooseReplay')
+      : over ? t('timeline.startAgain')
         : mission ? t(this.moment === null ? 'timeline.replayMission' : 'timeline.replayFrom', { mission, time: clock(this.moment ?? 0) }) : t('timeline.chooseReplay');
     this.replayIt.hidden = replaying && !over;
     if (this.replayWords !== words) {
@@ -156,16 +155,17 @@ export const Showing = (Base) => class extends Base {
     }
   }
 
-  /** Markers are buttons: each leads to its moment. */
+  /** Markers are buttons for who may jump: each leads to its moment. */
   showFlags() {
     const shown = this.markers.filter((each) => this.scale.isShown(each.time)).slice(0, MOST_FLAGS);
-    const key = shown.map((each) => each.id).join();
+    const may = store.may('operate');
+    const key = `${shown.map((each) => each.id)} ${may}`;
     if (key !== this.flagKey) {
       this.flagKey = key;
-      replace(this.flags, shown.map((marker) => h('button.tl-flag', {
-        type: 'button', 'aria-label': t('timeline.flag', { note: marker.note, time: clock(marker.time) }), title: `${marker.note}\n${clock(marker.time)} · ${marker.author}`,
-        on: { click: () => this.seek(marker.time) },
-      }, icon('flag', 14))));
+      replace(this.flags, shown.map((marker) => {
+        const told = { 'aria-label': t('timeline.flag', { note: marker.note, time: clock(marker.time) }), title: `${marker.note}\n${clock(marker.time)} · ${marker.author}` };
+        return may ? h('button.tl-flag', { type: 'button', ...told, on: { click: () => this.seek(marker.time) } }, icon('flag', 14)) : h('span.tl-flag', { role: 'img', ...told }, icon('flag', 14));
+      }));
     }
     shown.forEach((marker, index) => (this.flags.children[index].style.transform = `translateX(${this.scale.x(marker.time)}px)`));
   }

@@ -148,10 +148,10 @@ export const Steering = (Base) => class extends Base {
       }
       const close = () => { this.offer.hidden = true; };
       replace(this.offer,
-        h('p', null, h('strong', null, t('replays.link', { missions: missions.join(' + ') })), h('br'), t('replays.linkHint', { time: dateTime(time) })),
+        h('p', null, h('strong', null, t('replays.link', { missions: missions.join(' + ') })), h('br'), t(store.may('operate') ? 'replays.linkHint' : 'replays.linkOver', { time: dateTime(time) })),
         h('div.row', null,
-          h('button.button.primary.small', { type: 'button', disabled: !store.may('operate'), on: { click: () => { close(); this.startAt(missions, time); } } }, icon('play', 16), t('replays.linkStart')),
-          h('button.button.small.quiet', { type: 'button', on: { click: close } }, t('timeline.cancel'))));
+          store.may('operate') && h('button.button.primary.small', { type: 'button', on: { click: () => { close(); this.startAt(missions, time); } } }, icon('play', 16), t('replays.linkStart')),
+          h('button.button.small.quiet', { type: 'button', on: { click: close } }, t(store.may('operate') ? 'timeline.cancel' : 'missions.close'))));
       this.offer.hidden = false;
     }, replay ? LISTED_WITHIN : 0);
   }

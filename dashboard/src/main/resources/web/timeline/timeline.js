@@ -101,8 +101,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
 
   get extent() {
     if (!store.isReplay) {
-      const now = Date.now();
-      return [now - LIVE_LENGTH, now];
+      return this.live.extent();
     }
     const { position, missions, replay } = store.mode;
     // what was asked for; the mission itself may go on
@@ -217,7 +216,7 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
       const [from, to] = this.extent;
       const [live, replayed, markers] = store.isReplay
         ? await Promise.all([encountersOf(missions, from, to).catch(() => ({ encounters: [] })), encountersIn(topic).catch(() => []), markersOf(missions).catch(() => [])])
-        : [{ encounters: await encountersSince(from).catch(() => null) }, [], []];
+        : [{ encounters: await encountersSince(Date.now() - LIVE_LENGTH).catch(() => null) }, [], []];
       if (shown === this.shown && this.isConnected) {
         if (live.encounters === null) {
           this.lastMoments += MOMENTS_EVERY - LIVE_LENGTH; // not read; asked again soon
@@ -281,6 +280,9 @@ class Timeline extends Parts(Showing(Steering(HTMLElement))) {
 
   /** A click or drag in what is live chooses the moment from which a mission would be played. */
   choose(time) {
+    if (!store.may('operate')) {
+      return;
+    }
     this.moment = time === null || time > Date.now() - SECOND ? null : time;
     this.showActions();
     this.move();

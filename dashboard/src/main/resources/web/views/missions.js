@@ -41,8 +41,7 @@ class FurrowMissions extends HTMLElement {
   }
 
   allow() {
-    this.create.disabled = !store.may('operate');
-    this.create.title = store.may('operate') ? '' : t('missions.notAllowed');
+    this.create.hidden = !store.may('operate');
     this.viewer.hidden = !store.me.role || store.may('operate');
   }
 
@@ -76,7 +75,7 @@ class FurrowMissions extends HTMLElement {
     this.list = h('ul.stack.mission-list');
     this.place = h('div');
     this.empty = h('div.empty', { hidden: true }, h('h2', null, t('missions.none')), h('p', null, t('missions.noneHint')),
-      h('button.button.primary', { type: 'button', disabled: !store.may('operate'), on: { click: () => this.newMission() } }, t('missions.new')));
+      store.may('operate') && h('button.button.primary', { type: 'button', on: { click: () => this.newMission() } }, t('missions.new')));
     replace(this.panel, this.empty, h('div.mission-columns', null, this.list, this.place));
     const chosen = mission ?? [...store.missions.values()].find((each) => each.running && each.domain !== 'canary')?.mission;
     if (chosen) {

@@ -23,7 +23,7 @@ class Replays extends HTMLElement {
     this.plan = new Plan();
     this.runningList = h('ul.running-list');
     this.runningTitle = h('h2.section-title', null, t('replays.running'), h('span.numbers'));
-    this.noRunning = h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p', null, t('replays.noRunningHint')));
+    this.noRunning = h('div.empty', null, h('h3', null, t('replays.noRunning')), h('p.for-operators', null, t('replays.noRunningHint')));
     this.recordedTitle = h('h2.section-title', null, t('replays.recorded'), h('span.numbers'));
     this.body = h('tbody');
     this.table = h('div.table-frame', null, h('table.table.recordings', { 'aria-label': t('replays.recorded') },
@@ -41,8 +41,9 @@ class Replays extends HTMLElement {
     window.addEventListener('schemechange', this.onScheme);
     this.offs = [
       store.on('replays', () => this.showRunning()), store.on('mode', () => this.showRunning()), store.on('recordings', () => this.showRecordings()),
-      store.on('missions', () => this.showRecordings()), store.on('me', () => this.choose()), onRoute(() => this.takeLink()),
+      store.on('missions', () => this.showRecordings()), store.on('me', () => this.allow()), onRoute(() => this.takeLink()),
     ];
+    this.allow();
     this.showRunning();
     this.showRecordings();
     this.takeLink();
@@ -56,6 +57,12 @@ class Replays extends HTMLElement {
     clearTimeout(this.saying);
     window.removeEventListener('schemechange', this.onScheme);
     this.rows.forEach((row) => row.preview.close());
+  }
+
+  /** Who may start none has nothing to choose. */
+  allow() {
+    this.classList.toggle('looks-only', !store.may('operate'));
+    this.choose();
   }
 
   /** `#/replays?mission=a,b&at=ISO` */
@@ -149,6 +156,9 @@ class Replays extends HTMLElement {
 
   /** @param {boolean} alone a click on a row chooses it alone; a checkbox adds */
   toggle(mission, alone = false) {
+    if (!store.may('operate')) {
+      return;
+    }
     if (alone) {
       this.chosen = new Set(this.chosen.size === 1 && this.chosen.has(mission) ? [] : [mission]);
     } else {

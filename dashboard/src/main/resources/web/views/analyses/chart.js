@@ -24,7 +24,7 @@ export class AveragesChart {
     this.observer.observe(this.place);
     this.onScheme = () => this.rebuild();
     window.addEventListener('schemechange', this.onScheme);
-    this.offs = [store.on('cursor', () => this.follow()), store.on('clock', () => this.showHead())];
+    this.offs = [store.on('cursor', () => this.follow()), store.on('clock', () => this.showHead()), store.on('selection', () => this.averages && this.show(this.averages, this.range))];
   }
 
   close() {
@@ -42,8 +42,13 @@ export class AveragesChart {
     this.range = range;
     this.byField = byField;
     this.suspects = fields.map((field) => new Set(byField.get(field).filter((each) => each.suspects.length).map((each) => each.end / 1000)));
+    this.averages = averages;
     this.data = aligned(fields.map((field) => byField.get(field)));
-    if (fields.join() !== this.fields.join() || !this.plot) {
+    this.device = deviceAt(this.data[0]);
+    this.device && this.data.push(this.device.values);
+    const key = `${fields} ${this.device?.id}`;
+    if (key !== this.key || !this.plot) {
+      this.key = key;
       this.fields = fields;
       this.rebuild();
     } else {
@@ -75,11 +80,11 @@ export class AveragesChart {
       scales: { x: { time: true }, y: { range: (plot, low, high) => roomy(low, high) } },
       axes: [
         { ...axis, space: 72, size: 26, values: (plot, times) => times.map((time) => clock(time * 1000).slice(0, times.length > 1 && times[1] - times[0] < 60 ? 8 : 5)) },
-        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} ${t('analyses.celsius')}`) },
+        { ...axis, size: 56, values: (plot, values) => values.map((value) => `${Number(value.toFixed(2))} ${t('units.celsius')}`) },
       ],
       series: [{}, ...this.fields.map((field, index) => ({
         label: this.nameOf(field), stroke: this.colors[index], width: 2, dash: LINES[index % LINES.length][1], show: !this.hidden.has(field), points: { show: false },
-      }))],
+      })), ...(this.device ? [{ label: this.device.name, stroke: color('--text'), width: 3, points: { show: false } }] : [])],
       hooks: { draw: [(plot) => this.drawSuspects(plot, color('--warning'), color('--panel'))], setCursor: [(plot) => this.cursorMoved(plot)] },
     }, this.data, this.place);
     this.plot.setScale('x', { min: this.range[0] / 1000, max: this.range[1] / 1000 });
@@ -131,7 +136,7 @@ export class AveragesChart {
   }
 
   showLegend() {
-    const key = this.fields.map((field) => `${field} ${this.nameOf(field)} ${this.hidden.has(field)} ${this.suspects.some((each) => each.size)}`).join('|');
+    const key = this.fields.map((field) => `${field} ${this.nameOf(field)} ${this.hidden.has(field)} ${this.suspects.some((each) => each.size)}`).join('|') + this.device?.id;
     if (key === this.legendKey) {
       this.say(this.said);
       return;
@@ -147,9 +152,18 @@ export class AveragesChart {
       return h('button.button.small.quiet.legend-entry', {
         type: 'button', 'aria-pressed': String(shown), 'aria-label': t('analyses.hide', { field: this.nameOf(field) }), on: { click: () => this.toggle(field) },
       }, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, line), this.nameOf(field), this.values[index]);
-    }), this.suspects.some((each) => each.size) && h('span.small.muted.suspect-key', null, h('span', { 'aria-hidden': 'true' }), t('analyses.suspectMark')));
+    }), this.deviceEntry(), this.suspects.some((each) => each.size) && h('span.small.muted.suspect-key', null, h('span', { 'aria-hidden': 'true' }), t('analyses.suspectMark')));
     focused >= 0 && this.legend.children[focused]?.focus();
     this.say(this.said);
+  }
+
+  deviceEntry() {
+    if (!this.device) {
+      return null;
+    }
+    const value = h('span.numbers.muted');
+    this.values.push(value);
+    return h('span.legend-device', null, h('svg:svg', { width: 26, height: 12, 'aria-hidden': 'true' }, h('svg:line', { x1: 0, y1: 6, x2: 26, y2: 6, 'stroke-width': 3, stroke: 'currentColor' })), this.device.name, value);
   }
 
   toggle(field) {
@@ -186,7 +200,7 @@ export class AveragesChart {
   say(index) {
     const time = this.data[0][index];
     this.said = time === undefined ? null : index;
-    this.values.forEach((value, at) => setText(value, temperature(this.said === null ? this.byField.get(this.fields[at]).at(-1).value : this.data[at + 1][index])));
+    this.values.forEach((value, at) => setText(value, temperature(this.said === null ? this.data[at + 1].findLast(Number.isFinite) : this.data[at + 1][index])));
     this.time.hidden = this.said === null || !this.plot;
     if (!this.time.hidden) {
       setText(this.time, clock(time * 1000));
@@ -215,6 +229,19 @@ function roomy(low, high) {
   }
   const air = Math.max(0.5, (high - low) * 0.15);
   return [low - air, high + air];
+}
+
+/** What the selected device reported, at the ends of windows; null where none is selected, or it tells no temperature. @param {number[]} times s */
+function deviceAt(times) {
+  const entity = store.entities.get(store.selection);
+  const name = entity && [...entity.series.keys()].find((each) => each.toLowerCase() === 'temperature');
+  if (!name) {
+    return null;
+  }
+  const line = entity.series.get(name);
+  const [reported, values] = [line.of('times'), line.of('values')];
+  const at = (ms) => (ms < reported[0] ? undefined : values[reported.findLastIndex((each) => each <= ms)]);
+  return { id: entity.id, name: entity.name, values: times.map((time) => at(time * 1000)) };
 }
 
 /** Columns as uPlot wants them: a null is a gap, undefined is only another field's window. */

@@ -76,6 +76,7 @@ export class EncounterTable {
 function fill(row, encounter) {
   const { cells, act } = row;
   row.encounter = encounter;
+  row.element.classList.toggle('selected', [encounter.a, encounter.b].includes(store.selection));
   const going = encounter.phase === 'started' || encounter.phase === 'ongoing';
   setText(cells.when, dateTime(encounter.start));
   setText(cells.pair, encounter.pair);
@@ -86,7 +87,8 @@ function fill(row, encounter) {
     replace(cells.phase, h(`span.pill${going ? '.bad' : ''}`, null, words));
   }
   const recorded = store.isReplay || encounter.missions.some((mission) => store.recordings.has(mission));
-  act.disabled = !recorded || !store.may('operate');
+  act.hidden = !store.may('operate');
+  act.disabled = !recorded;
   act.title = !recorded ? t('analyses.noRecording') : '';
   act.setAttribute('aria-label', t('analyses.toMomentOf', { pair: encounter.pair, time: dateTime(encounter.start) }));
 }

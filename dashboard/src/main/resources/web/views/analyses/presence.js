@@ -21,7 +21,7 @@ export class PresenceBars {
     this.element = h('div.stack', null, h('div.gantt', null, this.axis, this.lines, this.overlay), this.more);
     this.observer = new ResizeObserver(() => this.place());
     this.observer.observe(this.axis);
-    this.offs = [store.on('clock', () => this.marks()), store.on('cursor', () => this.marks())];
+    this.offs = [store.on('clock', () => this.marks()), store.on('cursor', () => this.marks()), store.on('selection', () => this.highlight())];
     this.lines.addEventListener('pointermove', (event) => this.hover(event));
     this.lines.addEventListener('pointerleave', () => store.setCursor(null));
   }
@@ -43,7 +43,7 @@ export class PresenceBars {
     this.more.hidden = lines.length === byLine.size;
     setText(this.more, t('analyses.more', { shown: lines.length, count: byLine.size }));
     const now = store.isReplay ? Math.max(store.now(), range[0]) : range[1];
-    const key = JSON.stringify([lines.map(([name, each]) => [name, each.map(({ from, to }) => [from, to])]), Math.round(range[0] / 5_000)]);
+    const key = JSON.stringify([lines.map(([name, each]) => [name, each.map(({ from, to }) => [from, to])]), Math.round(range[0] / 5_000), store.may('operate')]);
     if (key === this.key) {
       this.place();
       return;
@@ -55,7 +55,7 @@ export class PresenceBars {
       const [fieldName, device] = name.split('\n');
       const title = fieldName !== field && h('div.gantt-field', null, fieldName);
       field = fieldName;
-      return [title, h('div.gantt-line', null, h('span.gantt-name.cut', { title: device }, device), h('div.gantt-track', null, each.map((stay) => this.bar(stay, now))))];
+      return [title, h('div.gantt-line', { data: { device: each[0].device } }, h('span.gantt-name.cut', { title: device }, device), h('div.gantt-track', null, each.map((stay) => this.bar(stay, now))))];
     }));
     focused && this.lines.querySelector(`[data-stay="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
     this.place();
@@ -66,7 +66,9 @@ export class PresenceBars {
     const from = Math.max(stay.from, first);
     const to = Math.min(stay.to ?? now, last);
     const words = t('analyses.stay', { device: stay.name, field: stay.fieldName, from: clock(stay.from), to: stay.to === null ? t('analyses.stillIn') : `${clock(stay.to)} · ${duration(stay.to - stay.from)}` });
-    const bar = h(`button.gantt-bar${stay.to === null ? '.open' : ''}${stay.from < first ? '.before' : ''}`, { type: 'button', data: { stay: stay.id }, title: words, 'aria-label': words, on: { click: () => this.lead(stay) } });
+    const look = `gantt-bar${stay.to === null ? '.open' : ''}${stay.from < first ? '.before' : ''}`;
+    const told = { data: { stay: stay.id }, title: words, 'aria-label': words };
+    const bar = store.may('operate') ? h(`button.${look}`, { type: 'button', ...told, on: { click: () => this.lead(stay) } }) : h(`span.${look}`, { role: 'img', ...told });
     bar.style.left = `${(100 * (from - first)) / (last - first)}%`;
     bar.style.width = `${Math.max(0.15, (100 * Math.max(0, to - from)) / (last - first))}%`;
     return bar;
@@ -86,6 +88,12 @@ export class PresenceBars {
       return this.scale.x(time) < this.scale.width - 40 && label;
     }));
     this.marks();
+    this.highlight();
+  }
+
+  /** The device that is selected on the map. */
+  highlight() {
+    this.lines.querySelectorAll('.gantt-line').forEach((line) => line.classList.toggle('selected', line.dataset.device === store.selection));
   }
 
   marks() {

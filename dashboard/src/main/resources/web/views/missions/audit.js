@@ -86,7 +86,7 @@ export function auditTable({ mission, device, limit = 50 } = {}) {
   }
 
   function table() {
-    return h('div.table-frame.audit-table', { tabindex: '0', role: 'group', 'aria-label': t('missions.audit') }, h('table.table', null,
+    return h('div.table-frame.audit-table', { tabindex: '0', role: 'group', 'aria-label': t('missions.audit') }, h('table.table', { role: 'table' },
       h('thead', null, h('tr', null, ['time', 'user', 'command', 'about', 'result'].map((name) => h('th', { scope: 'col' }, t(`missions.auditColumns.${name}`))))),
       h('tbody', null, entries.map(row))));
   }
@@ -122,7 +122,7 @@ function row(entry) {
   const refused = entry.error !== undefined || entry.result === 'error';
   return h('tr', null,
     h('td.numbers.when', null, dateTime(entry.time)),
-    h('td', null, entry.user),
+    h('td.who', null, entry.user),
     h('td.command', null, t(`missions.targets.${TARGETS[entry.target] ?? 'other'}`), ' ', h('strong', null, entry.command ?? '–')),
     h('td.about', null, aboutOf(entry.about)),
     h('td', { class: refused ? 'bad' : '' }, refused ? t('missions.refusedBecause', { reason: readable(entry.reason ?? entry.error) }) : plain(entry.result)));

@@ -31,16 +31,16 @@ export class Domains {
     const allowed = store.may('operate');
     const domains = [...store.domains.values()];
     redraw(this.domains,
-      h('div.row', null, h('h2', null, t('missions.domains')), h('span.spacer'), h('button.button.small', { type: 'button', disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act: 'new-domain' }, on: { click: newDomain } }, icon('plus', 16), t('missions.newDomain'))),
+      h('div.row', null, h('h2', null, t('missions.domains')), h('span.spacer'), allowed && h('button.button.small', { type: 'button', data: { act: 'new-domain' }, on: { click: newDomain } }, icon('plus', 16), t('missions.newDomain'))),
       domains.length === 0 && h('div.empty', null, h('h3', null, t('missions.noDomains')), h('p', null, t('missions.noDomainsHint'))),
-      h('ul.stack', null, domains.map((each) => this.domain(each, allowed))));
+      h('ul.stack', null, domains.map((each) => this.domain(each))));
     const fields = [...store.fields.values()].sort((a, b) => (a.name < b.name ? -1 : 1));
     redraw(this.fields,
-      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), h('button.button.small', { type: 'button', disabled: !allowed, title: allowed ? null : t('missions.notAllowed'), data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
+      h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), allowed && h('button.button.small', { type: 'button', data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
       fields.length === 0
-        ? h('div.empty', null, h('h3', null, t('missions.noFields')), h('p', null, t('missions.noFieldsHint')))
+        ? h('div.empty', null, h('h3', null, t('missions.noFields')), allowed && h('p', null, t('missions.noFieldsHint')))
         : h('div.table-frame', { tabindex: '0', role: 'group', 'aria-label': t('missions.fields') }, h('table.table', null,
-          h('thead', null, h('tr', null, ['field', 'domain', 'kind', 'from'].map((name) => h('th', { scope: 'col' }, t(`missions.fieldColumns.${name}`))))),
+          h('thead', null, h('tr', null, ['field', 'domain', 'kind', 'from'].map((name) => h('th', { scope: 'col', class: name === 'from' ? 'numbers' : '' }, t(`missions.fieldColumns.${name}`))))),
           h('tbody', null, fields.map((each) => h('tr', null,
             h('th', { scope: 'row' }, each.name, each.name !== each.id && h('span.small.muted', null, ` ${each.id}`)),
             h('td', null, each.properties.Domain ?? '–'),
@@ -48,18 +48,22 @@ export class Domains {
             h('td.numbers', null, each.validFrom > 0 ? dateTime(each.validFrom) : t('missions.always'))))))));
   }
 
-  domain(domain, allowed) {
+  domain(domain) {
     const missions = [...store.missions.values()].filter((each) => each.domain === domain.domain);
     return h('li.card.row', null,
-      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, t('missions.domainHas', { missions: missions.length, fields: domain.fields?.length ?? 0 }))),
+      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${counted('missions.countMission', missions.length)}, ${counted('missions.countField', domain.fields?.length ?? 0)}`)),
       h('span.spacer'),
       h('button.button.quiet.square', { type: 'button', 'aria-label': t('topics.showOnly', { name: domain.domain }), title: t('topics.showOnly', { name: domain.domain }), data: { act: `map ${domain.domain}` }, on: { click: () => { store.setScope({ domain: domain.domain }); navigate('map'); } } }, icon('map', 18)),
-      h('button.button.quiet.square', { type: 'button', disabled: !store.may('administer'), 'aria-label': t('missions.deleteDomain', { domain: domain.domain }), title: t('missions.deleteDomain', { domain: domain.domain }), data: { act: `delete ${domain.domain}` }, on: { click: () => deleteDomain(domain.domain) } }, icon('trash', 18)));
+      store.may('administer') && h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.deleteDomain', { domain: domain.domain }), title: t('missions.deleteDomain', { domain: domain.domain }), data: { act: `delete ${domain.domain}` }, on: { click: () => deleteDomain(domain.domain) } }, icon('trash', 18)));
   }
 
   close() {
     this.offs.forEach((off) => off());
   }
+}
+
+function counted(key, count) {
+  return t(count === 1 ? key : `${key}s`, { count });
 }
 
 function isFile(event) {

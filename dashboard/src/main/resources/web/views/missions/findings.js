@@ -26,7 +26,7 @@ export function summaryOf(checked) {
   const count = (level) => checked.filter((each) => each.worst === level).length;
   const [problems, bad] = [count('problem'), count('warning')];
   if (problems) {
-    return t('missions.checkProblem', { problems, bad, count: checked.length });
+    return t(bad ? 'missions.checkProblemMore' : 'missions.checkProblem', { problems, bad, count: checked.length });
   }
   return bad ? t('missions.checkBad', { bad, count: checked.length }) : t('missions.checkGood', { count: checked.length });
 }

@@ -1,6 +1,6 @@
 /** The form of a new replay: of which missions, from when to when, how fast. */
 import { h, replace, setText } from '../../core/dom.js';
-import { dateTime, duration } from '../../core/format.js';
+import { dateTime, duration, zone } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
@@ -18,6 +18,8 @@ export class Plan {
     this.hint = h('p.muted.small');
     this.from = h('input', { type: 'datetime-local', step: '1', id: 'plan-from', on: { input: () => this.rangeChanged() } });
     this.to = h('input', { type: 'datetime-local', step: '1', id: 'plan-to', on: { input: () => this.rangeChanged() } });
+    this.fromLabel = h('label', { for: 'plan-from' });
+    this.toLabel = h('label', { for: 'plan-to' });
     this.length = h('span.small.muted.numbers');
     this.speed = h('select', { id: 'plan-speed' }, SPEEDS.map((speed) =>
       h('option', { value: speed, selected: speed === 4 }, speed === 'max' ? t('replays.fastest') : t('replays.times', { speed }))));
@@ -29,8 +31,8 @@ export class Plan {
     this.failed = h('p.error-note', { role: 'alert', hidden: true });
     this.form = h('form.stack', { on: { submit: (event) => this.submit(event) } },
       h('div.plan-range', null,
-        h('div.field-row', null, h('label', { for: 'plan-from' }, t('replays.from')), this.from),
-        h('div.field-row', null, h('label', { for: 'plan-to' }, t('replays.to')), this.to)),
+        h('div.field-row', null, this.fromLabel, this.from),
+        h('div.field-row', null, this.toLabel, this.to)),
       this.length,
       h('div.field-row', null, h('label', { for: 'plan-speed' }, t('replays.speed')), this.speed),
       h('div.stack.plan-checks', null,
@@ -94,6 +96,8 @@ export class Plan {
 
   rangeShown() {
     const [from, to] = this.range();
+    setText(this.fromLabel, t('replays.from', { zone: zone(from || Date.now()) }));
+    setText(this.toLabel, t('replays.to', { zone: zone(to || Date.now()) }));
     setText(this.length, to > from ? `${t('replays.length')}: ${duration(to - from)}` : t('replays.wrongRange'));
   }
 

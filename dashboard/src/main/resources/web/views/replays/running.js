@@ -71,9 +71,9 @@ export class RunningReplay {
     setText(this.reason, reason ?? '');
     this.element.classList.toggle('watched', watched);
     setText(this.watch.lastChild, t(watched ? 'replays.watching' : 'replays.watch'));
-    this.again.hidden = !over;
-    this.again.disabled = this.end.disabled = !store.may('operate');
-    this.end.hidden = over && state !== 'ended'; // which rests until it is stopped or forgotten
+    const may = store.may('operate');
+    this.again.hidden = !over || !may;
+    this.end.hidden = !may || (over && state !== 'ended'); // which rests until it is stopped or forgotten
   }
 
   watchIt() {

@@ -111,7 +111,7 @@ export class Records {
       this.open.has(at) ? this.open.delete(at) : this.open.add(at);
       this.draw();
     } } }, clock(record.time));
-    return h('tr', { data: { at } }, h('td', null, button), h('td.cut.tail', { title: record.topic }, h('bdi', null, record.topic)), h('td.cut', { title: plain(record.key, 200) }, shortId(plain(record.key, 80))), h('td.cut.value', null, lineOf(record)));
+    return h('tr', { data: { at } }, h('td', null, button), h('td.cut.tail', { title: record.topic }, h('bdi', null, record.topic)), h('td.cut', { title: plain(record.key, 200) }, nameOf(plain(record.key, 160))), h('td.cut.value', null, lineOf(record)));
   }
 
   close() {
@@ -130,6 +130,11 @@ function lineOf(record) {
   }
   const text = typeof record.value === 'string' ? record.value : JSON.stringify(record.value);
   return text.slice(0, 300);
+}
+
+/** The key of a pair has the ids of both. */
+function nameOf(key) {
+  return key.split(/-(?=urn:)/).map(shortId).join(' – ');
 }
 
 function openedRow(record, at) {

@@ -40,7 +40,8 @@ import io.furrow.simulators.load.LoadPlan;
             ControlBench.class,
             FleetBench.class,
             MissionBench.class,
-            WholeBench.class
+            WholeBench.class,
+            DashboardBench.class
         })
 public final class BenchCommand {
     private static final String DOMAIN = "bench";

@@ -18,7 +18,9 @@ class BenchCommandTest {
         "bench notifications --help, --new-connections",
         "bench sink --help, --stand-in",
         "bench control --help, --outstanding",
-        "bench whole --help, --against"
+        "bench whole --help, --against",
+        "bench --help, dashboard",
+        "bench dashboard --help, ./furrow soak page --help"
     })
     void explainsItself(String words, String mentioned) {
         StringWriter out = new StringWriter();

@@ -20,6 +20,8 @@ public final class ConfigServlet extends HttpServlet {
         ObjectNode node = JsonNodeFactory.instance.objectNode();
         node.put("tiles", settings.tiles());
         node.put("tileFile", settings.tileFile() == null ? null : TileFile.PATH);
+        node.put("signIn", settings.signIn());
+        node.put("signOut", settings.signOut());
         String version = ConfigServlet.class.getPackage().getImplementationVersion();
         node.put("version", version == null ? "development" : version);
         this.config = NgsiJson.write(node);

@@ -178,7 +178,7 @@ public final class DashboardCommand implements Callable<Integer> {
                     .withRules(rules)
                     .withAllowed(access.allowed())
                     .withProxy(trusted.proxy(spec))
-                    .withPage(page());
+                    .withPage(trusted.pages(page()));
         } catch (IllegalArgumentException e) {
             throw new ParameterException(spec.commandLine(), e.getMessage() + ".", e);
         }

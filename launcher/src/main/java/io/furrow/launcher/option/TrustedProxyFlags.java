@@ -14,6 +14,7 @@ import picocli.CommandLine.ParameterException;
 import io.furrow.dashboard.auth.AddressRange;
 import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.TrustedProxy;
+import io.furrow.dashboard.page.PageSettings;
 
 /** Options that say which proxy in front of the dashboard signs users in, and what it says of them. */
 public final class TrustedProxyFlags {
@@ -61,6 +62,33 @@ public final class TrustedProxyFlags {
                     "Role of the members of a group: viewer, operator or admin; of several the highest. Who is in none is refused. Default: "
                             + "viewer=viewer,operator=operator,admin=admin.")
     private Map<String, String> groupRoles;
+
+    @Option(
+            names = "--sign-in-url",
+            paramLabel = "URL",
+            description =
+                    "Where the page leads who is not signed in, a path or a URL; {page} stands for where the proxy is to lead back to, for instance "
+                            + "/oauth2/start?rd={page}. Default: none, the page asks for a token.")
+    private String signIn;
+
+    @Option(
+            names = "--sign-out-url",
+            paramLabel = "URL",
+            description = "Where the page leads who signs out, for instance /oauth2/sign_out. Default: none.")
+    private String signOut;
+
+    /** Where the proxy signs users in and out. */
+    public PageSettings pages(PageSettings page) {
+        return page.withSignIn(checked("--sign-in-url", signIn), checked("--sign-out-url", signOut));
+    }
+
+    private static String checked(String option, String url) {
+        if (url != null && !url.matches("(https?:/)?/[^/\\\\].*")) {
+            throw new IllegalArgumentException(
+                    "%s %s is neither a path, such as /oauth2/start, nor an http(s) URL".formatted(option, url));
+        }
+        return url;
+    }
 
     /** Null if none is trusted. */
     public TrustedProxy proxy(CommandSpec spec) {

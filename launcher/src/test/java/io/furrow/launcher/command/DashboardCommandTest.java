@@ -20,6 +20,8 @@ class DashboardCommandTest {
             --control-plane=127.0.0.1:8085  | --control-plane
             --allowed-hosts=http://x        | --allowed-hosts
             --tiles=https://a.example/b.png | --tiles https://a.example/b.png names no tile: a URL has {z}, {x} and {y}
+            --sign-in-url=javascript:alert()  | --sign-in-url javascript:alert() is neither a path
+            --sign-out-url=//a.example/out    | --sign-out-url //a.example/out is neither a path
             """)
     void refusesWhatItCannotUseBeforeItListens(String option, String message) {
         StringWriter said = new StringWriter();

@@ -5,6 +5,7 @@ import java.util.concurrent.atomic.AtomicInteger;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Route;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
 import org.junit.jupiter.api.Tag;
@@ -46,6 +47,59 @@ class AlarmsIT {
                     && alarm.path("state").asText().equals("acknowledged");
         }
         org.assertj.core.api.Assertions.assertThat(acknowledged).isTrue();
+    }
+
+    @Tag("full")
+    @Test
+    void saysWhyAnAlarmCannotBeClosed(PageSuite suite) {
+        FarmPage farm = suite.open("").expectingError("status of 4\\d\\d.*/close");
+        String known =
+                "[...store.alarms.values()].find((each) => each.kind.includes('suspect') && each.state !== 'closed')?.alarm";
+        farm.untilStore(known + " !== undefined");
+        Locator row = rowOf(farm, (String) farm.store(known));
+
+        close(row);
+
+        assertThat(row.getByRole(AriaRole.ALERT)).containsText("closes when its cause is over");
+    }
+
+    /** Its causes last as long as the farm runs, so this one is known to this window alone, and the answer is a stand-in's. */
+    @Tag("full")
+    @Test
+    void closesAnAlarm(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.alarmsKnown");
+        AtomicInteger asked = new AtomicInteger();
+        farm.page().route("**/api/alarms/over-1/close", route -> {
+            asked.incrementAndGet();
+            route.fulfill(new Route.FulfillOptions().setStatus(202));
+        });
+        take(farm, "open");
+        Locator row = rowOf(farm, "over-1");
+        close(row);
+        farm.page().waitForCondition(() -> asked.get() == 1);
+
+        take(farm, "closed");
+        assertThat(row).hasCount(0);
+    }
+
+    private static void take(FarmPage farm, String state) {
+        farm.page().evaluate("""
+                        async (state) => {
+                          const { store } = await import('/core/store.js');
+                          store.takeAlarm({ key: 'over-1', value: { alarm: 'over-1', kind: 'silent-device', severity: 'minor', text: 'the pump is silent',
+                            subject: 'pump', raised: Date.now(), count: 1, state } });
+                        }""", state);
+    }
+
+    private static Locator rowOf(FarmPage farm, String alarm) {
+        farm.find("furrow-alarms .alarm-fold").evaluate("(fold) => { fold.open = true; }");
+        return farm.find("furrow-alarms li.alarm:has([id='alarm-" + alarm + "'])");
+    }
+
+    private static void close(Locator row) {
+        row.getByLabel("Mute or close").click();
+        row.locator(".alarm-menu").getByText("Close").click();
     }
 
     @Tag("full")

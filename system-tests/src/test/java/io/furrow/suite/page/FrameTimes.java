@@ -26,8 +26,13 @@ import com.microsoft.playwright.options.ColorScheme;
 final class FrameTimes implements AutoCloseable {
     static final String BARE = "bare";
     static final String MAP = "map";
+    /** The map with the cards that are in view beside it. */
+    static final String CARDS = "cards";
+
     private static final String WEB = "web";
     private static final String HARNESS = "/io/furrow/suite/page/frames/";
+    private static final int WIDTH = 1440;
+    private static final int PANEL = 372;
     private static final int MILLIS_BETWEEN_FRAMES = 50;
     private static final int FRAMES_IN_A_SECOND = 1000 / MILLIS_BETWEEN_FRAMES;
     private static final int SECONDS_RECORDED = 60;
@@ -51,14 +56,15 @@ final class FrameTimes implements AutoCloseable {
     }
 
     /**
-     * @param page {@link #BARE} or {@link #MAP}
+     * @param page {@link #BARE}, {@link #MAP} or {@link #CARDS}
      * @return milliseconds of the main thread for each frame that the map drew
      * @throws IllegalStateException if not every device was drawn by itself
      */
     double measure(String page, int seconds) {
+        int width = page.equals(CARDS) ? WIDTH + PANEL : WIDTH; // so that the map is the same
         try (BrowserContext context = chromium.browser()
                 .newContext(new Browser.NewContextOptions()
-                        .setViewportSize(1440, 900)
+                        .setViewportSize(width, 900)
                         .setColorScheme(ColorScheme.DARK))) {
             Page window = context.newPage();
             window.onPageError(error -> {

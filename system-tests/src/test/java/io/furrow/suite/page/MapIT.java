@@ -16,13 +16,15 @@ class MapIT {
     private static final String THERMOMETER = "urn:ngsi-ld:Thermometer:1";
     private static final int CRITICAL = 0xFF7A6B;
     private static final int BORDER_OF_FIELDS = 0x4C7A58;
+    private static final int BORDER_OF_ZONES = 0x9FB2A6;
+    private static final int WARNING = 0xFFC14D;
 
     @Test
     void drawsTheFieldsAndEveryDevice(PageSuite suite) {
         FarmPage farm = suite.open("");
 
         farm.untilStore("store.fields.size === 4 && store.entities.size >= 17"
-                + " && ['field-1', 'field-2', 'field-3'].every((id) => store.fields.get(id).average)"
+                + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))"
                 + " && store.entities.get('" + ROBOT + "').trail.length > 5");
         farm.page().waitForCondition(() -> farm.mapPixels(BORDER_OF_FIELDS) > 300);
         assertThat(farm.find("furrow-map .empty")).isHidden();
@@ -158,6 +160,80 @@ class MapIT {
         org.assertj.core.api.Assertions.assertThat(drawn(farm)).isEqualTo(before);
         farm.go("Map");
         farm.page().waitForCondition(() -> drawn(farm) > before);
+    }
+
+    @Tag("full")
+    @Test
+    void drawsAnEncounterThatIsPredictedUntilItIsWithdrawn(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed && store.fields.size === 4");
+        report(farm, 2, 40.3125, -3.4822);
+        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) > 200, FarmPage.TIMEOUT); // the suspect thermometer
+        int before = farm.mapPixels(WARNING);
+
+        collision(farm, "predicted");
+        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) > before + 300);
+        farm.button("The map as a table").click();
+        assertThat(farm.find(".map-table table[aria-label=Encounters] tbody"))
+                .containsText("Tractor 0 – Tractor 1predicted");
+
+        int with = farm.mapPixels(WARNING);
+        collision(farm, "withdrawn");
+        farm.page().waitForCondition(() -> farm.mapPixels(WARNING) < with - 300);
+    }
+
+    private static void collision(FarmPage farm, String phase) {
+        farm.page().evaluate("""
+                        async (phase) => {
+                          const { store } = await import('/core/store.js');
+                          const all = { Device1_ID: 'urn:ngsi-ld:Tractor:0', Device2_ID: 'urn:ngsi-ld:Tractor:1', phase, distance: 9, dcpa: 1.2, tcpa: 40,
+                            Device1_latitude: 40.3125, Device1_longitude: -3.4822, Device2_latitude: 40.3125, Device2_longitude: -3.4822 };
+                          const value = { type: 'Analytics:Collision' };
+                          Object.entries(all).forEach(([name, each]) => (value[name] = { value: each }));
+                          store.takeEncounter({ time: Date.now(), value });
+                        }""", phase);
+    }
+
+    @Tag("full")
+    @Test
+    void drawsAZoneWithoutAlarms(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed && store.fields.size === 4");
+        farm.button("The map as a table").click();
+        String zone = "[...store.fields.values()].find((each) => each.exclusion)";
+        Locator row = farm.find(".map-table table[aria-label=Fields] tbody tr")
+                .filter(new Locator.FilterOptions().setHasText((String) farm.store(zone + ".name")));
+        assertThat(row).containsText("no alarms");
+
+        int with = farm.mapPixels(BORDER_OF_ZONES);
+        farm.store("void (store.fields.delete(" + zone + ".id), store.tell('fields'))");
+        farm.page().waitForCondition(() -> farm.mapPixels(BORDER_OF_ZONES) < with - 20);
+    }
+
+    /** The suspects of a field may be known before the field is: they come on two topics. */
+    @Tag("full")
+    @Test
+    void marksASuspectThoughItsFieldIsKnownLater(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed && store.fields.size === 4");
+        report(farm, 1, 40.3125, -3.4822);
+        farm.page().evaluate("""
+                async () => {
+                  const { store } = await import('/core/store.js');
+                  const all = { field: 'later', averageTemperature: 12.5, devices: 4, suspects: ['urn:ngsi-ld:Tractor:0'], quality: 'robust' };
+                  const value = { type: 'Analytics:FieldTemperature' };
+                  Object.entries(all).forEach(([name, each]) => (value[name] = { value: each }));
+                  store.takeTemperature({ time: Date.now(), value });
+                  store.takeField({ key: 'later@2026-01-01T00:00:00.000Z', value: { properties: { name: 'Later field' },
+                    geometry: { type: 'Polygon', coordinates: [[[-3.49, 40.31], [-3.48, 40.31], [-3.48, 40.32], [-3.49, 40.31]]] } } });
+                }""");
+
+        farm.untilStore("store.entities.get('urn:ngsi-ld:Tractor:0').state === 'look'");
+        assertThat(farm.card("urn:ngsi-ld:Tractor:0")).containsText("suspect");
+        farm.button("The map as a table").click();
+        assertThat(farm.find(".map-table table[aria-label=Fields] tbody tr")
+                        .filter(new Locator.FilterOptions().setHasText("Later field")))
+                .containsText("12.5 °C");
     }
 
     private static int drawn(FarmPage farm) {

@@ -33,7 +33,7 @@ class MissionsIT {
         dialog.getByLabel("Domain").selectOption("farm");
         dialog.getByLabel("Template").selectOption("demo-scouting@1");
         // Its devices are at work in another mission.
-        assertThat(dialog).containsText("need a look");
+        assertThat(dialog).containsText("are in the way");
         assertThat(dialog).containsText("runs in mission scouting");
         dialog.getByLabel("Template").selectOption("thesis-demo@1");
         dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
@@ -61,6 +61,28 @@ class MissionsIT {
         assertThat(farm.find("#missions-panel")).containsText("Demonstration farm");
         assertThat(farm.find("#missions-panel")).containsText("River field");
         assertThat(farm.find("#missions-panel")).containsText("zone without alarms");
+    }
+
+    @Tag("full")
+    @Test
+    void makesAndDeletesADomain(PageSuite suite) {
+        FarmPage farm = suite.open("#/missions?tab=domains");
+        farm.button("New domain").click();
+        Locator dialog = farm.find("dialog[open]");
+        dialog.getByLabel("Name in topics").fill("orchard");
+        dialog.getByLabel("Name for people").fill("The old orchard");
+        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+                .click();
+        assertThat(dialog).hasCount(0);
+        Locator orchard =
+                farm.find("#missions-panel li.card").filter(new Locator.FilterOptions().setHasText("The old orchard"));
+        assertThat(orchard).containsText("0 missions, 0 fields");
+
+        orchard.getByLabel("Delete domain orchard").click();
+        dialog.getByText("Delete", new Locator.GetByTextOptions().setExact(true))
+                .click();
+        assertThat(dialog).hasCount(0);
+        assertThat(orchard).hasCount(0);
     }
 
     /** The fields that there are already: other tests count them. */

@@ -27,7 +27,8 @@ final class Pictures {
     private static void live(PageSuite suite, Path folder, String name, Look look) {
         FarmPage farm = suite.open("", look);
         farm.untilStore(
-                "store.fields.get('field-1')?.average && store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 40");
+                "store.averages.has('field-1') && store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 40");
+        assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
         farm.untilStore(ENCOUNTER);
         save(farm, folder, name);
     }

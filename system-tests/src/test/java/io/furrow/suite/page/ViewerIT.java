@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Properties;
 
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Page;
 import com.microsoft.playwright.options.AriaRole;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -29,13 +30,15 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class ViewerIT {
     private static final String TOKEN = "vera-looks-at-the-farm-0001";
+    private static final String COMMANDS =
+            "^(Stop|Resume|On|Off|Restart|Start|Delete.*|New .*|Create|Import.*|Acknowledge|Mute.*|Close|Replay|Replay .*|Play|Play again|Pause|Step .*|Loop|Add .*|Choose .*|To the moment|Show the moment .*|Start .*)$";
     private static final String ROBOT = "urn:ngsi-ld:Robot:1";
 
     @TempDir
     Path folder;
 
     @Test
-    void waitsForTheControlPlaneSignsInSeesTheFarmAndCannotCommand(PageSuite suite) throws Exception {
+    void waitsForTheControlPlaneSignsInSeesTheFarmAndIsOfferedNoCommand(PageSuite suite) throws Exception {
         Properties client = suite.running().suite().kafka().clientProperties();
         int port = FreePort.orFree(0);
         RestSettings settings = RestSettings.on(port)
@@ -43,7 +46,7 @@ class ViewerIT {
         try (Dashboard dashboard =
                 Dashboard.start(DashboardSettings.of(0, client, URI.create("http://127.0.0.1:" + port)))) {
             FarmPage farm = suite.window(dashboard.uri(), Look.DESK)
-                    .expectingError("status of (401|403|502|503)|status of 404.*images");
+                    .expectingError("status of (401|403|501|502|503)|status of 404.*images");
             farm.page().navigate(dashboard.uri().resolve("/").toString());
             assertThat(farm.page().getByRole(AriaRole.ALERT)).containsText("The farm cannot be shown yet");
 
@@ -72,13 +75,34 @@ class ViewerIT {
     private static void seeTheFarm(FarmPage farm) {
         Locator card = farm.card(ROBOT);
         assertThat(card).containsText("m/s");
-        assertThat(card.locator(".card-commands button").first()).isDisabled();
-        assertThat(card.locator(".card-outcome")).hasText("Commands need the role operator");
-
+        offersOnly(farm, "map");
         farm.go("Missions");
         assertThat(farm.page().getByText("To command takes the role of an operator"))
                 .isVisible();
-        assertThat(farm.button("New mission").first()).isDisabled();
+        assertThat(farm.find(".mission-detail")).containsText("Heard");
+        offersOnly(farm, "missions");
+        farm.page()
+                .getByRole(AriaRole.TAB, new Page.GetByRoleOptions().setName("Domains and fields"))
+                .click();
+        assertThat(farm.find(".domain-columns")).containsText("River field");
+        offersOnly(farm, "domains");
+        farm.go("Replays");
+        assertThat(farm.find("furrow-replays")).containsText("Viewers can watch replays that run");
+        offersOnly(farm, "replays");
+        farm.go("Analyses");
+        assertThat(farm.find(".gantt-bar").first()).isVisible();
+        offersOnly(farm, "analyses");
+        farm.go("Map");
+    }
+
+    /** No button of what only others may do, not even one that cannot be pressed. */
+    private static void offersOnly(FarmPage farm, String place) {
+        Object offered = farm.page().evaluate("""
+                (forbidden) => [...document.querySelectorAll('button, a.button, input[type=checkbox]')]
+                  .filter((each) => each.checkVisibility({ visibilityProperty: true }))
+                  .map((each) => each.getAttribute('aria-label') ?? (each.textContent || each.id))
+                  .filter((each) => new RegExp(forbidden).test(each))""", COMMANDS);
+        org.assertj.core.api.Assertions.assertThat((List<?>) offered).as(place).isEmpty();
     }
 
     /** Who goes round the buttons is told the same. */

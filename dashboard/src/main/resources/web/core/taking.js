@@ -1,0 +1,167 @@
+/** What the records of each topic change in the store. */
+import { newEntity, takePast, takeReport } from './entity.js';
+
+/** Most entities that are kept; beyond it those not heard of for longest go. */
+const MOST_ENTITIES = 5_000;
+
+/** @template T @param {T} Base @returns {T} with `take…` */
+export const Taking = (Base) => class extends Base {
+  /** @param {import('./stream.js').TopicRecord} record of an entity */
+  takeEntity(record) {
+    const id = record.value?.id ?? record.key;
+    if (typeof id !== 'string' || id === '') {
+      return;
+    }
+    if (record.value === null && !record.cut) {
+      this.entities.delete(id);
+      this.all = true;
+      this.tell('entities', id);
+      return;
+    }
+    let entity = this.entities.get(id);
+    if (!entity) {
+      entity = newEntity(id);
+      this.entities.set(id, entity);
+      this.entities.size > MOST_ENTITIES && this.forgetOldest();
+    }
+    if (record.cut) {
+      entity.cut = record.cut;
+      entity.time = Math.max(entity.time, record.time);
+    } else if (typeof record.value === 'object' && !Array.isArray(record.value)) {
+      takeReport(entity, record);
+    }
+    entity.suspect = this.suspects.has(id);
+    entity.state = this.stateOf(entity);
+    this.tell('entities', id);
+  }
+
+  /** What was reported before the page was opened. @param {import('./stream.js').TopicRecord[]} records oldest first */
+  takePast(records) {
+    const reports = new Map();
+    records.forEach((record) => reports.has(record.key) ? reports.get(record.key).push(record) : reports.set(record.key, [record]));
+    for (const [id, of] of reports) {
+      const entity = this.entities.get(id);
+      if (entity) {
+        takePast(entity, of);
+        entity.state = this.stateOf(entity);
+        this.tell('entities', id);
+      }
+    }
+  }
+
+  forgetOldest() {
+    let oldest = null;
+    for (const each of this.entities.values()) {
+      oldest = oldest === null || each.time < oldest.time ? each : oldest;
+    }
+    this.entities.delete(oldest.id);
+    this.all = true;
+  }
+
+  takeEncounter(record) {
+    const value = record.value;
+    if (!value || value.type !== 'Analytics:Collision') {
+      return;
+    }
+    const of = (name) => value[name]?.value;
+    const [a, b, phase] = [of('Device1_ID'), of('Device2_ID'), of('phase')];
+    if (typeof a !== 'string' || typeof b !== 'string') {
+      return;
+    }
+    const pair = `${a}|${b}`;
+    const known = this.encounters.get(pair);
+    if (known && known.time > record.time) {
+      return;
+    }
+    if (phase === 'withdrawn') {
+      this.encounters.delete(pair);
+      this.tell('encounters');
+      return;
+    }
+    if (phase === 'predicted' && known && (known.phase === 'started' || known.phase === 'ongoing')) {
+      return;
+    }
+    this.encounters.set(pair, {
+      pair, a, b, phase, id: of('encounter'),
+      distance: of('distance'), minDistance: of('minDistance') ?? of('dcpa') ?? of('distance'),
+      time: record.time, start: of('startTime') ?? record.time, tcpa: of('tcpa'),
+      at: [[of('Device1_longitude'), of('Device1_latitude')], [of('Device2_longitude'), of('Device2_latitude')]],
+    });
+    this.tell('encounters');
+  }
+
+  takeTemperature(record) {
+    const value = record.value;
+    const of = (name) => value?.[name]?.value;
+    const field = of('field');
+    // the field itself may come later: its topic is another one
+    if (value?.type !== 'Analytics:FieldTemperature' || this.averages.get(field)?.time > record.time) {
+      return;
+    }
+    const suspects = Array.isArray(of('suspects')) ? of('suspects') : [];
+    this.averages.set(field, {
+      value: of('averageTemperature'), count: of('devices'), time: record.time, suspects,
+      verified: of('quality') !== 'unverified', quality: of('quality'), window: [of('windowStart'), of('windowEnd')],
+    });
+    for (const [device, suspect] of this.suspects) {
+      if (suspect.field === field && !suspects.includes(device)) {
+        this.suspects.delete(device);
+        this.remark(device);
+      }
+    }
+    for (const device of suspects) {
+      this.suspects.set(device, { field, mean: of('averageTemperature'), time: record.time });
+      this.remark(device);
+    }
+    this.tell('suspects');
+    this.tell('fields');
+  }
+
+  remark(id) {
+    const entity = this.entities.get(id);
+    if (entity) {
+      entity.suspect = this.suspects.has(id);
+      entity.state = this.stateOf(entity);
+      this.tell('entities', id);
+    }
+  }
+
+  /** A version of a field; of several the one that holds now. */
+  takeField(record) {
+    const [id, from] = String(record.key).split('@');
+    const validFrom = Date.parse(from) || 0;
+    const known = this.fields.get(id);
+    if ((known && known.validFrom > validFrom) || validFrom > this.now()) {
+      return;
+    }
+    if (!record.value?.geometry) {
+      this.fields.delete(id);
+    } else {
+      const properties = record.value.properties ?? {};
+      this.fields.set(id, {
+        id, validFrom, properties, geometry: record.value.geometry, name: typeof properties.name === 'string' ? properties.name : id,
+        exclusion: properties.kind === 'exclusion' || properties.zone !== undefined,
+      });
+    }
+    this.tell('fields');
+  }
+
+  takeImage(record) {
+    const image = record.value;
+    if (image?.entity) {
+      this.images.set(image.entity, { ...image, time: record.time });
+      this.tell('images', image.entity);
+    }
+  }
+
+  takeAlarm(record) {
+    record.value ? this.alarms.set(record.key, record.value) : this.alarms.delete(record.key);
+    this.tell('alarms');
+  }
+
+  /** All alarms that there were are known. */
+  alarmsRead() {
+    this.alarmsKnown = true;
+    this.tell('alarms');
+  }
+};

@@ -1,0 +1,38 @@
+/** Who one is, how to leave, and the colours. */
+import { h, replace } from './core/dom.js';
+import { icon } from './core/icons.js';
+import { store } from './core/store.js';
+import { mayLeave, signOut } from './sign-in.js';
+import { t, texts } from './texts.js';
+
+export function settingsMenu() {
+  const schemes = h('div', { role: 'group', 'aria-label': t('app.scheme') });
+  const { user, role } = store.me;
+  const list = h('div.scheme-menu', { id: 'settings', popover: 'auto' },
+    user && h('p.me.small', null, h('strong', null, user), h('span.muted', null, ` · ${role}`)),
+    schemes,
+    mayLeave() && h('button.button.quiet', { type: 'button', on: { click: signOut } }, icon('leave', 18), t('app.signOut')));
+  const symbols = { system: 'contrast', dark: 'moon', light: 'sun', sunlight: 'sun' };
+  const draw = () => replace(schemes, Object.entries(texts.app.schemes).map(([name, words]) => {
+    const chosen = (localStorage.getItem('furrow-scheme') ?? 'system') === name;
+    return h('button.button.quiet', {
+      type: 'button', 'aria-pressed': String(chosen),
+      on: { click: () => { chooseScheme(name); draw(); list.hidePopover(); } },
+    }, icon(chosen ? 'check' : symbols[name], 18), words);
+  }));
+  draw();
+  return h('div.menu', null,
+    h('button.button.quiet.square', { type: 'button', 'aria-label': t('app.settings'), title: t('app.settings'), popovertarget: 'settings' }, icon('contrast', 18)), list);
+}
+
+function chooseScheme(name) {
+  if (name === 'system') {
+    localStorage.removeItem('furrow-scheme');
+    delete document.documentElement.dataset.scheme;
+  } else {
+    localStorage.setItem('furrow-scheme', name);
+    document.documentElement.dataset.scheme = name;
+  }
+  window.dispatchEvent(new Event('schemechange'));
+}
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => window.dispatchEvent(new Event('schemechange')));

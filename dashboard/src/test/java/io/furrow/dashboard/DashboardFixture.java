@@ -1,0 +1,224 @@
+package io.furrow.dashboard;
+
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.net.http.WebSocketHandshakeException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.util.List;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.concurrent.CompletionException;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.admin.NewTopic;
+import org.apache.kafka.clients.consumer.KafkaConsumer;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringDeserializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.apache.kafka.common.utils.Utils;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.extension.BeforeAllCallback;
+import org.junit.jupiter.api.extension.ExtendWith;
+import org.junit.jupiter.api.extension.ExtensionContext;
+
+import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
+
+import static java.nio.charset.StandardCharsets.UTF_8;
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** A dashboard in front of a real Kafka and a real REST API of the control plane, which all classes of tests share. */
+@ExtendWith(DashboardFixture.Shared.class)
+abstract class DashboardFixture {
+    static final String VERA = "vera-reads-only-0001";
+    static final String OLGA = "olga-commands-000001";
+    static final String TOPIC = "data.farm.realtime.weeding";
+    static final String REPLAY = "data.m.replay.0a1b2c3d";
+
+    static EmbeddedKafka kafka;
+    static RestApi api;
+    static KafkaProducer<String, byte[]> producer;
+
+    final HttpClient http = HttpClient.newHttpClient();
+    Dashboard dashboard;
+
+    /** Keeps them from the first class of tests to the last of a JVM. */
+    static final class Shared implements BeforeAllCallback {
+        private static final ExtensionContext.Namespace NAMESPACE = ExtensionContext.Namespace.create(Shared.class);
+
+        @Override
+        public void beforeAll(ExtensionContext context) {
+            context.getRoot()
+                    .getStore(NAMESPACE)
+                    .getOrComputeIfAbsent("others", key -> startTheOthers(), AutoCloseable.class);
+        }
+    }
+
+    private static AutoCloseable startTheOthers() {
+        try {
+            Path directory = Files.createTempDirectory("dashboard");
+            kafka = EmbeddedKafka.start(directory.resolve("kafka"));
+            Path tokens = directory.resolve("tokens");
+            Files.writeString(tokens, "vera %s viewer%nolga %s operator%n".formatted(VERA, OLGA));
+            api = RestApi.start(
+                    ControlSettings.of(client()),
+                    RestSettings.on(0).withTokens(tokens),
+                    new Readiness(Clock.systemUTC()));
+            kafka.createTopics(topics(TOPIC, "data.farm.realtime", REPLAY));
+            kafka.createTopics(List.of(new NewTopic(Topics.LATEST, Optional.of(2), Optional.empty())));
+            producer = new KafkaProducer<>(kafka.producerSettings(), new StringSerializer(), new ByteArraySerializer());
+            await().until(api::isReady);
+            return () -> {
+                producer.close();
+                api.close();
+                kafka.close();
+                Utils.delete(directory.toFile());
+            };
+        } catch (Exception e) {
+            throw new IllegalStateException("Kafka and the REST API did not start", e);
+        }
+    }
+
+    /** Names of topics as what is to be made. */
+    static List<NewTopic> topics(String... names) {
+        return List.of(names).stream()
+                .map(name -> new NewTopic(name, Optional.of(1), Optional.empty()))
+                .toList();
+    }
+
+    @BeforeEach
+    void start() throws Exception {
+        dashboard = Dashboard.start(settings());
+    }
+
+    @AfterEach
+    void stop() {
+        dashboard.close();
+    }
+
+    static DashboardSettings settings() {
+        return DashboardSettings.of(0, client(), api.uri());
+    }
+
+    void restart(DashboardSettings other) throws Exception {
+        dashboard.close();
+        dashboard = Dashboard.start(other);
+    }
+
+    static Properties client() {
+        Properties client = new Properties();
+        client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+        return client;
+    }
+
+    HttpResponse<String> get(String path, String token, String... headers) throws Exception {
+        HttpRequest.Builder request = HttpRequest.newBuilder(dashboard.uri().resolve(path));
+        if (token != null) {
+            request.header("Authorization", "Bearer " + token);
+        }
+        for (int i = 0; i < headers.length; i += 2) {
+            request.header(headers[i], headers[i + 1]);
+        }
+        return http.send(request.build(), HttpResponse.BodyHandlers.ofString());
+    }
+
+    static JsonNode json(HttpResponse<String> answer) throws Exception {
+        return NgsiJson.read(answer.body().getBytes(UTF_8));
+    }
+
+    String error(String path, String token, String... headers) throws Exception {
+        HttpResponse<String> answer = get(path, token, headers);
+        return answer.statusCode() + " " + json(answer).path("error").asText();
+    }
+
+    URI socket(String topicAndQuery, String token) throws Exception {
+        HttpResponse<String> answer = get("/api/register/" + topicAndQuery, token);
+        assertThat(answer.statusCode()).as(answer.body()).isEqualTo(200);
+        return URI.create(dashboard.uri().toString().replace("http", "ws")
+                + json(answer).path("socket").asText());
+    }
+
+    /** Opened, and told of every record from now on. */
+    SocketClient open(String topicAndQuery) throws Exception {
+        return open(topicAndQuery, true);
+    }
+
+    SocketClient open(String topicAndQuery, boolean reads) throws Exception {
+        SocketClient client = SocketClient.open(http, socket(topicAndQuery, OLGA), reads);
+        int before = client.frames().size();
+        String topic = topicAndQuery.replaceAll("\\?.*", "");
+        await().until(() -> {
+            send(topic, "probe", "{\"probe\":true}");
+            return client.frames().size() > before;
+        });
+        return client;
+    }
+
+    static void send(String topic, String key, String value) throws Exception {
+        producer.send(new ProducerRecord<>(topic, key, value == null ? null : value.getBytes(UTF_8)))
+                .get();
+    }
+
+    static List<JsonNode> without(List<JsonNode> records, String key) {
+        return records.stream()
+                .filter(record -> !record.path("key").asText().equals(key))
+                .toList();
+    }
+
+    static ProxyLimits limits(int waiting, int streams) {
+        ProxyLimits usual = ProxyLimits.DEFAULT;
+        return new ProxyLimits(
+                streams,
+                streams,
+                3,
+                usual.ticketLife(),
+                waiting,
+                usual.waitingBytes(),
+                10_000,
+                usual.messageBytes(),
+                5,
+                usual.primeRecords());
+    }
+
+    static int status(Throwable failure) {
+        assertThat(failure).isInstanceOf(CompletionException.class);
+        return ((WebSocketHandshakeException) failure.getCause()).getResponse().statusCode();
+    }
+
+    static long ends(String topic) {
+        try (KafkaConsumer<String, String> consumer =
+                new KafkaConsumer<>(client(), new StringDeserializer(), new StringDeserializer())) {
+            List<TopicPartition> all = consumer.partitionsFor(topic).stream()
+                    .map(each -> new TopicPartition(each.topic(), each.partition()))
+                    .toList();
+            return consumer.endOffsets(all).values().stream()
+                    .mapToLong(Long::longValue)
+                    .sum();
+        }
+    }
+
+    double metric(String name) throws Exception {
+        return get("/metrics", null)
+                .body()
+                .lines()
+                .filter(line -> line.startsWith("furrow_dashboard_" + name + " "))
+                .mapToDouble(line -> Double.parseDouble(line.substring(line.lastIndexOf(' '))))
+                .findFirst()
+                .orElse(-1);
+    }
+}

@@ -1,0 +1,158 @@
+package io.furrow.dashboard;
+
+import java.net.InetAddress;
+import java.net.ServerSocket;
+import java.net.URI;
+import java.time.Duration;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Properties;
+import java.util.stream.IntStream;
+
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.dashboard.proxy.ProxyLimits;
+import io.furrow.http.AllowedNames;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+import static org.awaitility.Awaitility.await;
+
+/** Who may not read, open or ask, and what they are told. */
+class DashboardRefusalsIT extends DashboardFixture {
+    @Test
+    void refusesWhatMayNotBeReadAndWhoeverMayNotRead() throws Exception {
+        restart(settings().withRules(new TopicRules(List.of("data.*"), List.of())));
+
+        assertThat(error("/api/register/" + TOPIC, null)).isEqualTo("401 unauthorized");
+        assertThat(error("/api/register/" + TOPIC, "a-token-of-nobody-0001")).isEqualTo("401 unauthorized");
+        assertThat(error("/api/topics", null)).isEqualTo("401 unauthorized");
+        assertThat(error("/api/stream/" + TOPIC, null)).isEqualTo("401 unauthorized");
+        assertThat(error("/api/register/service.audit", OLGA)).isEqualTo("403 topic-not-allowed");
+        assertThat(error("/api/stream/service.audit", OLGA)).isEqualTo("403 topic-not-allowed");
+        assertThat(error("/api/register/data.raw.dead", OLGA)).isEqualTo("403 topic-not-allowed");
+        assertThat(error("/api/register/data.nosuch", OLGA)).isEqualTo("404 unknown-topic");
+        assertThat(error("/api/register/", OLGA)).isEqualTo("400 illegal-topic");
+        assertThat(error("/api/register/" + TOPIC + "?mode=some", OLGA)).isEqualTo("400 wrong-parameter");
+        assertThat(error("/api/register/" + TOPIC + "?prime=maybe", OLGA)).isEqualTo("400 wrong-parameter");
+        assertThat(error("/api/register/" + TOPIC, OLGA, "Origin", "https://evil.example"))
+                .isEqualTo("403 foreign-origin");
+        assertThat(get("/api/topics", VERA).body())
+                .contains(TOPIC)
+                .doesNotContain("service.")
+                .doesNotContain(".dead");
+    }
+
+    @Test
+    void opensASocketOnceAndForItsOwnPageOnly() throws Exception {
+        URI socket = socket(TOPIC, OLGA);
+        assertThatThrownBy(() -> http.newWebSocketBuilder()
+                        .header("Origin", "https://evil.example")
+                        .buildAsync(socket, new java.net.http.WebSocket.Listener() {})
+                        .join())
+                .satisfies(failure -> assertThat(status(failure)).isEqualTo(403));
+        SocketClient first = SocketClient.open(http, socket);
+        assertThatThrownBy(() -> SocketClient.open(http, socket))
+                .satisfies(failure -> assertThat(status(failure)).isEqualTo(403));
+        assertThat(first.isOver()).isFalse();
+    }
+
+    @Test
+    void opensASocketForNoForeignPageAndUnderNoForeignName() throws Exception {
+        restart(settings().withAllowed(new AllowedNames(List.of("farm.example"), List.of("https://maps.example"))));
+        URI socket = socket(TOPIC, OLGA);
+        String own = socket.getAuthority();
+
+        for (String origin : List.of(
+                "https://evil.example",
+                "http://" + socket.getHost() + ":1",
+                "https://" + own,
+                "null",
+                "http://" + own + ".evil.example")) {
+            assertThat(Handshake.status(socket, own, "Origin", origin))
+                    .as(origin)
+                    .isEqualTo(403);
+        }
+        assertThat(Handshake.status(socket, "evil.example")).isEqualTo(403);
+        assertThat(metric("refused_total{reason=\"foreign-origin\"}")).isEqualTo(5);
+        assertThat(metric("refused_total{reason=\"foreign-host\"}")).isEqualTo(1);
+        assertThat(metric("streams_opened_total")).isZero();
+
+        // the ticket is still good, and one for each further page that may
+        assertThat(Handshake.status(socket, own, "Origin", "http://" + own)).isEqualTo(101);
+        assertThat(Handshake.status(socket(TOPIC, OLGA), own, "Origin", "https://maps.example"))
+                .isEqualTo(101);
+        assertThat(Handshake.status(socket(TOPIC, OLGA), "farm.example")).isEqualTo(101);
+        assertThat(Handshake.status(socket(TOPIC, OLGA), own)).isEqualTo(101);
+    }
+
+    @Tag("full")
+    @Test
+    void limitsTicketsStreamsAndMessagesOfAClient() throws Exception {
+        restart(settings().withLimits(limits(2_000, 2)));
+        for (int i = 0; i < 3; i++) {
+            socket(TOPIC, OLGA);
+        }
+        assertThat(error("/api/register/" + TOPIC, OLGA)).isEqualTo("429 too-many-tickets");
+
+        restart(settings().withLimits(limits(2_000, 2)));
+        SocketClient.open(http, socket(TOPIC, OLGA));
+        SocketClient writing = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER, OLGA));
+        URI third = socket(TOPIC, OLGA);
+        assertThatThrownBy(() -> SocketClient.open(http, third))
+                .satisfies(failure -> assertThat(status(failure)).isEqualTo(429));
+        assertThat(error("/api/stream/" + TOPIC, OLGA)).isEqualTo("429 too-many-streams");
+        for (int i = 0; i < 8; i++) {
+            writing.send("[]");
+        }
+        await().until(() -> writing.frames().stream().anyMatch(frame -> frame.contains("too-many-messages")));
+    }
+
+    @Tag("full")
+    @Test
+    void forgetsATicketThatIsOld() throws Exception {
+        ProxyLimits usual = ProxyLimits.DEFAULT;
+        restart(settings()
+                .withLimits(new ProxyLimits(
+                        10, 10, 3, Duration.ofMillis(1), 100, 1_000_000, 10_000, 1_000, 5, usual.primeRecords())));
+        List<URI> old = new ArrayList<>();
+        for (int i : IntStream.range(0, 5).toArray()) {
+            old.add(socket(TOPIC + "?x=" + i, OLGA));
+        }
+        assertThatThrownBy(() -> SocketClient.open(http, old.get(0)))
+                .satisfies(failure -> assertThat(status(failure)).isEqualTo(403));
+    }
+
+    @Tag("full")
+    @Test
+    void saysThatTheControlPlaneIsAway() throws Exception {
+        restart(DashboardSettings.of(0, client(), URI.create("http://127.0.0.1:1")));
+
+        assertThat(error("/api/missions", VERA)).isEqualTo("502 control-plane-away");
+        assertThat(error("/api/register/" + TOPIC, VERA)).isEqualTo("503 control-plane-away");
+    }
+
+    /** By what it knows already: nobody waits to find it out. */
+    @Tag("full")
+    @Test
+    void refusesAtOnceWhileKafkaIsAway() throws Exception {
+        try (ServerSocket silent = new ServerSocket(0, 50, InetAddress.getLoopbackAddress())) {
+            Properties nowhere = new Properties();
+            nowhere.setProperty("bootstrap.servers", "127.0.0.1:" + silent.getLocalPort());
+            restart(DashboardSettings.of(0, nowhere, api.uri()));
+            await().until(() -> dashboard.streams().isKafkaAway());
+
+            long begun = System.nanoTime();
+            for (int i = 0; i < 5; i++) { // each of which would wait for 5 s
+                assertThat(error("/api/register/" + TOPIC, OLGA)).isEqualTo("503 kafka-away");
+                assertThat(error("/api/topics", OLGA)).isEqualTo("503 kafka-away");
+                assertThat(json(get("/api/platform", OLGA)).at("/kafka/state").asText())
+                        .isEqualTo("away");
+            }
+            assertThat(Duration.ofNanos(System.nanoTime() - begun)).isLessThan(Duration.ofMinutes(1));
+        }
+    }
+}

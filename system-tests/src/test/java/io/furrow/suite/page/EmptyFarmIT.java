@@ -1,0 +1,103 @@
+package io.furrow.suite.page;
+
+import java.net.URI;
+
+import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Page;
+import com.microsoft.playwright.Route;
+import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.Test;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+
+/** What the page says where there is nothing yet, and before it knows what there is. */
+@PageTest
+@Tag("full")
+class EmptyFarmIT {
+    @Test
+    void saysOfEachPlaceThatThereIsNothingYetAndWhatMakesSome(PageSuite suite) {
+        FarmPage farm = window(suite);
+        farm.page().routeWebSocket("**/socket/**", socket -> socket.send("{\"primed\":true}"));
+        farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
+        farm.open("");
+
+        assertThat(farm.find("furrow-map .map-empty")).containsText("No devices yet");
+        assertThat(farm.find("furrow-map .map-empty code")).hasText("./furrow scenario");
+        assertThat(farm.find("furrow-cards .empty")).containsText("No devices yet");
+        assertThat(farm.find("furrow-cards .skeleton").first()).isHidden();
+        assertThat(farm.find(".alarm-none")).hasText("No open alarms");
+
+        farm.go("Missions");
+        assertThat(farm.find("furrow-missions .empty")).containsText("No missions yet");
+        assertThat(farm.find("furrow-missions .empty").getByRole(AriaRole.BUTTON))
+                .hasText("New mission");
+        tab(farm, "Domains and fields");
+        assertThat(farm.find("furrow-missions")).containsText("No domains yet");
+        assertThat(farm.find("furrow-missions")).containsText("No fields yet");
+        tab(farm, "Who commanded what");
+        assertThat(farm.find("furrow-missions")).containsText("Nobody has commanded anything yet.");
+
+        farm.go("Replays");
+        assertThat(farm.find("furrow-replays")).containsText("No missions are stored yet");
+        assertThat(farm.find("furrow-replays")).containsText("No replay runs");
+        farm.go("Analyses");
+        for (String nothing : new String[] {"No averages", "No encounters", "Nobody was in a field"}) {
+            assertThat(farm.find("furrow-analyses")).containsText(nothing + " in this period");
+        }
+        farm.go("Topics");
+        assertThat(farm.find("furrow-topics")).containsText("No domain has been made yet");
+        assertThat(farm.find("furrow-topics")).containsText("No topic chosen");
+    }
+
+    @Test
+    void showsThatItReadsUntilItKnows(PageSuite suite) {
+        FarmPage farm = window(suite);
+        farm.page().routeWebSocket("**/socket/**", socket -> {});
+        farm.page().route("**/api/**", route -> {
+            if (path(route).startsWith("/api/me") || path(route).startsWith("/api/register")) {
+                route.resume();
+            } // the rest is never answered
+        });
+        farm.open("");
+
+        assertThat(farm.find("furrow-cards .skeleton").first()).isVisible();
+        assertThat(farm.find(".alarm-none")).hasText("Alarms are being read …");
+        assertThat(farm.find("furrow-map .map-empty")).isHidden();
+        assertThat(farm.find("furrow-cards .empty")).isHidden();
+        for (String place : new String[] {"Missions", "Replays", "Analyses"}) {
+            farm.go(place);
+            Locator skeleton = farm.find("furrow-" + place.toLowerCase(java.util.Locale.ROOT) + " .skeleton");
+            assertThat(skeleton.first()).isVisible();
+            assertThat(farm.find(".view-place .empty:visible").filter(new Locator.FilterOptions().setHasText("yet")))
+                    .hasCount(0);
+        }
+    }
+
+    private static FarmPage window(PageSuite suite) {
+        return suite.window(suite.running().suite().dashboard(), Look.DESK);
+    }
+
+    private static void tab(FarmPage farm, String name) {
+        farm.page()
+                .getByRole(AriaRole.TAB, new Page.GetByRoleOptions().setName(name))
+                .click();
+    }
+
+    private static void answerWithNothing(Route route) {
+        String path = path(route);
+        if (path.equals("/api/me") || path.startsWith("/api/register")) {
+            route.resume();
+            return;
+        }
+        String nothing = path.startsWith("/api/history")
+                ? "{\"since\":0,\"records\":[]}"
+                : path.startsWith("/api/density") ? "{\"from\":0,\"width\":5000,\"counts\":[]}" : "[]";
+        route.fulfill(
+                new Route.FulfillOptions().setContentType("application/json").setBody(nothing));
+    }
+
+    private static String path(Route route) {
+        return URI.create(route.request().url()).getPath();
+    }
+}

@@ -1,0 +1,186 @@
+package io.furrow.suite.page;
+
+import java.net.URI;
+import java.net.URLDecoder;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Clock;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.regex.Pattern;
+
+import com.microsoft.playwright.Route;
+import com.microsoft.playwright.options.AriaRole;
+import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.control.ControlSettings;
+import io.furrow.control.readiness.Readiness;
+import io.furrow.control.rest.RestApi;
+import io.furrow.control.rest.RestSettings;
+import io.furrow.dashboard.Dashboard;
+import io.furrow.dashboard.DashboardSettings;
+import io.furrow.dashboard.auth.AddressRange;
+import io.furrow.dashboard.auth.Role;
+import io.furrow.dashboard.auth.TrustedProxy;
+import io.furrow.dashboard.page.PageSettings;
+
+import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Sessions that end in the middle of work, with tokens and behind a proxy that signs users in. */
+@PageTest
+@Tag("full")
+class SignInIT {
+    private static final String VERA = "vera-looks-at-the-farm-0002";
+    private static final String VERA_LATER = "vera-looks-at-the-farm-0003";
+    private static final String DASHBOARD = "the-dashboards-own-token-2";
+    private static final Pattern MISSIONS = Pattern.compile(".*#/missions$");
+
+    @TempDir
+    Path folder;
+
+    private Path tokens;
+    private Properties client;
+    private RestApi api;
+    private volatile boolean signedIn;
+
+    @BeforeEach
+    void startAControlPlaneThatAsksForTokens(PageSuite suite) throws Exception {
+        client = suite.running().suite().kafka().clientProperties();
+        tokens = folder.resolve("tokens");
+        allow("vera %s viewer%ndashboard %s admin for-users%n".formatted(VERA, DASHBOARD));
+        api = RestApi.start(
+                ControlSettings.of(client), RestSettings.on(0).withTokens(tokens), new Readiness(Clock.systemUTC()));
+        await().until(api::isReady);
+    }
+
+    @AfterEach
+    void stop() {
+        api.close();
+    }
+
+    private void allow(String lines) throws Exception {
+        Files.writeString(tokens, lines);
+    }
+
+    private DashboardSettings settings() {
+        return DashboardSettings.of(0, client, api.uri());
+    }
+
+    @Test
+    void asksForATokenAgainWhenItIsTakenBackAndGoesOnAtTheSamePlace(PageSuite suite) throws Exception {
+        try (Dashboard dashboard = Dashboard.start(settings())) {
+            FarmPage farm =
+                    suite.window(dashboard.uri(), Look.DESK).expectingError("status of 401|status of 404.*images");
+            farm.page().navigate(dashboard.uri().resolve("/#/missions").toString());
+            signIn(farm, VERA);
+            assertThat(farm.find("furrow-missions h1")).isVisible();
+
+            allow("vera %s viewer%n".formatted(VERA_LATER));
+
+            assertThat(farm.page().getByRole(AriaRole.ALERT))
+                    .hasText("The control plane does not know this token.", aMinute());
+            signIn(farm, VERA_LATER);
+            assertThat(farm.find("furrow-missions h1")).isVisible();
+            assertThat(farm.page()).hasURL(MISSIONS);
+            farm.close();
+        }
+    }
+
+    private static void signIn(FarmPage farm, String token) {
+        farm.page().getByLabel("Access token").fill(token);
+        farm.button("Sign in").click();
+    }
+
+    private static com.microsoft.playwright.assertions.LocatorAssertions.HasTextOptions aMinute() {
+        return new com.microsoft.playwright.assertions.LocatorAssertions.HasTextOptions().setTimeout(60_000);
+    }
+
+    @Test
+    void leadsToTheSignInOfAProxyAndBackAndToItsSignOut(PageSuite suite) throws Exception {
+        TrustedProxy proxy = new TrustedProxy(
+                List.of(AddressRange.parse("127.0.0.1")),
+                "X-Forwarded-User",
+                "X-Forwarded-Groups",
+                Map.of("drivers", Role.OPERATOR),
+                DASHBOARD);
+        PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", "/oauth2/sign_out?rd={page}");
+        try (Dashboard dashboard = Dashboard.start(settings().withProxy(proxy).withPage(pages))) {
+            FarmPage farm =
+                    suite.window(dashboard.uri(), Look.DESK).expectingError("status of 401|status of 404.*images");
+            farm.page().route("**/*", this::asTheProxy);
+            farm.open("").go("Missions");
+            assertThat(farm.find("furrow-missions h1")).isVisible();
+
+            signedIn = false;
+            farm.page().evaluate("import('/core/api.js').then(({ api }) => api.get('/api/missions')).catch(() => {})");
+            farm.page().waitForCondition(() -> signedIn); // which lets what stands for the proxy answer
+            assertThat(farm.find("furrow-missions h1")).isVisible();
+            assertThat(farm.page()).hasURL(MISSIONS);
+
+            farm.button("Settings").click();
+            assertThat(farm.find("#settings")).containsText("olga · operator");
+            farm.button("Sign out").click();
+            assertThat(farm.page().getByText("Signed out, back to /")).isVisible();
+        }
+    }
+
+    @Test
+    void doesNotGoRoundAndRoundWhereTheProxyTakesTheUserAndTheDashboardDoesNot(PageSuite suite) throws Exception {
+        PageSettings pages = PageSettings.DEFAULT.withSignIn("/oauth2/start?rd={page}", null);
+        try (Dashboard dashboard = Dashboard.start(settings().withPage(pages))) {
+            FarmPage farm =
+                    suite.window(dashboard.uri(), Look.DESK).expectingError("status of 401|status of 404.*images");
+            farm.page().route("**/*", this::asTheProxy);
+            farm.page().navigate(dashboard.uri().resolve("/").toString());
+
+            assertThat(farm.page().getByRole(AriaRole.ALERT)).containsText("You came back, but are not signed in");
+            assertThat(farm.button("Sign in again")).isVisible();
+            farm.page().getByLabel("Access token").fill(VERA);
+            farm.button("Use the token").click();
+            assertThat(farm.find("furrow-app")).isVisible();
+        }
+    }
+
+    /** What oauth2-proxy does: who asks for JSON is told, others are led to the pages of the proxy. */
+    private void asTheProxy(Route route) {
+        URI uri = URI.create(route.request().url());
+        boolean asksForJson =
+                String.valueOf(route.request().headers().get("accept")).contains("application/json");
+        if (uri.getPath().equals("/oauth2/start")) {
+            signedIn = true;
+            lead(route, URLDecoder.decode(uri.getRawQuery().substring("rd=".length()), StandardCharsets.UTF_8));
+        } else if (uri.getPath().equals("/oauth2/sign_out")) {
+            signedIn = false;
+            route.fulfill(new Route.FulfillOptions()
+                    .setContentType("text/plain")
+                    .setBody("Signed out, back to " + uri.getQuery().substring("rd=".length())));
+        } else if (!signedIn && asksForJson && !uri.getPath().equals("/config.json")) {
+            route.fulfill(new Route.FulfillOptions()
+                    .setStatus(401)
+                    .setContentType("application/json")
+                    .setBody("{}"));
+        } else if (!signedIn && !asksForJson) {
+            lead(route, "/oauth2/start?rd=" + uri.getPath());
+        } else {
+            Map<String, String> headers = new HashMap<>(route.request().headers());
+            headers.put("X-Forwarded-User", "olga");
+            headers.put("X-Forwarded-Groups", "drivers");
+            route.resume(new Route.ResumeOptions().setHeaders(headers));
+        }
+    }
+
+    /** By a page: requests that follow a redirection would not come by here. */
+    private static void lead(Route route, String where) {
+        route.fulfill(new Route.FulfillOptions()
+                .setContentType("text/html")
+                .setBody("<script>location.replace('%s')</script>".formatted(where)));
+    }
+}
