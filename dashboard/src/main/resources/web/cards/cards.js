@@ -28,6 +28,9 @@ class FurrowCards extends HTMLElement {
     replace(this, h('h2.section-title', null, h('span', null, t('cards.title')), this.count), this.chips, this.loading, this.empty, this.list, this.end);
     this.watcher = new IntersectionObserver((seen) => this.seen(seen), { rootMargin: '200px' });
     this.watcher.observe(this.end);
+    for (const moved of ['wheel', 'touchmove', 'keydown', 'pointerdown']) {
+      this.addEventListener(moved, () => { this.following = false; }, { passive: true });
+    }
     this.offs = [
       store.on('entities', (ids, all) => this.changed(ids, all)),
       store.on('clock', () => this.redraw(this.visible)),
@@ -101,6 +104,7 @@ class FurrowCards extends HTMLElement {
     }
     this.end.hidden = wanted.length <= this.limit;
     this.drawCounts();
+    this.following && this.reveal('auto');
   }
 
   wanted() {
@@ -157,9 +161,14 @@ class FurrowCards extends HTMLElement {
     const card = this.cards.get(id);
     if (card) {
       card.draw();
-      const smooth = !matchMedia('(prefers-reduced-motion: reduce)').matches;
-      card.element.scrollIntoView({ block: 'nearest', behavior: smooth ? 'smooth' : 'auto' });
+      this.following = true;
+      this.reveal(matchMedia('(prefers-reduced-motion: reduce)').matches ? 'auto' : 'smooth');
     }
+  }
+
+  /** Until somebody scrolls, the selected card stays in view, also where others come before it. */
+  reveal(behavior) {
+    this.cards.get(store.selection)?.element.scrollIntoView({ block: 'nearest', behavior });
   }
 
   drawCounts() {
