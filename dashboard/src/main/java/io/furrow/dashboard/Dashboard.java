@@ -81,7 +81,7 @@ public final class Dashboard implements AutoCloseable {
     private static final String CONTENT_POLICY =
             "default-src 'self'; img-src 'self' data: blob:%s; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
-    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS);
+    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
     private final Server server = new Server(threads);
     private final TopicStreams streams;
     private final ImageIndex images;
