@@ -13,14 +13,15 @@ import java.util.stream.Stream;
 /**
  * Processor time of a process's threads, by id. Linux keeps it for each, with the first 15 characters of its name.
  */
-record ThreadTimes(Map<String, Spent> threads) {
+public record ThreadTimes(Map<String, Spent> threads) {
     /** Of one thread. */
-    record Spent(String role, long nanos, long switches) {
+    public record Spent(String role, long nanos, long switches) {
         private Spent since(Spent before) {
             return before == null ? this : new Spent(role, nanos - before.nanos, switches - before.switches);
         }
     }
 
+    public static final String DEVICES = "devices, MQTT, stand-in";
     static final String OTHERS = "everything else";
 
     /** What threads do, by how their names begin; the first that fits counts. */
@@ -31,7 +32,7 @@ record ThreadTimes(Map<String, Spent> threads) {
         roles.put("compilers of the JVM", List.of("C1 Compiler", "C2 Compiler", "Sweeper"));
         roles.put("garbage collection, VM", List.of("GC Thread", "VM ", "G1 "));
         roles.put(
-                "devices, MQTT, stand-in",
+                DEVICES,
                 List.of(
                         "load",
                         "MQTT ",
@@ -81,7 +82,7 @@ record ThreadTimes(Map<String, Spent> threads) {
     }
 
     /** @throws IOException if the process has ended */
-    static ThreadTimes of(long pid) throws IOException {
+    public static ThreadTimes of(long pid) throws IOException {
         Map<String, Spent> threads = new HashMap<>();
         try (Stream<Path> tasks = Files.list(Path.of("/proc", Long.toString(pid), "task"))) {
             for (Path task : (Iterable<Path>) tasks::iterator) {
@@ -113,14 +114,14 @@ record ThreadTimes(Map<String, Spent> threads) {
     }
 
     /** What was spent after an earlier look by the threads that are still there. */
-    ThreadTimes since(ThreadTimes before) {
+    public ThreadTimes since(ThreadTimes before) {
         Map<String, Spent> spent = new HashMap<>();
         threads.forEach((id, now) -> spent.put(id, now.since(before.threads.get(id))));
         return new ThreadTimes(spent);
     }
 
     /** Processor time by role, ns. */
-    Map<String, Long> byRole() {
+    public Map<String, Long> byRole() {
         return threads.values().stream()
                 .collect(Collectors.groupingBy(Spent::role, Collectors.summingLong(Spent::nanos)));
     }
