@@ -23,8 +23,10 @@ const RING = 7;
 const SAME_SPOT = 4;
 /** Px; on a narrower map only those that matter have a name. */
 const NARROW = 560;
-/** The corner in which the map's buttons lie, px. */
+/** The corners in which the map's buttons lie, and its scale, with the legend where there is room for one, px. */
 const CONTROLS = { width: 62, height: 244 };
+const SCALE = { width: 170, height: 42 };
+const LEGEND = { width: 600, height: 54, from: 690 };
 
 export class DeviceDrawing {
   constructor(fields) {
@@ -40,6 +42,8 @@ export class DeviceDrawing {
     context.clearRect(0, 0, frame.width, frame.height);
     const places = new LabelPlaces();
     places.block(frame.width - CONTROLS.width, 0, frame.width, CONTROLS.height);
+    const foot = frame.width < LEGEND.from ? SCALE : LEGEND;
+    places.block(0, frame.height - foot.height, foot.width, frame.height);
     const inView = this.collect(frame);
     const close = devicesOfEncounters();
     const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'look' || close.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });

@@ -15,8 +15,6 @@ const BELOW = { one: 9, two: 25 };
 const NARROW = 560;
 /** Px; a smaller field has no text beside it. */
 const LEAST = 40;
-/** Px at the lower edge of the map, where its scale lies. */
-const FOOT = 44;
 
 export class FieldLabels {
   /** @param {import('./fields.js').FieldDrawing} fields */
@@ -164,7 +162,7 @@ function beside(area, text, isFree) {
   const spots = [{ x, y: bottom + ABOVE + 4 }, { x, y: top - text.below - 4 }, { x: right + 8, y }, { x: left - 8 - text.width, y }];
   const spot = spots.find((each) => {
     const box = boxAt(each, text);
-    return isShown(box, area) && box[3] < frame.height - FOOT && isApart(box, others) && isFree(...box);
+    return isShown(box, area) && isApart(box, others) && isFree(...box);
   });
   return spot ? { ...spot, beside: true } : null;
 }
