@@ -33,6 +33,8 @@ class CommandLineTest {
     @ParameterizedTest
     @CsvSource({
         "--help, demo",
+        "--version, furrow",
+        "init --help, FILE",
         "demo --help, --kafka-port",
         "up --help, --orion",
         "dead-letters redrive --help, --dry-run",
