@@ -227,6 +227,34 @@ class ReplayOnKafkaIT {
 
     @Tag("full")
     @Test
+    void failsWhereItsTopicIsDeletedAndHoldsUpNoOther() throws Exception {
+        for (String mission : List.of("m", "other")) {
+            suite.store(mission, 400, 100);
+            suite.want(wanted(mission, 1, State.RUNNING, 1));
+        }
+        suite.run(null, "--parallelism", "1");
+        for (String mission : List.of("m", "other")) {
+            await().until(() -> suite.status(mission) != null
+                    && suite.status(mission).progress().events() > 20);
+        }
+
+        suite.delete(Topics.replay("m", "0a1b2c3d"));
+
+        awaitStatus("m", State.FAILED, 1);
+        assertThat(suite.status("m").reason()).isEqualTo("its topic was deleted while it was played");
+        await().untilAsserted(() -> assertThat(played("m", "0", "end"))
+                .as("on the topic made again")
+                .hasSize(3));
+        ReplayStatus other = suite.status("other");
+        assertThat(other.state()).isEqualTo(State.RUNNING);
+        assertThat(other.progress().slipMillis()).isZero();
+        suite.want(wanted("other", ReplayCommand.MAX, State.RUNNING, 2));
+        awaitStatus("other", State.ENDED, 2);
+        await().untilAsserted(() -> assertThat(numbers("other")).isEqualTo(all(400)));
+    }
+
+    @Tag("full")
+    @Test
     void waitsForMongoAndFailsWhatIsUnknown() throws Exception {
         suite.store("m", 400, 100);
         suite.run(null, "--parallelism", "1", "--page-events", "20");

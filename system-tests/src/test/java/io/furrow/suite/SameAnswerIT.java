@@ -20,6 +20,7 @@ import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
 
 import io.furrow.launcher.suite.Suite;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -82,9 +83,27 @@ class SameAnswerIT {
                     // windows and encounters that the live run left open close as its event time goes on
                     await().atMost(TIMEOUT)
                             .untilAsserted(() -> assertSame(
-                                    topic, answers(running, result), answers(running, Topics.resultOf(topic, result))));
+                                    topic,
+                                    answers(running, result, 0),
+                                    answers(running, Topics.resultOf(topic, result), 0)));
                 }
             }
+            findsTheSameAgainAfterASeek(running, topics.get(2));
+        }
+    }
+
+    /** From its end back to its first event: an epoch whose results are by themselves. */
+    private static void findsTheSameAgainAfterASeek(RunningSuite running, String topic) throws Exception {
+        String path = "/api/replays/weeding" + topic.substring(topic.lastIndexOf('.'));
+        JsonNode replay = send(running.suite(), "GET", path, "");
+        long first = replay.at("/status/progress/from").asLong();
+        send(running.suite(), "POST", path + "/seek", "{\"to\":" + first + "}");
+        for (String result : RESULTS) {
+            await().atMost(TIMEOUT)
+                    .untilAsserted(() -> assertSame(
+                            topic + " after a seek",
+                            answers(running, result, 0),
+                            answers(running, Topics.resultOf(topic, result), 1)));
         }
     }
 
@@ -115,15 +134,23 @@ class SameAnswerIT {
         return answer.path("topic").asText();
     }
 
-    /** Timestamp, key and attributes of each result, in any order. */
-    private static Set<String> answers(RunningSuite running, String topic) {
+    /** Original timestamp, key and attributes of each result of an epoch, in any order. */
+    private static Set<String> answers(RunningSuite running, String topic, int epoch) {
         try (TopicLog log = running.topic(topic)) {
             Set<String> answers = new TreeSet<>();
             for (ConsumerRecord<byte[], byte[]> record : log.records()) {
+                Map<String, String> headers = TopicLog.headers(record);
+                if (!headers.getOrDefault(HeaderNames.REPLAY_EPOCH, "0").equals(Integer.toString(epoch))) {
+                    continue;
+                }
                 Map<String, Object> entity =
                         NgsiJson.mapper().convertValue(entity(record), new TypeReference<TreeMap<String, Object>>() {});
                 String key = new String(record.key(), StandardCharsets.UTF_8);
-                answers.add(record.timestamp() + " " + key + " " + entity);
+                if (epoch > 0) { // of encounters and stays
+                    entity.computeIfPresent("id", (name, id) -> id.toString().replaceFirst(":" + epoch + "$", ""));
+                }
+                long offset = Long.parseLong(headers.getOrDefault(HeaderNames.REPLAY_OFFSET, "0"));
+                answers.add(record.timestamp() - offset + " " + key + " " + entity);
             }
             return answers;
         }

@@ -63,7 +63,9 @@ final class ReplayBench implements Callable<Integer> {
     @Option(names = "--max", description = "One replay at speed max.")
     private boolean max;
 
-    @Option(names = "--memory", description = "One replay at speed max, with the heap that it holds.")
+    @Option(
+            names = "--memory",
+            description = "The heap that one replay at speed max holds, or with --many so many at speed 1.")
     private boolean memory;
 
     @Option(names = "--seek", description = "Seeks in a stored mission, without the job.")
@@ -153,15 +155,17 @@ final class ReplayBench implements Callable<Integer> {
         if (timing || !any) {
             complete &= new TimingMeasurement(cluster, plan, 1, TIMED_PER_SECOND, this::say).run(this::show);
         }
-        if (many > 0) {
+        if (many > 0 && !memory) {
             complete &= new TimingMeasurement(cluster, plan, many, MANY_PER_SECOND, this::say).run(this::show);
         }
         if (max) {
             complete &= new MaxMeasurement(cluster, plan, events, this::say).run(this::show);
         }
         if (memory) {
-            say("held at most: %,d MiB"
-                    .formatted(new MaxMeasurement(cluster, plan, events, this::say).heldWhilePlayed()));
+            long held = many > 0
+                    ? new TimingMeasurement(cluster, plan, many, MANY_PER_SECOND, this::say).heldWhilePlayed()
+                    : new MaxMeasurement(cluster, plan, events, this::say).heldWhilePlayed();
+            say("held at most: %,d MiB".formatted(held));
         }
         return complete;
     }

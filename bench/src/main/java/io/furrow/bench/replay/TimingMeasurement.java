@@ -53,9 +53,7 @@ public final class TimingMeasurement {
 
     /** @return whether every event was written */
     public boolean run(Consumer<Figures> out) throws Exception {
-        try (MongoClient client = MongoClients.create(cluster.mongo())) {
-            missions.forEach(mission -> mission.store(client));
-        }
+        store();
         List<Turn> turns = new ArrayList<>();
         for (int turn = 0; turn <= plan.turns(); turn++) {
             Turn measured = turn(turn);
@@ -71,6 +69,23 @@ public final class TimingMeasurement {
         out.accept(figures(turns));
         return turns.stream()
                 .allMatch(turn -> turn.replay().missing() == 0 && turn.bare().missing() == 0);
+    }
+
+    /** Plays them once. @return heap in use after collections while they were played, less than before, MiB at most */
+    public long heldWhilePlayed() throws Exception {
+        store();
+        try (HeldHeap heap = HeldHeap.start(progress)) {
+            List<WantedReplay> wanted = wanted(0, Long.MAX_VALUE, null);
+            cluster.want(wanted);
+            cluster.awaitEnd(wanted);
+            return heap.most();
+        }
+    }
+
+    private void store() {
+        try (MongoClient client = MongoClients.create(cluster.mongo())) {
+            missions.forEach(mission -> mission.store(client));
+        }
     }
 
     private Turn turn(int number) throws Exception {

@@ -18,8 +18,8 @@ import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 import io.furrow.cli.KafkaClient;
+import io.furrow.cli.compare.report.ComparisonHtml;
 import io.furrow.cli.compare.report.ComparisonJson;
-import io.furrow.cli.compare.report.ComparisonSvg;
 import io.furrow.cli.compare.report.ComparisonTable;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.time.Instants;
@@ -112,8 +112,11 @@ public final class CompareCommand implements Callable<Integer> {
             description = "Most differences of each kind in the table. Default: ${DEFAULT-VALUE}.")
     private int limit;
 
-    @Option(names = "--svg", paramLabel = "FILE", description = "Also draw both over time into this file.")
-    private Path svg;
+    @Option(
+            names = "--html",
+            paramLabel = "FILE",
+            description = "Also draw both over time into this file, a page for any browser that loads nothing else.")
+    private Path html;
 
     @Override
     public Integer call() {
@@ -121,15 +124,15 @@ public final class CompareCommand implements Callable<Integer> {
         Properties client = KafkaClient.settings(kafka, kafkaProperties);
         try (ResultReader reader = new ResultReader(client)) {
             Comparison comparison = compare(reader, range);
-            if (svg != null) {
-                Files.writeString(svg, ComparisonSvg.of(comparison));
+            if (html != null) {
+                Files.writeString(html, ComparisonHtml.of(comparison));
             }
             print(comparison);
             return comparison.isSame() ? 0 : 1;
         } catch (UnreadableResultsException e) {
             spec.commandLine().getErr().println(e.getMessage());
         } catch (IOException e) {
-            spec.commandLine().getErr().println("cannot write: " + e.getMessage() + "; check --svg");
+            spec.commandLine().getErr().println("cannot write: " + e.getMessage() + "; check --html");
         }
         return spec.exitCodeOnExecutionException();
     }

@@ -100,7 +100,7 @@ class CompareCommandIT {
     @Test
     void comparesAReplayWithWhatWasFoundLive() throws Exception {
         StringWriter said = new StringWriter();
-        Path svg = folder.resolve("picture.svg");
+        Path html = folder.resolve("picture.html");
 
         assertThat(run(
                         said,
@@ -110,12 +110,12 @@ class CompareCommandIT {
                         "2026-05-01T01:40:00Z",
                         "--to",
                         "1777700000000",
-                        "--svg",
-                        svg.toString()))
+                        "--html",
+                        html.toString()))
                 .isZero();
 
         assertThat(said.toString()).contains("1 same", "A and B are the same.");
-        assertThat(Files.readString(svg)).startsWith("<svg ").endsWith("</svg>\n");
+        assertThat(Files.readString(html)).startsWith("<!doctype html>").doesNotContain("{{");
     }
 
     @Test

@@ -1,17 +1,14 @@
 package io.furrow.cli.compare;
 
-import java.io.StringReader;
-import java.util.List;
-import javax.xml.parsers.DocumentBuilderFactory;
+import java.nio.charset.StandardCharsets;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
-import org.w3c.dom.Document;
-import org.xml.sax.InputSource;
 
+import io.furrow.cli.compare.report.ComparisonHtml;
 import io.furrow.cli.compare.report.ComparisonJson;
-import io.furrow.cli.compare.report.ComparisonSvg;
 import io.furrow.cli.compare.report.ComparisonTable;
+import io.furrow.model.ngsi.NgsiJson;
 
 import static io.furrow.cli.compare.FoundRecords.T0;
 import static io.furrow.cli.compare.FoundRecords.average;
@@ -82,32 +79,35 @@ class ComparisonFormsTest {
     }
 
     @Test
-    void drawsBothSidesOverTime() throws Exception {
-        Document svg = DocumentBuilderFactory.newInstance()
-                .newDocumentBuilder()
-                .parse(new InputSource(new StringReader(ComparisonSvg.of(DIFFERENT))));
+    void drawsBothSidesOverTimeInAPageThatLoadsNothing() throws Exception {
+        String html = ComparisonHtml.of(DIFFERENT);
 
-        assertThat(styles(svg, "rect"))
-                .containsSubsequence("lane", "a", "gap", "lane", "a", "b")
-                .contains("mark", "same");
-        assertThat(styles(svg, "path")).containsExactly("curve la", "curve lb");
+        assertThat(html).contains("uPlot=function", "Copyright").doesNotContain("{{", "<link", " src=", "import(");
+        JsonNode encounters = data(html).at("/kinds/0");
+        assertThat(encounters.at("/lanes").findValuesAsText("name")).containsExactly("< – &", "x – y");
+        assertThat(encounters.at("/lanes/0/matches/0/b").isNull()).isTrue();
+        assertThat(encounters.at("/lanes/1/matches/0/text").asText())
+                .isEqualTo("2026-05-01T01:46:40Z, 10 s, changed: closest 2 → 2.25 (+0.25), end 3 s earlier");
+        assertThat(data(html).at("/kinds/1/lanes/0/matches/0/b/mean").asDouble())
+                .isEqualTo(21.25);
+        assertThat(data(html).at("/kinds/2/lanes/0/matches/0/b").has("end")).isFalse();
+        assertThat(data(html).at("/from").asLong()).isEqualTo(T0);
+        assertThat(data(html).at("/to").asLong()).isEqualTo(T0 + 61_000);
     }
 
     @Test
     void drawsWhereNothingWasFound() throws Exception {
-        String svg = ComparisonSvg.of(Comparison.of(side("a"), side("b"), TimeRange.ALL));
+        JsonNode data = data(ComparisonHtml.of(Comparison.of(side("a"), side("</script>"), TimeRange.ALL)));
 
-        assertThat(svg).contains("Analytics found the same in both.").doesNotContain("NaN");
+        assertThat(data.at("/same").asBoolean()).isTrue();
+        assertThat(data.at("/b").asText()).isEqualTo("</script>");
+        assertThat(data.at("/kinds")).isEmpty();
     }
 
-    private static List<String> styles(Document svg, String element) {
-        return java.util.stream.IntStream.range(
-                        0, svg.getElementsByTagName(element).getLength())
-                .mapToObj(i -> svg.getElementsByTagName(element)
-                        .item(i)
-                        .getAttributes()
-                        .getNamedItem("class")
-                        .getNodeValue())
-                .toList();
+    private static JsonNode data(String html) throws Exception {
+        String before = "<script id=\"data\" type=\"application/json\">";
+        int begin = html.indexOf(before) + before.length();
+        return NgsiJson.read(
+                html.substring(begin, html.indexOf("</script>", begin)).getBytes(StandardCharsets.UTF_8));
     }
 }

@@ -3,6 +3,7 @@ package io.furrow.replay.source;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
+import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.CopyOnWriteArrayList;
 import java.util.concurrent.CountDownLatch;
@@ -21,14 +22,14 @@ import io.furrow.mission.Skipped;
 import io.furrow.mission.Span;
 import io.furrow.mission.StoredEvent;
 
-/** Missions in memory; {@code away} cannot be read until it is back, {@code stuck} never answers. */
+/** Missions in memory; one that is away cannot be read until it is back, {@code stuck} never answers. */
 final class MemoryRecordings implements Recordings {
     private static final long serialVersionUID = 1L;
 
     private final transient Map<String, List<StoredEvent>> missions = new ConcurrentHashMap<>();
     private final transient AtomicInteger open = new AtomicInteger();
     private final transient AtomicInteger held = new AtomicInteger();
-    private volatile boolean away;
+    private final transient Set<String> away = ConcurrentHashMap.newKeySet();
     private volatile boolean holding;
 
     /** Events of the entity {@code urn:x} at these times. */
@@ -51,8 +52,18 @@ final class MemoryRecordings implements Recordings {
         }
     }
 
-    void setAway(boolean isAway) {
-        away = isAway;
+    void setAway(String mission, boolean isAway) {
+        if (isAway) {
+            away.add(mission);
+        } else {
+            away.remove(mission);
+        }
+    }
+
+    private void requireThere(String mission) throws RecordingException {
+        if (away.contains(mission)) {
+            throw new RecordingException("the store is away");
+        }
     }
 
     /** Whether whoever begins to read a mission from its beginning does so until he is interrupted. */
@@ -92,16 +103,16 @@ final class MemoryRecordings implements Recordings {
                 }
             }
         }
-        if (away) {
-            throw new RecordingException("the store is away");
-        }
-        return Optional.ofNullable(missions.get(mission)).map(InMemory::new);
+        requireThere(mission);
+        return Optional.ofNullable(missions.get(mission)).map(events -> new InMemory(mission, events));
     }
 
     private final class InMemory implements Recording {
+        private final String mission;
         private final List<StoredEvent> events;
 
-        InMemory(List<StoredEvent> events) {
+        InMemory(String mission, List<StoredEvent> events) {
+            this.mission = mission;
             this.events = events;
             open.incrementAndGet();
         }
@@ -116,9 +127,7 @@ final class MemoryRecordings implements Recordings {
 
         @Override
         public Page read(Cursor after, PageLimits limits) throws RecordingException {
-            if (away) {
-                throw new RecordingException("the store is away");
-            }
+            requireThere(mission);
             if (holding && after.equals(Cursor.START)) {
                 hold();
             }

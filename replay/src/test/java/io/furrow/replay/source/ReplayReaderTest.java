@@ -4,7 +4,9 @@ import java.nio.charset.StandardCharsets;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicLong;
 import java.util.function.BooleanSupplier;
+import java.util.stream.LongStream;
 
 import org.apache.flink.api.connector.source.ReaderOutput;
 import org.apache.flink.core.io.InputStatus;
@@ -37,11 +39,12 @@ class ReplayReaderTest {
     private final List<TopicRecord> records = new ArrayList<>();
     private final List<Long> times = new ArrayList<>();
     private final OnePartition topics = new OnePartition();
-    private ReplayReader reader = newReader();
+    private final AtomicLong ahead = new AtomicLong();
+    private ReplayReader reader = newReader(ReplayClock.SYSTEM);
 
-    private ReplayReader newReader() {
-        ReplayReader fresh = new ReplayReader(
-                context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, ReplayClock.SYSTEM);
+    private ReplayReader newReader(ReplayClock clock) {
+        ReplayReader fresh =
+                new ReplayReader(context, RecordingSources.of(missions), new PageLimits(2, 1_000), topics, clock);
         fresh.start();
         return fresh;
     }
@@ -144,17 +147,53 @@ class ReplayReaderTest {
 
     @Test
     void saysThatItWaitsForARecordingAndGoesOn() throws Exception {
-        missions.with("m", TIME, TIME + 1, TIME + 2).setAway(true);
+        missions.with("m", TIME, TIME + 1, TIME + 2).setAway("m", true);
         start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
         playUntil(() -> status("m") != null && status("m").progress().waiting() != null);
         assertThat(status("m").state()).isEqualTo(State.RUNNING);
         assertThat(status("m").progress().waiting()).isEqualTo("the store is away");
 
-        missions.setAway(false);
+        missions.setAway("m", false);
         play("m", "end", 1);
 
         assertThat(played("m", "event")).hasSize(3);
         assertThat(status("m").progress().waiting()).isNull();
+    }
+
+    @Test
+    void goesOnWhereItStoodAfterHalfAMinuteWithoutItsRecordingAndHoldsUpNoOther() throws Exception {
+        reader.close();
+        reader = newReader(new ReplayClock(() -> System.nanoTime() + ahead.get()));
+        missions.with("m", every100Millis(8)).with("other", every100Millis(400));
+        start(wanted("m", 1, State.RUNNING, 1));
+        start(wanted("other", 1, State.RUNNING, 1));
+        playUntil(() -> !played("m", "event").isEmpty());
+
+        long began = System.nanoTime();
+        missions.setAway("m", true);
+        playUntil(() -> status("m").progress().waiting() != null);
+        for (int step = 0; step < 300; step++) {
+            int others = played("other", "event").size();
+            ahead.addAndGet(TimeUnit.MILLISECONDS.toNanos(100));
+            playUntil(() -> played("other", "event").size() > others);
+        }
+        assertThat(status("m").progress().waiting()).isEqualTo("the store is away");
+        assertThat(status("m").state()).isEqualTo(State.RUNNING);
+        assertThat(played("m", "event")).as("what had been read").hasSizeLessThanOrEqualTo(4);
+        assertThat(status("other").progress().slipMillis()).isZero();
+
+        missions.setAway("m", false);
+        playUntil(() -> status("m").progress().waiting() == null);
+        playUntil(() -> !played("m", "end").isEmpty());
+        assertThat(played("m", "event"))
+                .extracting(TopicRecord::timestamp)
+                .containsExactly(LongStream.of(every100Millis(8)).boxed().toArray(Long[]::new));
+        assertThat(status("m").progress().slipMillis())
+                .isBetween(29_000L, 31_000L + TimeUnit.NANOSECONDS.toMillis(System.nanoTime() - began));
+    }
+
+    private static long[] every100Millis(int count) {
+        return LongStream.range(0, count).map(i -> TIME + 100 * i).toArray();
     }
 
     @Test
@@ -250,11 +289,11 @@ class ReplayReaderTest {
         start(running);
         play("m", "end", 1);
         await().until(() -> missions.open() == 0);
-        missions.setAway(true);
+        missions.setAway("m", true);
         wish(running.wanted(State.PAUSED, 2).stepping(-1, 2));
         playUntil(() -> status("m").progress().waiting() != null);
         wish(running.wanted(State.RUNNING, 3));
-        missions.setAway(false);
+        missions.setAway("m", false);
 
         playUntil(() -> status("m").sequence() == 3 && status("m").progress().waiting() == null);
         await().until(() -> missions.open() == 0);
@@ -375,7 +414,7 @@ class ReplayReaderTest {
             splits.add(serializer.deserialize(serializer.getVersion(), serializer.serialize(split)));
         }
         reader.close();
-        reader = newReader();
+        reader = newReader(ReplayClock.SYSTEM);
         reader.addSplits(splits);
     }
 

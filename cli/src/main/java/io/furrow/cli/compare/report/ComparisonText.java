@@ -9,6 +9,7 @@ import java.util.TreeSet;
 import io.furrow.cli.compare.Average;
 import io.furrow.cli.compare.Change;
 import io.furrow.cli.compare.Encounter;
+import io.furrow.cli.compare.Match;
 import io.furrow.cli.compare.Span;
 
 /** Values of results as people read them. */
@@ -55,6 +56,21 @@ final class ComparisonText {
         return change.a() instanceof Double a && change.b() instanceof Double b
                 ? text + String.format(Locale.ROOT, " (%s%s)", b > a ? "+" : "−", number(Math.abs(b - a)))
                 : text;
+    }
+
+    /** When, how long, on which side, and what. */
+    static String match(Match match) {
+        String what = match.verdict() == Match.Verdict.CHANGED
+                ? String.join(
+                        ", ",
+                        match.changes().stream().map(ComparisonText::change).toList())
+                : value(match.either());
+        return "%s, %s, %s%s"
+                .formatted(
+                        time(match.either().start()),
+                        length(match.either()),
+                        match.verdict().word(),
+                        what.isEmpty() ? "" : ": " + what);
     }
 
     private static String text(Object value) {
