@@ -6,7 +6,6 @@ import java.nio.file.Path;
 import java.security.SecureRandom;
 import java.util.Base64;
 import java.util.HexFormat;
-import java.util.List;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
@@ -27,9 +26,7 @@ import io.furrow.model.file.PrivateFile;
             "Only its owner may read it; one that is there already stays as it is."
         })
 public final class InitCommand implements Callable<Integer> {
-    /** Made of letters and digits alone, so that they need no quotes in a URI, a shell or a properties file. */
-    private static final List<String> PASSWORDS = List.of("MONGO_PASSWORD", "MQTT_PASSWORD", "ADMIN_TOKEN");
-
+    private static final SecureRandom RANDOM = new SecureRandom();
     private static final int SECRET_BYTES = 32;
     private static final int PASSWORD_BYTES = 24;
 
@@ -63,19 +60,24 @@ public final class InitCommand implements Callable<Integer> {
         return 0;
     }
 
+    /** Passwords are of digits and letters alone, so that they need no quotes in a URI. */
     private static String variables() {
-        SecureRandom random = new SecureRandom();
-        StringBuilder text = new StringBuilder(
-                "FARM_SECRET=%s%n".formatted(Base64.getEncoder().encodeToString(bytes(random, SECRET_BYTES))));
-        for (String password : PASSWORDS) {
-            text.append("%s=%s%n".formatted(password, HexFormat.of().formatHex(bytes(random, PASSWORD_BYTES))));
-        }
-        return text.toString();
+        return """
+                FARM_SECRET=%s
+                MONGO_PASSWORD=%s
+                MQTT_PASSWORD=%s
+                API_TOKENS="admin %s admin"
+                """.formatted(
+                        Base64.getEncoder().encodeToString(bytes(SECRET_BYTES)), password(), password(), password());
     }
 
-    private static byte[] bytes(SecureRandom random, int count) {
+    private static String password() {
+        return HexFormat.of().formatHex(bytes(PASSWORD_BYTES));
+    }
+
+    private static byte[] bytes(int count) {
         byte[] bytes = new byte[count];
-        random.nextBytes(bytes);
+        RANDOM.nextBytes(bytes);
         return bytes;
     }
 }

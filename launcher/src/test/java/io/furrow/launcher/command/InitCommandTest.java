@@ -32,10 +32,12 @@ class InitCommandTest {
 
         assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(file)))
                 .isEqualTo("rw-------");
-        assertThat(Files.readString(file))
-                .matches(
-                        "FARM_SECRET=[A-Za-z0-9+/]{43}=\nMONGO_PASSWORD=\\p{XDigit}{48}\nMQTT_PASSWORD=\\p{XDigit}{48}\n"
-                                + "ADMIN_TOKEN=\\p{XDigit}{48}\n");
+        assertThat(Files.readString(file)).matches("""
+                FARM_SECRET=[A-Za-z0-9+/]{43}=
+                MONGO_PASSWORD=\\p{XDigit}{48}
+                MQTT_PASSWORD=\\p{XDigit}{48}
+                API_TOKENS="admin \\p{XDigit}{48} admin"
+                """);
         assertThat(Files.readAllLines(file).stream().map(line -> line.replaceFirst("^\\w+=", "")))
                 .doesNotHaveDuplicates();
     }
