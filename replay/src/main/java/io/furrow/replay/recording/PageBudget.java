@@ -5,12 +5,12 @@ import io.furrow.replay.playback.ReadyEvent;
 import io.furrow.replay.playback.ReadyPage;
 
 /**
- * Bounds the heap that pages of events take of all replays of a reader together: {@value #BYTES} bytes, and {@value #LEAST} for each
+ * Bounds the heap that pages of events take of all replays of a reader together: {@value #BYTES} bytes, and {@value #MIN_PAGE_BYTES} for each
  * page beyond, or one event if that is larger. The more is held, the smaller the next page. Safe from all threads.
  */
 public final class PageBudget {
     static final long BYTES = 64 * 1024 * 1024;
-    static final long LEAST = 128 * 1024;
+    static final long MIN_PAGE_BYTES = 128 * 1024;
     /** Of what is free a page takes this part: others come at the same time. */
     private static final int SHARE = 4;
     /** Bytes that an event takes beside its value: its key, its headers and its objects. */
@@ -29,7 +29,7 @@ public final class PageBudget {
     }
 
     private synchronized long reserve() {
-        long bytes = Math.max(LEAST, (BYTES - held) / SHARE);
+        long bytes = Math.max(MIN_PAGE_BYTES, (BYTES - held) / SHARE);
         held += bytes;
         return bytes;
     }

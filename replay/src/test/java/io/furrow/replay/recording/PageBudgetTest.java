@@ -19,7 +19,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 class PageBudgetTest {
     private static final int REPLAYS = 256;
     private static final PageLimits MAX = new PageLimits(1_000, 4 * 1024 * 1024);
-    private static final long BOUND = PageBudget.BYTES + 2 * REPLAYS * PageBudget.LEAST;
+    private static final long BOUND = PageBudget.BYTES + 2 * REPLAYS * PageBudget.MIN_PAGE_BYTES;
 
     private final PageBudget budget = new PageBudget(MAX);
 
