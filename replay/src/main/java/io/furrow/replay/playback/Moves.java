@@ -95,6 +95,14 @@ final class Moves {
         return next.done();
     }
 
+    /** Nothing that is played lies between the cursor and this event time, epoch ms. */
+    static PlaybackState before(PlaybackState s, long time) {
+        Moves next = new Moves(s);
+        Cursor before = Cursor.before(time);
+        next.cursor = s.cursor().compareTo(before) < 0 ? before : s.cursor();
+        return next.done();
+    }
+
     /** @param goal null for none */
     static PlaybackState towards(PlaybackState s, Cursor goal) {
         Moves next = new Moves(s);

@@ -341,7 +341,9 @@ public final class Playback {
 
     /** With which it continues after a restart. */
     public PlaybackState snapshot(long now) {
-        return Moves.at(at, position(now));
+        ReadyEvent next = at.phase() == Phase.PLAYING ? next() : null;
+        PlaybackState state = Moves.at(at, position(now));
+        return next == null ? state : Moves.before(state, next.time());
     }
 
     public WantedReplay wanted() {
@@ -386,13 +388,12 @@ public final class Playback {
      * @param rate events per second since the last
      */
     public ReplayStatus status(long now, long worst, double rate) {
-        long position = waiting == null ? position(now) : at.position();
         return new ReplayStatus(
                 at.sequence(),
                 state(),
                 at.reason(),
                 false,
-                at.progress(position, worst, schedule.slip(), rate, awaited(now)));
+                at.progress(position(now), worst, schedule.slip(), rate, awaited(now)));
     }
 
     /** Whether it reads what it has to know before an epoch can begin. */

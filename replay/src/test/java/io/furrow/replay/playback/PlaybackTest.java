@@ -44,6 +44,28 @@ class PlaybackTest {
         assertThat(playback.poll(1_200)).map(one -> one.event().id()).contains("b");
     }
 
+    /** Else a replay of a device that seldom reports would read hours again after a restart. */
+    @Test
+    void goesOnBehindWhatIsLeftOutAndShowsWhereItIsWhileTheRecordingIsAway() {
+        WantedReplay wanted = Wishes.start(1);
+        Playback playback = new Playback(wanted, PlaybackState.fresh(), 0, Wishes::wall);
+        playback.fetch();
+        playback.take(new Fetched.Opened(0, Optional.of(new Span(FIRST.time(), NEXT.time()))), 0);
+        playback.fetch();
+        playback.take(new Fetched.Begun(0, List.of(), page(FIRST, wanted, false)), 0);
+        playback.poll(0);
+        playback.fetch();
+        assertThat(playback.snapshot(0).cursor()).isEqualTo(Cursor.after(FIRST));
+        playback.take(new Fetched.More(0, page(NEXT, wanted, false)), 0);
+        playback.fetch();
+        playback.take(new Fetched.Waiting(0, "away"), 400);
+
+        assertThat(playback.snapshot(500).cursor()).isEqualTo(Cursor.before(NEXT.time()));
+        assertThat(playback.status(500, 0, 0).progress().position()).isEqualTo(FIRST.time() + 500);
+        assertThat(playback.poll(1_000)).isPresent();
+        assertThat(playback.snapshot(1_000).cursor()).isEqualTo(Cursor.after(NEXT));
+    }
+
     @Test
     void readsNothingBehindItsEnd() {
         ReplayPlan plan = new ReplayPlan(
