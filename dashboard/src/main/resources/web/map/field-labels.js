@@ -165,9 +165,11 @@ function beside(area, text, isFree) {
   if (right - left < LEAST || bottom - top < LEAST || !isShown(area.box, area)) {
     return null;
   }
-  const x = Math.max(8, Math.min(frame.width - 8 - text.width, (left + right - text.width) / 2));
+  const columns = [(left + right - text.width) / 2, left, right - text.width].map((x) => Math.max(8, Math.min(frame.width - 8 - text.width, x)));
   const y = (top + bottom - text.below + ABOVE) / 2;
-  const spots = [{ x, y: bottom + ABOVE + 4 }, { x, y: top - text.below - 4 }, { x: right + 8, y }, { x: left - 8 - text.width, y }];
+  const spots = [
+    ...columns.map((x) => ({ x, y: bottom + ABOVE + 4 })), ...columns.map((x) => ({ x, y: top - text.below - 4 })), { x: right + 8, y }, { x: left - 8 - text.width, y },
+  ];
   const spot = spots.find((each) => {
     const box = boxAt(each, text);
     return isShown(box, area) && isApart(box, area) && isFree(...box);
@@ -175,9 +177,9 @@ function beside(area, text, isFree) {
   return spot ? { ...spot, beside: true } : null;
 }
 
-/** Whether a box is in no other field. */
-function isApart([left, top, right, bottom], { ring, all }) {
-  return all.every(({ ring: other, box }) => other === ring || right < box[0] || left > box[2] || bottom < box[1] || top > box[3]);
+/** Whether a box is in no field. */
+function isApart([left, top, right, bottom], { all }) {
+  return all.every(({ box }) => right < box[0] || left > box[2] || bottom < box[1] || top > box[3]);
 }
 
 /** Stretches of a horizontal line that are inside a ring. */
