@@ -52,7 +52,7 @@ export class DeviceDrawing {
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
     standing.forEach((spot) => places.block(...symbolBox(spot)));
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
-    this.fieldLabels.draw(frame, palette, places, moving.map((spot) => ({ x: spot.x, y: spot.y, half: halfOf(spot) })), encounters);
+    this.fieldLabels.draw(frame, palette, places, moving.map(symbolBox), encounters);
     moving.forEach((spot) => places.block(...symbolBox(spot)));
     encounters.forEach((each) => drawEncounter(frame, each, palette, places));
     for (const each of clusters) {
@@ -184,13 +184,9 @@ function isRobot({ entity }) {
   return entity.kind === 'robot';
 }
 
-function halfOf({ entity }) {
-  return SIZE[shapeOf(entity)];
-}
-
-function symbolBox(spot) {
-  const half = halfOf(spot);
-  return [spot.x - half, spot.y - half, spot.x + half, spot.y + half];
+function symbolBox({ entity, x, y }) {
+  const half = SIZE[shapeOf(entity)];
+  return [x - half, y - half, x + half, y + half];
 }
 
 function dimmed(entity) {

@@ -4,13 +4,15 @@ import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { covers, isOver } from './encounters.js';
 import { boxOf, isFound } from './fields.js';
-import { drawText, widthOf } from './labels.js';
+import { LabelPlaces, drawText, widthOf } from './labels.js';
 
 /** From one place that is tried to the next, px. */
 const STEP = { x: 20, y: 6 };
 /** From the middle of the name to the upper and lower edge of the text, px. */
 const ABOVE = 9;
 const BELOW = { one: 9, two: 25 };
+/** A text that is not where it is said in full is placed anew after so many ms: to look everywhere takes time. */
+const SEARCH_PAUSE = 500;
 /** Px; on a narrower map texts are smaller and go nearer to the borders of fields. */
 const NARROW = 560;
 /** Px; a smaller field has no text beside it. */
@@ -27,7 +29,7 @@ export class FieldLabels {
 
   /**
    * @param {import('./labels.js').LabelPlaces} places of what stands still; the texts are added
-   * @param {{x: number, y: number, half: number}[]} moving symbols that move
+   * @param {number[][]} moving boxes of the symbols that move
    * @param {Object[]} encounters as they are drawn
    */
   draw(frame, palette, places, moving, encounters) {
@@ -39,8 +41,10 @@ export class FieldLabels {
     }
     const narrow = frame.width < NARROW;
     const fonts = { name: `600 ${narrow ? 13 : 14}px ${palette.family}`, line: `400 12px ${palette.family}` };
+    const driving = new LabelPlaces();
+    moving.forEach((box) => driving.block(...box));
     const isStill = (...box) => places.isFree(...box) && !encounters.some((each) => !isOver(each.encounter) && covers(each, ...box));
-    const isFree = (...box) => isStill(...box) && !encounters.some((each) => covers(each, ...box)) && !moving.some((each) => meets(each, box));
+    const isFree = (...box) => isStill(...box) && !encounters.some((each) => covers(each, ...box)) && driving.isFree(...box);
     const now = store.now();
     this.drawn = [];
     const all = this.fields.inView(frame).map(({ field, rings }) => ({ field, ring: rings[0], box: boxOf(rings[0]) }));
@@ -51,8 +55,7 @@ export class FieldLabels {
         context.font = fonts.line;
         return { line, name, below: line ? BELOW.two : BELOW.one, width: Math.max(name, widthOf(context, line)) };
       };
-      const others = all.filter((each) => each.ring !== ring).map((each) => each.box);
-      const place = this.placeOf(field.id, { ring, box, others, frame, margin: narrow ? 4 : 8 }, linesOf(field, now, narrow).map(measure), isFree, isStill);
+      const place = this.placeOf(field.id, { ring, box, all, frame, margin: narrow ? 4 : 8 }, linesOf(field, now, narrow).map(measure), isFree, isStill);
       if (place) {
         this.drawn.push({ id: field.id, line: place.line, box: boxAt(place, place) });
         drawLabel(context, field, place, fonts, palette, places);
@@ -62,27 +65,36 @@ export class FieldLabels {
   }
 
   placeOf(id, area, texts, isFree, isStill) {
-    const { ring } = area;
-    const said = texts.length > 1 ? texts.slice(0, -1) : texts;
+    const [x, y] = area.ring[0];
     const kept = this.kept.get(id);
-    const stays = kept && { x: ring[0][0] + kept.x, y: ring[0][1] + kept.y, beside: kept.beside };
-    const tries = [
-      [said, (text) => (stays && fits(area, stays, text, isFree) ? stays : inside(area, text, isFree))],
-      [said, (text) => beside(area, text, isFree)],
-      [texts.slice(-1), (text) => inside(area, text, isFree)],
-      [texts, (text) => inside(area, text, isStill)],
-    ];
-    for (const [candidates, find] of tries) {
-      for (const text of candidates) {
-        const spot = find(text);
-        if (spot) {
-          this.kept.set(id, { x: spot.x - ring[0][0], y: spot.y - ring[0][1], beside: spot.beside });
-          return { ...text, ...spot };
-        }
-      }
+    const stays = kept?.spot && { ...kept.spot, x: x + kept.spot.x, y: y + kept.spot.y };
+    const here = stays && texts.find((text) => fits(area, stays, text, isFree));
+    const now = performance.now();
+    if (kept && (here === texts[0] || now - kept.searched < SEARCH_PAUSE)) {
+      const text = here ?? (stays && texts.find((each) => fits(area, stays, each, isStill)));
+      return text ? { ...text, ...stays } : null;
     }
-    return null;
+    const found = search(area, texts, stays, isFree, isStill);
+    this.kept.set(id, { searched: now, spot: found && { x: found.x - x, y: found.y - y, beside: found.beside } });
+    return found;
   }
+}
+
+/** The longest text that has a place; the name alone only where nothing has one, and over what moves rather than not at all. */
+function search(area, texts, stays, isFree, isStill) {
+  const said = texts.length > 1 ? texts.slice(0, -1) : texts;
+  const within = (free) => (text) => (stays && fits(area, stays, text, free) ? stays : inside(area, text, free));
+  return first(said, within(isFree)) ?? first(said, (text) => beside(area, text, isFree)) ?? first(texts.slice(-1), within(isFree)) ?? first(texts, within(isStill));
+}
+
+function first(texts, find) {
+  for (const text of texts) {
+    const spot = find(text);
+    if (spot) {
+      return { ...text, ...spot };
+    }
+  }
+  return null;
 }
 
 /** What is written below the name, the longest first: where there is no room for it less, or nothing. */
@@ -114,10 +126,6 @@ function drawLabel(context, field, { x, y, line, name, width, beside: out }, fon
   }
 }
 
-function meets({ x, y, half }, [left, top, right, bottom]) {
-  return left < x + half && right > x - half && top < y + half && bottom > y - half;
-}
-
 function boxAt({ x, y }, { width, below }) {
   return [x - 4, y - ABOVE, x + width + 4, y + below];
 }
@@ -128,7 +136,7 @@ function isShown([left, top, right, bottom], { frame }) {
 
 function fits(area, spot, text, isFree) {
   const box = boxAt(spot, text);
-  const isWithin = spot.beside ? isApart(box, area.others)
+  const isWithin = spot.beside ? isApart(box, area)
     : [box[1], box[3]].every((y) => spansAt(area.ring, y).some(([left, right]) => left <= box[0] && right >= box[2]));
   return isWithin && isShown(box, area) && isFree(...box);
 }
@@ -153,22 +161,25 @@ function inside({ ring, box: [, top, , bottom], frame, margin }, { width, below 
 
 /** Below, above, right or left of an outline that is too small, where no other field is. */
 function beside(area, text, isFree) {
-  const { box: [left, top, right, bottom], others, frame } = area;
+  const { box: [left, top, right, bottom], frame } = area;
   if (right - left < LEAST || bottom - top < LEAST || !isShown(area.box, area)) {
     return null;
   }
-  const x = Math.max(8, Math.min(frame.width - 8 - text.width, (left + right - text.width) / 2));
+  const columns = [(left + right - text.width) / 2, left, right - text.width].map((x) => Math.max(8, Math.min(frame.width - 8 - text.width, x)));
   const y = (top + bottom - text.below + ABOVE) / 2;
-  const spots = [{ x, y: bottom + ABOVE + 4 }, { x, y: top - text.below - 4 }, { x: right + 8, y }, { x: left - 8 - text.width, y }];
+  const spots = [
+    ...columns.map((x) => ({ x, y: bottom + ABOVE + 4 })), ...columns.map((x) => ({ x, y: top - text.below - 4 })), { x: right + 8, y }, { x: left - 8 - text.width, y },
+  ];
   const spot = spots.find((each) => {
     const box = boxAt(each, text);
-    return isShown(box, area) && isApart(box, others) && isFree(...box);
+    return isShown(box, area) && isApart(box, area) && isFree(...box);
   });
   return spot ? { ...spot, beside: true } : null;
 }
 
-function isApart([left, top, right, bottom], boxes) {
-  return boxes.every((box) => right < box[0] || left > box[2] || bottom < box[1] || top > box[3]);
+/** Whether a box is in no field. */
+function isApart([left, top, right, bottom], { all }) {
+  return all.every(({ box }) => right < box[0] || left > box[2] || bottom < box[1] || top > box[3]);
 }
 
 /** Stretches of a horizontal line that are inside a ring. */

@@ -83,6 +83,24 @@ class TimelineIT {
         assertThat(number(length)).isBetween(29_900, 31_000);
     }
 
+    @Test
+    void knowsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        Object newest = farm.page().evaluate("""
+                async () => {
+                  const { LiveDensity } = await import('/timeline/live.js');
+                  const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+                  const density = new LiveDensity(() => {});
+                  await wait(density.width + 3000 - Date.now() % density.width); // some records are in it
+                  const start = Math.floor(Date.now() / density.width) * density.width;
+                  await density.ask(start);
+                  return density.counts.get(start);
+                }""");
+
+        assertThat(number(newest)).isPositive();
+    }
+
     private static int number(Object value) {
         return ((Number) value).intValue();
     }
