@@ -18,10 +18,10 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import org.yaml.snakeyaml.Yaml;
 
-/** {@code docker/compose.yaml} as Compose reads it, with its anchors resolved. */
+/** A compose file, by default {@code docker/compose.yaml}, as Compose reads it, with its anchors resolved. */
 final class ComposeFile {
     static final Path FOLDER = Path.of("..", "docker");
-    private static final Pattern VARIABLE = Pattern.compile("\\$\\{(\\w+)[^}]*}");
+    static final Pattern VARIABLE = Pattern.compile("\\$\\{(\\w+)[^}]*}");
 
     private final JsonNode root;
 
@@ -30,7 +30,11 @@ final class ComposeFile {
     }
 
     static ComposeFile read() throws IOException {
-        try (Reader reader = Files.newBufferedReader(FOLDER.resolve("compose.yaml"))) {
+        return read(FOLDER.resolve("compose.yaml"));
+    }
+
+    static ComposeFile read(Path file) throws IOException {
+        try (Reader reader = Files.newBufferedReader(file)) {
             return new ComposeFile(new ObjectMapper().valueToTree(new Yaml().load(reader)));
         }
     }
