@@ -3,8 +3,8 @@ import { api } from '../core/api.js';
 import { store } from '../core/store.js';
 
 export const LIVE_LENGTH = 15 * 60_000;
-/** As short as it may be where little came yet. */
-const SHORTEST = 60_000;
+/** As short as it may be where little came yet: some buckets. */
+const SHORTEST = 20_000;
 const WIDTH = 5_000;
 const TOPIC = 'data.raw';
 

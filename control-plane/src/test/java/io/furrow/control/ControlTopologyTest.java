@@ -364,7 +364,8 @@ class ControlTopologyTest {
         for (String outside : List.of("999", "9001")) {
             CommandResult refused = steer(whole, "'seek','to':" + outside);
             assertThat(refused.error()).as(outside).contains("wrong-member");
-            assertThat(refused.json().path("reason").asText()).containsAnyOf("at least 1000", "at most 9000");
+            assertThat(refused.json().path("reason").asText())
+                    .containsAnyOf("at least 1970-01-01T00:00:01Z", "at most 1970-01-01T00:00:09Z");
         }
         for (String outside : List.of("1999", "8000")) {
             assertThat(steer(part, "'seek','to':" + outside).error())

@@ -13,7 +13,7 @@ import io.furrow.flink.kafka.KafkaConnectors;
 import io.furrow.flink.kafka.KafkaOutput;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.topic.Topics;
-import io.furrow.replay.source.RecordingSources;
+import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.source.ReplaySource;
 import io.furrow.replay.topic.ReplayTopics;
 

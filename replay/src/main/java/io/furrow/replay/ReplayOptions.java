@@ -25,10 +25,10 @@ import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.time.Instants;
 import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
-import io.furrow.replay.source.JobRecordings;
-import io.furrow.replay.source.RecordingSources;
+import io.furrow.replay.recording.JobRecordings;
+import io.furrow.replay.recording.RecordingSources;
+import io.furrow.replay.recording.TopicHistories;
 import io.furrow.replay.source.ReplaysTopic;
-import io.furrow.replay.source.TopicHistories;
 import io.furrow.replay.source.WantedReplays;
 
 /** The options of the job {@code replay}. */
@@ -69,15 +69,17 @@ public final class ReplayOptions extends JobOptions {
             paramLabel = "N",
             defaultValue = "1000",
             description =
-                    "Events of a mission that are read at once; each replay holds two such pages at most. Default:"
-                            + " ${DEFAULT-VALUE}.")
+                    "Events of a mission that are read at once at most; each replay holds two such pages. A replay that is not at"
+                            + " speed max reads as many as it plays in two seconds, 32 at least. Default: ${DEFAULT-VALUE}.")
     private int pageEvents;
 
     @Option(
             names = "--page-bytes",
             paramLabel = "N",
             defaultValue = "4194304",
-            description = "About how many bytes of events are read at once. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "About how many bytes of events are read at once at most; fewer where the replays of a reader hold"
+                            + " some 64 MiB of heap together. Default: ${DEFAULT-VALUE}.")
     private int pageBytes;
 
     @Option(

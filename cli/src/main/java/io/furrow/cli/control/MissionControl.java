@@ -148,7 +148,7 @@ public class MissionControl extends CommandGroup {
 
     @Command(name = "stop", description = "Stops a mission.")
     int stop(@Mixin ControlOptions control, @Parameters(paramLabel = "MISSION", description = NAME) String mission) {
-        return control.command("POST", MISSIONS + ControlApi.part(mission) + "/stop", null);
+        return control.commandDone("POST", MISSIONS + ControlApi.part(mission) + "/stop", "stopped");
     }
 
     @Command(name = "delete", description = "Deletes a mission that does not run. What was kept of it stays.")

@@ -31,8 +31,7 @@ public final class ReplayCommand extends CommandGroup {
                 new ControlTable("There is no replay; ./furrow replay start MISSION asks for one.")
                         .text("REPLAY", "/replay")
                         .text("GROUP", "/group")
-                        .text("WANTED", "/wanted")
-                        .text("STATE", "/status/state")
+                        .text("STATE", ReplayView::listed)
                         .text("SPEED", "/speed")
                         .time("POSITION", "/status/progress/position")
                         .text("TOPIC", "/topic")
@@ -92,7 +91,7 @@ public final class ReplayCommand extends CommandGroup {
     @Command(name = "stop", description = "Ends a replay.")
     int stop(@Mixin ControlOptions control, @Mixin ReplayTarget target) {
         target.words(control, 0, 0, "nothing");
-        return control.command("DELETE", target.path(control), null);
+        return control.commandDone("DELETE", target.path(control), "stopped");
     }
 
     @Command(name = "pause", description = "Holds a replay.")

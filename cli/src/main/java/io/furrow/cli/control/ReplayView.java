@@ -7,10 +7,12 @@ import java.util.List;
 import java.util.Locale;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.TextNode;
 
 /** A replay as lines of text, none wider than the terminal. */
 final class ReplayView {
     private static final int WIDEST_BAR = 60;
+    private static final List<String> OVER = List.of("ended", "stopped", "failed");
     private static final String HELP =
             "space pause  ←/→ 10 s  [/] 1 min  ./, step  +/- speed  l loop  m marker  q quit";
 
@@ -44,6 +46,15 @@ final class ReplayView {
                         times(replay),
                         counts(progress),
                         reason.isEmpty() ? "" : "  " + reason);
+    }
+
+    /** What it does, and what was asked of it if that is something else. */
+    static JsonNode listed(JsonNode replay) {
+        String state = replay.at("/status/state").asText("not begun");
+        String wanted = replay.path("wanted").asText(state);
+        boolean settled =
+                state.equals(wanted) || OVER.contains(state) || state.equals("not begun") && wanted.equals("running");
+        return TextNode.valueOf(settled ? state : "%s, %s is requested".formatted(state, wanted));
     }
 
     private static String state(JsonNode replay) {

@@ -112,7 +112,7 @@ class ControlCommandsIT {
         assertThat(run("mission", "watch", "weeding", "--until", "running")).contains("running", "0/0 devices");
         assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");
         assertThat(refused("mission", "start", "weeding")).contains("mission-running");
-        run("mission", "stop", "weeding");
+        assertThat(run("mission", "stop", "weeding")).contains("stopped: mission weeding");
         assertThat(run("mission", "watch", "weeding")).contains("stopped");
         assertThat(run("mission", "delete", "weeding")).contains("deleted: mission weeding");
         assertThat(refused("mission", "stop", "weeding")).contains("there is no mission 'weeding'", "unknown-mission");
@@ -163,7 +163,7 @@ class ControlCommandsIT {
         assertThat(run("replay", "speed", replay, "max")).contains(replay);
         assertThat(run("replay", "resume", replay)).contains("running");
         assertThat(refused("replay", "speed", replay, "fast")).contains("speed", "wrong-member");
-        assertThat(run("replay", "stop", replay)).contains("deleted: replay " + replay);
+        assertThat(run("replay", "stop", replay)).contains("stopped: replay " + replay);
     }
 
     @Test

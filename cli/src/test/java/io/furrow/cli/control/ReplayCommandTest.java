@@ -71,6 +71,34 @@ class ReplayCommandTest {
         assertThat(asked).containsExactly(request);
     }
 
+    @ParameterizedTest
+    @CsvSource(delimiter = '|', textBlock = """
+            running | "state":"running"          | running
+            running | "state":"ended"            | ended
+            paused  | "state":"running"          | running, paused is requested
+            stopped | "state":"paused"           | paused, stopped is requested
+            running | "state":"failed"           | failed
+            running |                            | not begun
+            paused  |                            | not begun, paused is requested
+            """)
+    void listsWhatAReplayDoesAndWhatElseIsRequested(String wanted, String status, String shown) {
+        answer = "{\"replays\":[{\"replay\":\"m.0a1b2c3d\",\"wanted\":\"%s\",\"status\":{%s}}]}"
+                .formatted(wanted, status == null ? "" : status);
+
+        run("replay", "list");
+
+        assertThat(said.toString()).containsPattern("m\\.0a1b2c3d  –      " + shown + " +–");
+    }
+
+    @Test
+    void saysThatItStopped() {
+        answer = "{\"type\":\"response\",\"status\":\"deleted\",\"replay\":\"m.0a1b2c3d\"}";
+
+        run("replay", "stop", "m.0a1b2c3d");
+
+        assertThat(said.toString()).isEqualToIgnoringNewLines("stopped: replay m.0a1b2c3d");
+    }
+
     @Test
     void loopsBetweenTwoTimes() {
         run("replay", "loop", "m.0a1b2c3d", "2026-05-01T00:00:00Z", "1777600000000");

@@ -1,5 +1,6 @@
 package io.furrow.control.replay;
 
+import java.time.Instant;
 import java.util.List;
 import java.util.function.Function;
 import java.util.stream.LongStream;
@@ -59,8 +60,10 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
             throw new RefusedException(
                     ErrorCode.WRONG_MEMBER,
                     time < begin
-                            ? "'to' must be at least %d, where %s begins".formatted(begin, replay.replay())
-                            : "'to' must be at most %d, where %s ends".formatted(end, replay.replay()));
+                            ? "'to' must be at least %s, where replay '%s' begins; choose that or a later time"
+                                    .formatted(Instant.ofEpochMilli(begin), replay.replay())
+                            : "'to' must be at most %s, where replay '%s' ends; choose that or an earlier time"
+                                    .formatted(Instant.ofEpochMilli(end), replay.replay()));
         }
     }
 

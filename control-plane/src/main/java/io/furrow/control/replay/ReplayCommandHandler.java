@@ -153,7 +153,8 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         if (from >= to || to <= 0 || from >= LAST_TIME) {
             throw new RefusedException(
                     ErrorCode.WRONG_MEMBER,
-                    "'from' must be before the end of what is played: it is %d, and that is %d".formatted(from, to));
+                    "'from' must be before the end of what is played: it is %s, and that is %s"
+                            .formatted(Instant.ofEpochMilli(from), Instant.ofEpochMilli(to)));
         }
         return plan.between(Math.max(0, from), Math.min(to, LAST_TIME));
     }

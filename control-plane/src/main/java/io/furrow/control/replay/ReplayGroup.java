@@ -1,5 +1,6 @@
 package io.furrow.control.replay;
 
+import java.time.Instant;
 import java.util.List;
 import java.util.function.UnaryOperator;
 
@@ -50,8 +51,8 @@ final class ReplayGroup {
         } else if (steering instanceof Speed speed && speed.speed() == ReplayCommand.MAX) {
             throw wrong("'speed' must be a number from 0.1 to 1000: a group follows a clock");
         } else if (steering instanceof Seek seek && !isWithin(seek.to().toEpochMilli())) {
-            throw wrong("'to' must be at least %d and before %d, as what the group plays"
-                    .formatted(one.from(one.plan().from()), one.to()));
+            throw wrong("'to' must be at least %s and before %s, as what the group plays"
+                    .formatted(time(one.from(one.plan().from())), time(one.to())));
         } else if (steering instanceof Loop loop) {
             checkRange(one, loop.range());
         }
@@ -67,13 +68,17 @@ final class ReplayGroup {
         long from = replay.plan().from();
         long to = replay.plan().to();
         if (range != null && (range.from() >= to || range.to() <= from)) {
-            throw wrong("'from' and 'to' must have something in common with what the group plays, from %d to %d"
-                    .formatted(from, to));
+            throw wrong("'from' and 'to' must have something in common with what the group plays, from %s to %s"
+                    .formatted(time(from), time(to)));
         }
     }
 
     private boolean isWithin(long time) {
         return time >= one.from(one.plan().from()) && time < one.to();
+    }
+
+    private static Instant time(long millis) {
+        return Instant.ofEpochMilli(millis);
     }
 
     private static RefusedException wrong(String reason) {

@@ -187,6 +187,25 @@ class StateBeforeTest {
     }
 
     @Test
+    void readsOnWhereALimitLiesWithinAMillisecond() throws Exception {
+        StoredEvent deletion = deleted(1, 10, "d");
+        StoredEvent again = event(2, 10, "d", "z");
+        for (List<StoredEvent> stored : List.of(List.of(deletion, again), List.of(again, deletion))) {
+            begin();
+            List<StoredEvent> events = new ArrayList<>(stored);
+            for (int number = 3; number < 18; number++) {
+                events.add(event(number, 10 + number, "d", number % 2 == 0 ? "x" : "y"));
+            }
+            for (StoredEvent event : events) {
+                store(List.of(event));
+            }
+
+            assertThat(before(900, ALL, new StateBefore.Bounds(16, 3, 64, 1_000_000)))
+                    .contains(scanned(events, 900, ALL));
+        }
+    }
+
+    @Test
     void knowsWhatAScanKnows() throws Exception {
         long seed = System.nanoTime();
         Random random = new Random(seed);
@@ -198,7 +217,8 @@ class StateBeforeTest {
             for (int i = 0; i < 4; i++) {
                 long time = random.nextInt(1_100);
                 Set<String> devices = random.nextInt(3) == 0 ? Set.of("d1", "d2", "d77") : ALL;
-                Optional<List<StoredEvent>> state = before(time, devices, FEW);
+                long bytes = random.nextInt(3) == 0 ? 2_000 : FEW.bytes();
+                Optional<List<StoredEvent>> state = before(time, devices, new StateBefore.Bounds(40, 3, 64, bytes));
                 found += state.isPresent() ? 1 : 0;
                 state.ifPresent(known -> assertThat(known)
                         .as("seed %d, before %d", seed, time)
@@ -208,25 +228,53 @@ class StateBeforeTest {
         assertThat(found).as("seed %d", seed).isGreaterThan(30);
     }
 
-    /** Entities that report all of their attributes, of which they gain some, and others that report one after the other. */
+    /** Several events a millisecond, so that limits lie within one. */
     private static List<StoredEvent> mission(Random random) {
-        int devices = 1 + random.nextInt(6);
         List<StoredEvent> events = new ArrayList<>();
-        for (int number = 0; number < random.nextInt(400); number++) {
-            int device = random.nextInt(devices);
-            long time = random.nextInt(1_000);
-            if (random.nextInt(60) == 0) {
-                events.add(deleted(number, time, "d" + device));
-            } else if (device == 0) {
-                events.add(event(number, time, "d0", "abc".substring(number % 3, number % 3 + 1)));
-            } else {
-                events.add(
-                        time < 300
-                                ? event(number, time, "d" + device, "a")
-                                : event(number, time, "d" + device, "a", "b"));
+        for (int device = 1 + random.nextInt(5); device >= 0; device--) {
+            Reporter reporter = Reporter.values()[random.nextInt(Reporter.values().length)];
+            int since = random.nextInt(1_000);
+            int count = 1 + random.nextInt(150);
+            List<Integer> times = random.ints(count, since / 10, 100)
+                    .map(time -> 10 * time)
+                    .sorted()
+                    .boxed()
+                    .toList();
+            int period = 2 + random.nextInt(5);
+            boolean tenants = random.nextInt(8) == 0;
+            for (int i = 0; i < count; i++) {
+                int number = events.size();
+                int time = times.get(i) + (i == 0 ? 0 : 5); // the first is alone in its millisecond
+                StoredEvent event = (!tenants || i % 2 == 1) && random.nextInt(25) == 0
+                        ? deleted(number, time, "d" + device)
+                        : event(number, time, "d" + device, reporter.attributes(i, period));
+                events.add(tenants && i % 2 == 0 ? ofOtherTenant(event) : event);
             }
         }
         return events;
+    }
+
+    private static StoredEvent ofOtherTenant(StoredEvent event) {
+        return new StoredEvent(
+                event.id(), event.time(), event.entityId(), Map.of(HeaderNames.SERVICE, "barn"), event.entity());
+    }
+
+    /** What an entity reports. Numbers of one millisecond grow as ids do. */
+    private enum Reporter {
+        ONE_AFTER_THE_OTHER,
+        ALL_THAT_IT_HAS,
+        ALL_BUT_SOME,
+        ONE_AT_FIRST_AND_NEVER_AGAIN;
+
+        String[] attributes(int number, int period) {
+            return switch (this) {
+                case ONE_AFTER_THE_OTHER -> new String[] {"abc".substring(number % 3, number % 3 + 1)};
+                case ALL_THAT_IT_HAS -> number < period ? new String[] {"a"} : new String[] {"a", "b"};
+                case ALL_BUT_SOME ->
+                    number % period == 1 ? new String[] {number == 1 + period ? "d" : "c"} : new String[] {"a", "b"};
+                case ONE_AT_FIRST_AND_NEVER_AGAIN -> number == 0 ? new String[] {"z"} : new String[] {"a", "b"};
+            };
+        }
     }
 
     private Optional<List<StoredEvent>> before(long time, Set<String> entities, StateBefore.Bounds bounds)

@@ -16,9 +16,10 @@ public sealed interface Fetch {
      * @param point epoch ms
      * @param first where the page begins
      * @param primed whether states are requested: nothing is known before the recording's first event
+     * @param repeats whether the next epoch is likely to begin at this point, too
      * @param events of the page, at most
      */
-    record Begin(long epoch, long point, Cursor first, boolean primed, int events) implements Fetch {}
+    record Begin(long epoch, long point, Cursor first, boolean primed, boolean repeats, int events) implements Fetch {}
 
     /**
      * The page after the cursor.

@@ -6,7 +6,6 @@ import java.util.Optional;
 import java.util.function.LongUnaryOperator;
 
 import io.furrow.flink.time.Epochs;
-import io.furrow.mission.Cursor;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.WantedReplay;
@@ -22,28 +21,13 @@ import io.furrow.replay.playback.PlaybackState.Phase;
 public final class Playback {
     /** A pass of a loop takes at least as long, ms: epochs are numbered, and not without end. */
     static final long MIN_PASS = 1_000;
-    /** What stood still for longer continues where it stood, instead of catching up, ms. */
-    static final long STALL = 1_000;
-
-    /** Events that are stepped back over at once. */
-    static final int MAX_BACK = 100_000;
 
     private static final String NO_EPOCH_LEFT = "all " + (Epochs.LAST + 1) + " epochs are used; start another replay";
-    /** A page is what is played in this time, ms. */
-    private static final double PAGE = 2_000;
 
-    private final LongUnaryOperator wall;
+    private final Schedule schedule;
     private WantedReplay wanted;
     private PlaybackState at;
-    private Timeline timeline;
-    /** The next event that has been looked at for what lies before it. */
-    private ReadyEvent approached;
-
     private ReadAhead ahead;
-    private List<ReadyEvent> primes;
-    private boolean fetching;
-    /** Whether it is in the pass of a loop that the group's clock comes to next. */
-    private boolean aheadOfClock;
 
     /** Greatest epoch that its topic had records of when it went on after a restart. */
     private long used;
@@ -54,9 +38,6 @@ public final class Playback {
 
     private String waiting;
     private long passBegan;
-    private long lateness;
-    /** Of the epoch, since the last restart. */
-    private long slip;
 
     /**
      * @param wanted what was applied last; of a fresh state what is requested first
@@ -64,14 +45,14 @@ public final class Playback {
      */
     public Playback(WantedReplay wanted, PlaybackState state, long now, LongUnaryOperator wall) {
         this.wanted = wanted;
-        this.wall = wall;
+        this.schedule = new Schedule(wanted, wall);
         boolean fresh = state.sequence() < 0;
         this.withoutState = fresh;
         this.passBegan = fresh ? now : now - MIN_PASS;
         Long start = fresh && wanted.seek() != null ? Long.valueOf(wanted.seek().to()) : state.start();
         this.at = Moves.of(state, wanted.sequence(), start);
         if (fresh) {
-            at = Moves.steps(at, obsoleteSteps());
+            at = steps().withoutObsolete();
         }
         if (fresh && isStopped()) {
             at = Moves.over(at, Phase.STOPPED, null);
@@ -82,24 +63,9 @@ public final class Playback {
     }
 
     private void startOver(long now) {
-        anchor(now, at.position());
+        schedule.anchor(now, at.position());
         ahead = new ReadAhead(at.cursor());
-        primes = null;
-        fetching = false;
         waiting = null;
-    }
-
-    /** From now on the position is played at this moment, or when the replay shall start; in a group when its clock says so. */
-    private void anchor(long now, long position) {
-        approached = null;
-        long today = wall.applyAsLong(now);
-        if (isOfGroup()) {
-            timeline = GroupTimeline.of(wanted, now, today, aheadOfClock);
-        } else {
-            Long startAt = wanted.plan().startAt();
-            long wait = startAt == null ? 0 : Math.max(0, startAt - today);
-            timeline = new Timeline(now + wait, position, wanted.speed(), isHeld());
-        }
     }
 
     /**
@@ -120,12 +86,8 @@ public final class Playback {
         }
     }
 
-    private boolean isOfGroup() {
-        return wanted.clock() != null;
-    }
-
-    private boolean isHeld() {
-        return wanted.wanted() == ReplayStatus.State.PAUSED;
+    private Steps steps() {
+        return new Steps(at, wanted);
     }
 
     private boolean isStopped() {
@@ -141,17 +103,17 @@ public final class Playback {
         boolean plainAgain = at.phase() == Phase.BETWEEN && wanted.range() != null && next.range() == null;
         long position = position(now);
         long rangeEnd = wanted.to();
-        aheadOfClock = isOfGroup() && at.phase() == Phase.PLAYING && GroupTimeline.isAPassAhead(timeline, next, now);
+        schedule.follow(next, at.phase() == Phase.PLAYING, now);
         wanted = next;
         at = Moves.of(at, next.sequence(), at.start());
-        at = Moves.steps(at, obsoleteSteps());
-        at = isHeld() ? at : Moves.towards(at, null);
-        anchor(now, position);
+        at = steps().withoutObsolete();
+        at = schedule.isHeld() ? at : Moves.towards(at, null);
+        schedule.anchor(now, position);
         if (isStopped()) {
             return over(Phase.STOPPED, null, "stopped", now);
         }
         if (!seeks && plainAgain) { // plays on behind the range
-            begin(isOfGroup() ? wanted.clock().position(wall.applyAsLong(now), wanted.speed()) : rangeEnd, now);
+            begin(schedule.isOfGroup() ? wanted.clock().position(schedule.wall(now), wanted.speed()) : rangeEnd, now);
         }
         if (!seeks) {
             return Optional.empty();
@@ -159,14 +121,6 @@ public final class Playback {
         Optional<Played> end = end("seek", now);
         begin(next.seek().to(), now);
         return end;
-    }
-
-    /** Those asked for before a jump, or while it runs, are not made up for. */
-    private long obsoleteSteps() {
-        WantedReplay.Step step = wanted.step();
-        WantedReplay.Seek seek = wanted.seek();
-        boolean obsolete = step != null && (!isHeld() || seek != null && seek.sequence() > step.sequence());
-        return obsolete ? step.total() : at.steps();
     }
 
     /** Ends it for good. */
@@ -183,7 +137,7 @@ public final class Playback {
     private Optional<Played> over(Phase how, String reason, String said, long now) {
         Optional<Played> end = end(said, now);
         at = Moves.over(at, how, reason);
-        primes = null;
+        ahead.setPrimes(null);
         waiting = null;
         return end;
     }
@@ -210,7 +164,8 @@ public final class Playback {
 
     /** Whether an epoch is under way, which ends with a record. */
     public boolean hasBegun() {
-        return at.phase() == Phase.PLAYING || at.phase() == Phase.PRIMING && (primes != null || at.number() > 0);
+        return at.phase() == Phase.PLAYING
+                || at.phase() == Phase.PRIMING && (ahead.primes() != null || at.number() > 0);
     }
 
     private void begin(Long start, long now) {
@@ -219,34 +174,14 @@ public final class Playback {
             return;
         }
         at = Moves.stamped(Moves.nextEpoch(at, start, used), usedStamp);
-        aheadOfClock = false;
-        slip = 0;
+        schedule.beginEpoch();
         passBegan = now;
         startOver(now);
     }
 
     /** What is to be read next; asked for once. */
     public Optional<Fetch> fetch() {
-        if (fetching) {
-            return Optional.empty();
-        }
-        Fetch next = null;
-        if (at.phase() == Phase.OPENING) {
-            next = new Fetch.Open(at.epoch());
-        } else if (at.phase() == Phase.PRIMING && primes == null) {
-            Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
-            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first(), pageEvents());
-        } else if (wantsBack()) {
-            next = new Fetch.Back(at.epoch(), at.cursor(), beginning(), stepsBack());
-        } else if (at.phase() == Phase.PLAYING && ahead.wantsMore(wanted.to())) {
-            next = new Fetch.Next(at.epoch(), ahead.loaded(), pageEvents());
-        }
-        fetching = next != null;
-        return Optional.ofNullable(next);
-    }
-
-    private int pageEvents() {
-        return ahead.expected(PAGE * wanted.speed());
+        return ahead.fetch(at, wanted);
     }
 
     /** Takes what was read; a record that this ends the epoch with is returned. */
@@ -259,7 +194,7 @@ public final class Playback {
             waiting = away.reason();
             return Optional.empty();
         }
-        fetching = false;
+        ahead.answered();
         waiting = null;
         if (fetched instanceof Fetched.Gone gone) {
             return closed(Phase.FAILED, gone.reason(), now);
@@ -270,13 +205,16 @@ public final class Playback {
             at = Moves.opened(at, opened.span().get(), wanted);
             startOver(now);
         } else if (fetched instanceof Fetched.Begun begun) {
-            primes = begun.primes();
-            anchor(now, at.point());
+            ahead.setPrimes(begun.primes());
+            schedule.anchor(now, at.point());
             add(begun.first());
         } else if (fetched instanceof Fetched.More more) {
             boolean stood = ahead.peek() == null;
             add(more.page());
-            resumeAfterStall(stood, now);
+            ReadyEvent next = next();
+            if (stood && next != null) {
+                schedule.resumeAfterStall(next, now);
+            }
         } else if (fetched instanceof Fetched.Back back) {
             return goBack(back, now);
         }
@@ -288,21 +226,13 @@ public final class Playback {
         at = Moves.skipped(at, page.skipped());
     }
 
-    private void resumeAfterStall(boolean stood, long now) {
-        ReadyEvent next = next();
-        if (stood && next != null && !isOfGroup() && !isHeld() && now - timeline.due(next.time()) > STALL) {
-            slip += now - timeline.due(next.time());
-            anchor(now, next.time());
-        }
-    }
-
     /** Unless something else has been asked for meanwhile. */
     private Optional<Played> goBack(Fetched.Back back, long now) {
-        if (!wantsBack() || back.count() > stepsBack()) {
+        if (!steps().awaits(back)) {
             return Optional.empty();
         }
-        boolean within = !back.found().equals(beginning());
-        at = Moves.steps(at, within ? at.steps() - back.count() : wanted.step().total());
+        boolean within = steps().isWithin(back);
+        at = steps().done(back);
         Optional<Played> end = end("step", now);
         begin(within ? Long.valueOf(back.found().time()) : null, now);
         if (within && !isOver()) {
@@ -311,21 +241,10 @@ public final class Playback {
         return end;
     }
 
-    private Cursor beginning() {
-        return Cursor.before(wanted.from(at.first()));
-    }
-
-    /** The next event; null if it is not known. What lies before it is shortened to the longest gap. */
+    /** The next event; null if it is not known. */
     private ReadyEvent next() {
         ReadyEvent next = ahead.peek();
-        Long longest = wanted.plan().maxGap();
-        if (next != null && next != approached && longest != null && !isHeld() && !isOfGroup()) {
-            approached = next;
-            long gap = next.time() - Math.max(at.position(), timeline.origin());
-            if (gap > longest) {
-                timeline = timeline.skipping(gap - longest);
-            }
-        }
+        schedule.approach(next, at.position());
         return next;
     }
 
@@ -333,76 +252,46 @@ public final class Playback {
     public Optional<Played> poll(long now) {
         if (at.phase() == Phase.BETWEEN && now >= passBegan + MIN_PASS) {
             begin(null, now);
-        } else if (at.phase() == Phase.PRIMING && primes != null && now >= timeline.anchor()) {
+        } else if (at.phase() == Phase.PRIMING && ahead.primes() != null && now >= schedule.anchor()) {
+            List<ReadyEvent> primes = ahead.primes();
             if (at.primes() < primes.size()) {
                 return Optional.of(played(Played.Kind.PRIME, primes.get((int) at.primes()), null, at.point(), now));
             }
             at = Moves.playing(at);
+            ahead.setPrimes(null);
         }
         return at.phase() == Phase.PLAYING ? play(now) : Optional.empty();
     }
 
     private Optional<Played> play(long now) {
-        if (isAtEnd() && now >= endDue()) {
-            boolean again = wanted.loops() && (isOfGroup() || hasSomethingToRepeat());
-            Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
-            String reason = wanted.loops() && !again ? "there is no event to play over and over" : null;
-            at = Moves.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
-            if (!again) {
-                startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
-            }
-            return Optional.of(end);
+        boolean atEnd = isAtEnd();
+        if (atEnd && now >= schedule.endDue()) {
+            return Optional.of(endOfPass(now));
         }
-        ReadyEvent next = isAtEnd() ? null : next();
-        dropWhatCannotBeStepped(next);
-        if (next == null || !mayStep(next) && now < timeline.due(next.time())) {
+        ReadyEvent next = atEnd ? null : next();
+        at = steps().possible(next, atEnd);
+        if (next == null || !steps().plays(next) && now < schedule.due(next)) {
             return Optional.empty();
         }
-        if (isHeld()) {
-            step(next, now);
+        if (schedule.isHeld()) {
+            at = steps().played(next);
+            schedule.step(next, now);
         } else {
-            lateness = Double.isInfinite(wanted.speed()) ? 0 : now - timeline.due(next.time());
+            schedule.play(next, now);
         }
         ahead.remove();
         return Optional.of(played(Played.Kind.EVENT, next, null, next.time(), now));
     }
 
-    /** A goal that lies behind what is played next or at all, and steps forward at the end. */
-    private void dropWhatCannotBeStepped(ReadyEvent next) {
-        boolean passed = next != null && at.goal() != null && next.cursor().compareTo(at.goal()) > 0;
-        if (passed || isAtEnd()) {
-            at = Moves.towards(at, null);
+    private Played endOfPass(long now) {
+        boolean again = wanted.loops() && (schedule.isOfGroup() || hasSomethingToRepeat());
+        Played end = played(Played.Kind.END, null, again ? "loop" : "ended", at.position(), now);
+        String reason = wanted.loops() && !again ? "there is no event to play over and over" : null;
+        at = Moves.over(at, again ? Phase.BETWEEN : Phase.ENDED, reason);
+        if (!again) {
+            startOver(now); // holds nothing that was read: what is asked for behind the end reads anew
         }
-        if (isAtEnd() && wanted.step() != null && wanted.step().total() > at.steps()) {
-            at = Moves.steps(at, wanted.step().total());
-        }
-    }
-
-    private void step(ReadyEvent next, long now) {
-        if (at.goal() == null) {
-            at = Moves.steps(at, at.steps() + 1);
-        } else if (next.cursor().compareTo(at.goal()) >= 0) {
-            at = Moves.towards(at, null);
-        }
-        anchor(now, next.time());
-        lateness = 0;
-    }
-
-    /** Whether a replay that is held plays the event. */
-    private boolean mayStep(ReadyEvent next) {
-        boolean repeats = at.goal() != null && next.cursor().compareTo(at.goal()) <= 0;
-        boolean steps = wanted.step() != null && wanted.step().total() > at.steps();
-        return isHeld() && !isOfGroup() && (repeats || steps);
-    }
-
-    /** Also from its end. */
-    private boolean wantsBack() {
-        return (at.phase() == Phase.PLAYING || at.phase() == Phase.ENDED)
-                && at.goal() == null
-                && isHeld()
-                && !isOfGroup()
-                && wanted.step() != null
-                && wanted.step().total() < at.steps();
+        return end;
     }
 
     /** Whether this pass, if it was a whole one, had an event. */
@@ -410,27 +299,14 @@ public final class Playback {
         return at.events() > 0 || at.point() > wanted.from(at.first());
     }
 
-    /** As many as are found at once. */
-    private long stepsBack() {
-        return Math.min(at.steps() - wanted.step().total(), MAX_BACK);
-    }
-
     private boolean isAtEnd() {
         return ahead.isOver(wanted.to());
-    }
-
-    /** When an epoch ends that has no more events: at once, or with the group; not while it is held, so that one can go back. */
-    private long endDue() {
-        if (isHeld()) {
-            return Timeline.NEVER;
-        }
-        return isOfGroup() ? timeline.due(wanted.to()) : Long.MIN_VALUE;
     }
 
     private Played played(Played.Kind kind, ReadyEvent event, String reason, long time, long now) {
         boolean rebased = wanted.plan().stamps() == ReplayPlan.Stamps.NOW;
         long offset = rebased // none is negative
-                ? Math.max(at.stamp(), Math.max(time, wall.applyAsLong(now))) - time
+                ? Math.max(at.stamp(), Math.max(time, schedule.wall(now))) - time
                 : at.offset();
         Played played = new Played(kind, event, reason, at.epoch(), at.number(), time, offset);
         at = Moves.played(at, played);
@@ -441,13 +317,13 @@ public final class Playback {
     public long due() {
         return switch (at.phase()) {
             case BETWEEN -> passBegan + MIN_PASS;
-            case PRIMING -> primes == null ? Timeline.NEVER : timeline.anchor();
+            case PRIMING -> ahead.primes() == null ? Timeline.NEVER : schedule.anchor();
             case PLAYING -> {
                 if (isAtEnd()) {
-                    yield endDue();
+                    yield schedule.endDue();
                 }
                 ReadyEvent next = next();
-                yield next == null ? Timeline.NEVER : mayStep(next) ? Long.MIN_VALUE : timeline.due(next.time());
+                yield next == null ? Timeline.NEVER : steps().plays(next) ? Long.MIN_VALUE : schedule.due(next);
             }
             default -> Timeline.NEVER;
         };
@@ -460,7 +336,7 @@ public final class Playback {
         }
         ReadyEvent next = next();
         long most = next == null ? at.position() : next.time(); // of what is not read yet nobody knows when it was
-        return timeline.at(now, at.position(), Math.max(at.position(), most));
+        return schedule.position(now, at.position(), most);
     }
 
     /** With which it continues after a restart. */
@@ -491,16 +367,16 @@ public final class Playback {
     }
 
     private boolean goesBackFromEnd() {
-        return at.phase() == Phase.ENDED && fetching;
+        return at.phase() == Phase.ENDED && ahead.isFetching();
     }
 
     /** By how much the newest event was behind its schedule, ms. */
     public long lateness() {
-        return lateness;
+        return schedule.lateness();
     }
 
     public ReplayStatus.State state() {
-        return at.phase().told(isHeld());
+        return at.phase().told(schedule.isHeld());
     }
 
     /**
@@ -512,24 +388,25 @@ public final class Playback {
     public ReplayStatus status(long now, long worst, double rate) {
         long position = waiting == null ? position(now) : at.position();
         return new ReplayStatus(
-                at.sequence(), state(), at.reason(), false, at.progress(position, worst, slip, rate, awaited(now)));
+                at.sequence(),
+                state(),
+                at.reason(),
+                false,
+                at.progress(position, worst, schedule.slip(), rate, awaited(now)));
     }
 
     /** Whether it reads what it has to know before an epoch can begin. */
     public boolean isSeeking() {
-        return fetching && !isOver() && !hasBegun() && at.phase() != Phase.BETWEEN;
+        return ahead.isFetching() && !isOver() && !hasBegun() && at.phase() != Phase.BETWEEN;
     }
 
     /** What it waits for; null if it waits for nothing. */
     public String awaited(long now) {
-        if (waiting == null && isSeeking() && now - passBegan >= STALL) {
+        if (waiting == null && isSeeking() && now - passBegan >= Schedule.STALL) {
             return at.phase() == Phase.OPENING
                     ? "seeking: the recording is being opened"
                     : "seeking: what was known before %s is being read".formatted(Instant.ofEpochMilli(at.point()));
         }
-        boolean early = !at.phase().isOver() && !isHeld() && now < timeline.anchor();
-        return waiting == null && early
-                ? "begins at " + Instant.ofEpochMilli(wall.applyAsLong(now) + timeline.anchor() - now)
-                : waiting;
+        return waiting == null && !isOver() ? schedule.beginsAt(now) : waiting;
     }
 }

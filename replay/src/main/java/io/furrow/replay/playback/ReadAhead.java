@@ -2,13 +2,23 @@ package io.furrow.replay.playback;
 
 import java.util.ArrayDeque;
 import java.util.Deque;
+import java.util.List;
+import java.util.Optional;
 
 import io.furrow.mission.Cursor;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.replay.playback.PlaybackState.Phase;
 
-/** The events that come next: at most what is left of one page, and the page after it. */
+/**
+ * What has been read and is to be played: states known before the epoch, and the events that come next, at most what is left of one page
+ * and the page after it. Begins anew with each epoch.
+ */
 final class ReadAhead {
     /** Events of a page at least: each is a question. */
     static final int MIN_EVENTS = 32;
+
+    /** A page is what is played in this time, ms. */
+    private static final double PAGE = 2_000;
 
     private final Deque<ReadyEvent> events = new ArrayDeque<>();
     private Cursor loaded;
@@ -19,10 +29,53 @@ final class ReadAhead {
     private boolean complete;
     /** Whether there was still no more when all had been played: a mission may be recorded while it is replayed. */
     private boolean confirmed;
+    /** Null until they are known, and when they have been played. */
+    private List<ReadyEvent> primes;
+
+    private boolean fetching;
 
     /** @param from where the first page begins */
     ReadAhead(Cursor from) {
         this.loaded = from;
+    }
+
+    /** What is to be read next; asked for once. */
+    Optional<Fetch> fetch(PlaybackState at, WantedReplay wanted) {
+        if (fetching) {
+            return Optional.empty();
+        }
+        Fetch next = null;
+        Steps steps = new Steps(at, wanted);
+        int page = expected(PAGE * wanted.speed());
+        if (at.phase() == Phase.OPENING) {
+            next = new Fetch.Open(at.epoch());
+        } else if (at.phase() == Phase.PRIMING && primes == null) {
+            Cursor from = at.point() <= at.first() ? Cursor.START : Cursor.before(at.point());
+            next = new Fetch.Begin(at.epoch(), at.point(), from, at.point() > at.first(), wanted.loops(), page);
+        } else if (steps.wantsBack()) {
+            next = steps.back();
+        } else if (at.phase() == Phase.PLAYING && wantsMore(wanted.to())) {
+            next = new Fetch.Next(at.epoch(), loaded, page);
+        }
+        fetching = next != null;
+        return Optional.ofNullable(next);
+    }
+
+    boolean isFetching() {
+        return fetching;
+    }
+
+    void answered() {
+        fetching = false;
+    }
+
+    void setPrimes(List<ReadyEvent> known) {
+        primes = known;
+    }
+
+    /** Null until they are known, and when they have been played. */
+    List<ReadyEvent> primes() {
+        return primes;
     }
 
     void add(ReadyPage page) {
@@ -40,7 +93,7 @@ final class ReadAhead {
      *
      * @param to epoch ms, after the last event that is requested
      */
-    boolean wantsMore(long to) {
+    private boolean wantsMore(long to) {
         if (complete) {
             return !confirmed && events.isEmpty() && loaded.time() < to;
         }
@@ -48,15 +101,11 @@ final class ReadAhead {
     }
 
     /** How many events a page of so much event time, ms, has if the recording goes on as it was. */
-    int expected(double millis) {
+    private int expected(double millis) {
         if (Double.isInfinite(millis)) {
             return Integer.MAX_VALUE;
         }
         return (int) Math.max(MIN_EVENTS, Math.min(Integer.MAX_VALUE, Math.ceil(density * millis)));
-    }
-
-    Cursor loaded() {
-        return loaded;
     }
 
     /** The next event; null if it is not known. */

@@ -26,8 +26,10 @@ import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
+import io.furrow.replay.playback.ReadyEvent;
 import io.furrow.replay.playback.ReadyPage;
 import io.furrow.replay.record.EventEncoder;
+import io.furrow.replay.recording.PageBudget;
 
 /**
  * Reads the recording of one replay, in a thread that it has as long as there is something to read: a recording that is slow or away
@@ -39,11 +41,14 @@ final class PageReader implements AutoCloseable {
     private static final long MAX_RETRY_MILLIS = 30_000;
     private static final long IDLE_SECONDS = 10;
     private static final int MAX_LOGGED = 10;
+    /** A page of what is read but not played. */
+    private static final PageLimits SCANNED = new PageLimits(100, 128 * 1024);
 
     private final WantedReplay replay;
     private final Preparation preparation;
     private final RunningReplay.Reading shared;
     private final Consumer<Fetched> out;
+    private final PageBudget.Pages pages;
     private final ScheduledThreadPoolExecutor thread;
     private volatile Fetch newest;
     /** Under way, or to be tried again. */
@@ -72,6 +77,7 @@ final class PageReader implements AutoCloseable {
         this.preparation = preparation;
         this.shared = shared;
         this.out = out;
+        this.pages = shared.budget().pages();
         thread = new ScheduledThreadPoolExecutor(1, task -> {
             Thread reader = new Thread(task, "replay-pages-" + replay.replay());
             reader.setDaemon(true);
@@ -161,26 +167,31 @@ final class PageReader implements AutoCloseable {
         }
         if (fetch instanceof Fetch.Begin begin) {
             if (!begin.primed() || primes == null || primesPoint != begin.point()) {
-                primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), shared.limits()) : List.of();
+                primes = begin.primed() ? recording.stateBefore(begin.point(), devices(), SCANNED) : List.of();
                 primesPoint = begin.point();
             }
-            return new Fetched.Begun(
-                    begin.epoch(),
-                    encoder(begin).primes(primes, begin.point()),
-                    page(begin, begin.first(), begin.events()));
+            List<ReadyEvent> ready = encoder(begin).primes(primes, begin.point());
+            primes = begin.repeats() ? primes : null;
+            return new Fetched.Begun(begin.epoch(), ready, page(begin, begin.first(), begin.events()));
         } else if (fetch instanceof Fetch.Next next) {
             return new Fetched.More(next.epoch(), page(next, next.after(), next.events()));
         } else if (fetch instanceof Fetch.Back back) {
             return new Fetched.Back(back.epoch(), back.count(), back(back));
         }
+        pages.clear();
         return new Fetched.Opened(fetch.epoch(), recording.span());
     }
 
     private ReadyPage page(Fetch fetch, Cursor after, int events) throws IOException, InterruptedException {
-        PageLimits most = shared.limits();
-        Page page = recording.read(after, new PageLimits(Math.min(events, most.events()), most.bytes()));
-        logSkipped(page);
-        return encoder(fetch).page(page);
+        try {
+            Page page = recording.read(after, pages.next(events));
+            logSkipped(page);
+            ReadyPage ready = encoder(fetch).page(page);
+            pages.add(ready);
+            return ready;
+        } finally {
+            pages.settle();
+        }
     }
 
     private void logSkipped(Page page) {
@@ -221,7 +232,7 @@ final class PageReader implements AutoCloseable {
                 back.first(),
                 back.count(),
                 event -> devices.isEmpty() || devices.contains(event.entityId()),
-                shared.limits());
+                SCANNED);
     }
 
     private Set<String> devices() {
@@ -249,6 +260,7 @@ final class PageReader implements AutoCloseable {
         thread.execute(() -> {
             prepared = false; // somebody may delete the topic meanwhile
             release();
+            pages.clear();
         });
     }
 
@@ -260,7 +272,10 @@ final class PageReader implements AutoCloseable {
         newest = null;
         interrupt();
         thread.getQueue().clear();
-        thread.execute(this::release);
+        thread.execute(() -> {
+            release();
+            pages.clear();
+        });
         thread.shutdown();
     }
 }

@@ -24,6 +24,8 @@ import org.apache.flink.runtime.execution.SuppressRestartsException;
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
+import io.furrow.replay.recording.PageBudget;
+import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.ReplayTopics;
 import io.furrow.replay.topic.TopicWatch;
 
@@ -61,7 +63,13 @@ final class ReplayReader implements SourceReader<TopicRecord, ReplaySplit> {
         this.clock = clock;
         DeadCounters dead = new DeadCounters(context.metricGroup());
         this.reading = new RunningReplay.Reading(
-                recordings, limits, topics, new TopicWatch(topics, TOPIC_CHECKS), dead, clock, this::call);
+                recordings,
+                new PageBudget(limits),
+                topics,
+                new TopicWatch(topics, TOPIC_CHECKS),
+                dead,
+                clock,
+                this::call);
         this.metrics = new ReplayMetrics(context.metricGroup());
     }
 

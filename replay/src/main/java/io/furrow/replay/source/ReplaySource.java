@@ -13,6 +13,7 @@ import org.apache.flink.core.io.SimpleVersionedSerializer;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.mission.PageLimits;
+import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.ReplayTopics;
 
 /**

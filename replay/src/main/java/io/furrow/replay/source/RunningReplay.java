@@ -9,7 +9,6 @@ import java.util.function.Consumer;
 
 import io.furrow.flink.record.DeadCounters;
 import io.furrow.flink.record.TopicRecord;
-import io.furrow.mission.PageLimits;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.ngsi.Reason;
@@ -19,6 +18,8 @@ import io.furrow.replay.playback.Playback;
 import io.furrow.replay.playback.PlaybackState;
 import io.furrow.replay.playback.Played;
 import io.furrow.replay.record.ReplayRecords;
+import io.furrow.replay.recording.PageBudget;
+import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.ReplayTopics;
 import io.furrow.replay.topic.TopicWatch;
 
@@ -66,7 +67,7 @@ final class RunningReplay {
      */
     record Reading(
             RecordingSources recordings,
-            PageLimits limits,
+            PageBudget budget,
             ReplayTopics.Writing topics,
             TopicWatch watch,
             DeadCounters dead,

@@ -1,6 +1,7 @@
 package io.furrow.replay.playback;
 
 import java.util.ArrayDeque;
+import java.util.ArrayList;
 import java.util.Deque;
 import java.util.HashMap;
 import java.util.List;
@@ -19,8 +20,9 @@ import io.furrow.model.control.replay.WantedReplay;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /**
- * Random programs of commands, of which pages know nothing: an answer comes after any number of commands. Now and then the replay is
- * restored from an older snapshot, to which only the newest command comes.
+ * Random programs of commands, of which pages know nothing: an answer comes after any number of commands, and a command twice. Now and
+ * then the replay is restored from an older snapshot, or from none, to which only the newest command comes, on a machine whose clock is
+ * another. Some are members of a group.
  */
 class PlaybackRestartModelTest {
     private static final int SHORT = 20;
@@ -32,9 +34,12 @@ class PlaybackRestartModelTest {
     private Random random;
     private Playback playback;
     private long now;
+    private long run;
+    private long skew;
     private final Deque<Fetched> answers = new ArrayDeque<>();
     private final Map<String, String> contents = new HashMap<>();
     private final TreeMap<Long, Long> stamps = new TreeMap<>();
+    private final Map<Long, Epoch> epochs = new HashMap<>();
     private PlaybackState snapshot;
     private WantedReplay wantedThen;
 
@@ -62,15 +67,25 @@ class PlaybackRestartModelTest {
     private void play(long seed) {
         random = new Random(seed);
         mission = Missions.random(random);
-        wishes = Wishes.random(random, mission);
-        playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0, Wishes::wall);
+        wishes = random.nextInt(4) == 0 ? Wishes.ofGroup(random, mission) : Wishes.random(random, mission);
+        playback = new Playback(wishes.get(0).wanted(), PlaybackState.fresh(), 0, this::wall);
         for (int next = 1; next < wishes.size(); next++) {
             for (int turn = random.nextInt(MAX_TURNS); turn > 0; turn--) {
                 turn(wishes.get(next - 1).wanted());
             }
+            now = Math.max(now, wishes.get(next).at());
             note(playback.apply(wishes.get(next).wanted(), now));
+            assertThat(playback.apply(wishes.get(random.nextInt(next + 1)).wanted(), now))
+                    .as("an older command")
+                    .isEmpty();
+            assertThat(playback.wanted()).isEqualTo(wishes.get(next).wanted());
         }
         assertThat(playback.isOver()).isTrue();
+        epochs.forEach(this::check);
+    }
+
+    private long wall(long clock) {
+        return Wishes.wall(clock) + skew;
     }
 
     private void turn(WantedReplay newest) {
@@ -100,7 +115,11 @@ class PlaybackRestartModelTest {
         } else if (random.nextInt(5) == 0) {
             answers.clear();
             now += random.nextInt(60_000);
-            playback = new Playback(wantedThen, snapshot, now, Wishes::wall);
+            boolean known = random.nextInt(4) > 0;
+            skew = newest.clock() == null ? random.nextInt(1_000_000) - 500_000 : 0;
+            run = known ? snapshot.stamp() : 0;
+            playback = new Playback(
+                    known ? wantedThen : newest, known ? snapshot : PlaybackState.fresh(), now, this::wall);
             if (!stamps.isEmpty()) {
                 long newestStamp = stamps.values().stream().max(Long::compare).orElseThrow();
                 playback.goOnAfter(stamps.lastKey(), newestStamp);
@@ -117,6 +136,8 @@ class PlaybackRestartModelTest {
                     : stamps.headMap(played.epoch()).values().stream()
                             .max(Long::compare)
                             .orElseThrow();
+            assertThat(played.stamp()).as("of one run").isGreaterThanOrEqualTo(run);
+            run = played.stamp();
             assertThat(played.stamp())
                     .as("%s after epochs until %s", played, before)
                     .isGreaterThanOrEqualTo(before == null ? 0 : before);
@@ -127,7 +148,43 @@ class PlaybackRestartModelTest {
                 assertThat(contents.merge(place, content, (known, same) -> known))
                         .as("record %s", place)
                         .isEqualTo(content);
+                long point = playback.snapshot(now).point();
+                epochs.computeIfAbsent(played.epoch(), epoch -> new Epoch(point, new TreeMap<>()))
+                        .records()
+                        .put(played.sequence(), played);
+                assertNotEarly(played);
             }
         });
+    }
+
+    /** Whatever the clock of a group has not shown yet. */
+    private void assertNotEarly(Played played) {
+        WantedReplay wanted = playback.wanted();
+        if (wanted.clock() != null && !wanted.loops() && played.kind() == Played.Kind.EVENT) {
+            assertThat(played.time())
+                    .as("the clock shows %s", wanted.clock())
+                    .isLessThanOrEqualTo(wanted.position(wall(now)));
+        }
+    }
+
+    /** Records of an epoch by their sequence, ends excepted. */
+    private record Epoch(long point, TreeMap<Long, Played> records) {}
+
+    /** What was known before its point, then the events from there, without a gap, as far as it was played. */
+    private void check(long number, Epoch epoch) {
+        List<String> devices = wishes.get(0).wanted().plan().devices();
+        List<StoredEvent> whole = new ArrayList<>(
+                epoch.point() > mission.get(0).time() ? Missions.known(mission, epoch.point()) : List.of());
+        mission.stream().filter(event -> event.time() >= epoch.point()).forEach(whole::add);
+        whole.removeIf(event -> !devices.isEmpty() && !devices.contains(event.entityId()));
+        assertThat(epoch.records().keySet()).last().isEqualTo(epoch.records().size() - 1L);
+        assertThat(epoch.records().values().stream()
+                        .map(played -> played.event().id())
+                        .toList())
+                .as("epoch %d", number)
+                .isEqualTo(whole.stream()
+                        .limit(epoch.records().size())
+                        .map(StoredEvent::id)
+                        .toList());
     }
 }

@@ -66,6 +66,62 @@ final class Wishes {
         return wishes;
     }
 
+    /** The same of a member of a group, whose clock goes by the times of the commands. */
+    static List<Wish> ofGroup(Random random, List<StoredEvent> recording) {
+        long first = recording.get(0).time();
+        long length = recording.get(recording.size() - 1).time() - first + 1;
+        ReplayPlan plan = new ReplayPlan(
+                null,
+                first - random.nextInt(2_000),
+                first + length + random.nextInt(2_000),
+                random.nextInt(3) == 0,
+                List.of(),
+                null,
+                ReplayPlan.Stamps.ORIGINAL,
+                null,
+                List.of());
+        WantedReplay wanted = WantedReplay.started("m", "data.m.replay.0a1b2c3d", plan, groupSpeed(random), 0, 1)
+                .following("0a1b2c3d", new WantedReplay.Clock(wall(2_000), plan.from()));
+        List<Wish> wishes = new ArrayList<>(List.of(new Wish(0, wanted)));
+        long at = 0;
+        for (int i = random.nextInt(15); i > 0; i--) {
+            at += random.nextInt(random.nextBoolean() ? 1_000 : 30_000);
+            wanted = nextOfGroup(wanted, random, at);
+            wishes.add(new Wish(at, wanted));
+        }
+        wishes.add(new Wish(at + 10_000, with(wanted, State.STOPPED, wanted.speed(), null, 0)));
+        return wishes;
+    }
+
+    private static WantedReplay nextOfGroup(WantedReplay w, Random random, long at) {
+        long position = w.position(wall(at));
+        WantedReplay.Clock going =
+                new WantedReplay.Clock(Math.max(wall(at), w.clock().at()), position);
+        return switch (random.nextInt(4)) {
+            case 0 ->
+                w.wanted() == State.PAUSED
+                        ? follow(
+                                with(w, State.RUNNING, w.speed(), null, 0),
+                                wall(at) + 1_000,
+                                w.clock().shows())
+                        : follow(with(w, State.PAUSED, w.speed(), null, 0), wall(at), position);
+            case 1 -> follow(with(w, w.wanted(), groupSpeed(random), null, 0), going.at(), going.shows());
+            default -> {
+                long to = w.plan().from()
+                        + random.nextLong(w.plan().to() - w.plan().from());
+                yield follow(with(w, w.wanted(), w.speed(), to, 0), wall(at) + 1_000, to);
+            }
+        };
+    }
+
+    private static WantedReplay follow(WantedReplay w, long at, long shows) {
+        return w.following(w.group(), new WantedReplay.Clock(at, shows));
+    }
+
+    private static double groupSpeed(Random random) {
+        return SPEEDS[random.nextInt(SPEEDS.length - 1)];
+    }
+
     private static WantedReplay next(WantedReplay w, Random random, long first, long length) {
         return switch (random.nextInt(6)) {
             case 0 -> with(w, w.wanted() == State.PAUSED ? State.RUNNING : State.PAUSED, w.speed(), null, 0);

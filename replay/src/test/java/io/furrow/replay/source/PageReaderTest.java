@@ -13,6 +13,8 @@ import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
+import io.furrow.replay.recording.PageBudget;
+import io.furrow.replay.recording.RecordingSources;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
@@ -27,7 +29,7 @@ class PageReaderTest {
             () -> {},
             new RunningReplay.Reading(
                     RecordingSources.of(missions),
-                    new PageLimits(2, 1_000),
+                    new PageBudget(new PageLimits(2, 1_000)),
                     new OnePartition(),
                     null,
                     null,
@@ -70,6 +72,6 @@ class PageReaderTest {
     }
 
     private static Fetch seek(long epoch, long point) {
-        return new Fetch.Begin(epoch, point, Cursor.before(point), true, 2);
+        return new Fetch.Begin(epoch, point, Cursor.before(point), true, true, 2);
     }
 }

@@ -22,6 +22,7 @@ import io.furrow.model.control.replay.WantedReplay;
 import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 import io.furrow.replay.playback.PlaybackState;
+import io.furrow.replay.recording.RecordingSources;
 import io.furrow.replay.topic.TopicEnd;
 
 import static org.assertj.core.api.Assertions.assertThat;

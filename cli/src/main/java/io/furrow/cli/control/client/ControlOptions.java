@@ -97,6 +97,11 @@ public final class ControlOptions {
         return run(api -> answered(api.send(method, path, body)));
     }
 
+    /** Sends a command and prints what was answered. @param done what it did, for people */
+    public int commandDone(String method, String path, String done) {
+        return run(api -> answered(api.send(method, path, null), done));
+    }
+
     /** Sends a command and prints the object that is answered, a member a line. */
     public int commandShown(String method, String path) {
         return run(api -> shown(api.send(method, path, null)));
@@ -104,6 +109,10 @@ public final class ControlOptions {
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
+        answered(answer, answer.path("status").asText("done"));
+    }
+
+    private void answered(JsonNode answer, String done) throws IOException {
         if (isJson()) {
             print(answer);
             return;
@@ -114,7 +123,7 @@ public final class ControlOptions {
                         && !each.getKey().equals("requestId"))
                 .map(each -> each.getKey() + " " + text(each.getValue()))
                 .collect(Collectors.joining(", "));
-        out().println(answer.path("status").asText("done") + ": " + members);
+        out().println(done + ": " + members);
     }
 
     /** Runs it and prints a sentence if it fails. @return the exit code */

@@ -5,9 +5,12 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.function.Function;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.core.JsonPointer;
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.MissingNode;
 
 import io.furrow.cli.control.client.ControlOptions;
 
@@ -24,7 +27,7 @@ public final class ControlTable {
         COUNT
     }
 
-    private record Column(String title, List<JsonPointer> places, Kind kind) {}
+    private record Column(String title, Function<JsonNode, JsonNode> value, Kind kind) {}
 
     /** @param nothing what is said if there is no row */
     public ControlTable(String nothing) {
@@ -40,6 +43,12 @@ public final class ControlTable {
     /** @param places JSON pointers; the first that has something is shown */
     public ControlTable text(String title, String... places) {
         return column(title, Kind.TEXT, places);
+    }
+
+    /** @param value of the object */
+    public ControlTable text(String title, Function<JsonNode, JsonNode> value) {
+        columns.add(new Column(title, value, Kind.TEXT));
+        return this;
     }
 
     /** A time, epoch ms or ISO 8601, shown to the second in UTC. */
@@ -58,8 +67,8 @@ public final class ControlTable {
     }
 
     private ControlTable column(String title, Kind kind, String... places) {
-        columns.add(new Column(
-                title, java.util.Arrays.stream(places).map(JsonPointer::compile).toList(), kind));
+        List<JsonPointer> pointers = Stream.of(places).map(JsonPointer::compile).toList();
+        columns.add(new Column(title, row -> first(pointers, row), kind));
         return this;
     }
 
@@ -90,13 +99,16 @@ public final class ControlTable {
     }
 
     private String cell(Column column, JsonNode row) {
-        for (JsonPointer place : column.places()) {
-            JsonNode value = row.at(place);
-            if (!value.isMissingNode() && !value.isNull()) {
-                return cell(column.kind(), value);
-            }
-        }
-        return "–";
+        JsonNode value = column.value().apply(row);
+        return value.isMissingNode() || value.isNull() ? "–" : cell(column.kind(), value);
+    }
+
+    private static JsonNode first(List<JsonPointer> places, JsonNode row) {
+        return places.stream()
+                .map(row::at)
+                .filter(value -> !value.isMissingNode() && !value.isNull())
+                .findFirst()
+                .orElse(MissingNode.getInstance());
     }
 
     private static String age(Duration age) {

@@ -1,4 +1,4 @@
-package io.furrow.replay.source;
+package io.furrow.replay.recording;
 
 import java.io.Serializable;
 import java.util.Optional;

@@ -1,4 +1,4 @@
-package io.furrow.replay.source;
+package io.furrow.replay.recording;
 
 import java.io.IOException;
 import java.util.Optional;

@@ -1,4 +1,4 @@
-package io.furrow.replay.source;
+package io.furrow.replay.recording;
 
 import java.io.FileNotFoundException;
 import java.io.IOException;

@@ -1,0 +1,96 @@
+package io.furrow.replay.playback;
+
+import io.furrow.mission.Cursor;
+import io.furrow.model.control.replay.ReplayStatus;
+import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.replay.playback.PlaybackState.Phase;
+
+/** Which single steps a state of a replay still has to make of those that are requested. */
+record Steps(PlaybackState at, WantedReplay wanted) {
+    /** Events that are stepped back over at once. */
+    static final int MAX_BACK = 100_000;
+
+    private boolean isHeld() {
+        return wanted.wanted() == ReplayStatus.State.PAUSED;
+    }
+
+    private boolean isOfGroup() {
+        return wanted.clock() != null;
+    }
+
+    private boolean isForward() {
+        return wanted.step() != null && wanted.step().total() > at.steps();
+    }
+
+    /** Those asked for before a jump, or while it runs, are not made up for. */
+    PlaybackState withoutObsolete() {
+        WantedReplay.Step step = wanted.step();
+        WantedReplay.Seek seek = wanted.seek();
+        boolean obsolete = step != null && (!isHeld() || seek != null && seek.sequence() > step.sequence());
+        return obsolete ? Moves.steps(at, step.total()) : at;
+    }
+
+    /** Whether a replay that is held plays the event. */
+    boolean plays(ReadyEvent next) {
+        boolean repeats = at.goal() != null && next.cursor().compareTo(at.goal()) <= 0;
+        return isHeld() && !isOfGroup() && (repeats || isForward());
+    }
+
+    /** The state after that event was played by a step. */
+    PlaybackState played(ReadyEvent next) {
+        if (at.goal() == null) {
+            return Moves.steps(at, at.steps() + 1);
+        }
+        return next.cursor().compareTo(at.goal()) >= 0 ? Moves.towards(at, null) : at;
+    }
+
+    /**
+     * Without a goal that lies behind what is played next or at all, and without steps forward at the end.
+     *
+     * @param next null if it is not known, or at the end
+     */
+    PlaybackState possible(ReadyEvent next, boolean isAtEnd) {
+        boolean passed = at.goal() != null && next != null && next.cursor().compareTo(at.goal()) > 0;
+        PlaybackState state = at.goal() != null && (passed || isAtEnd) ? Moves.towards(at, null) : at;
+        return isAtEnd && isForward() ? Moves.steps(state, wanted.step().total()) : state;
+    }
+
+    /** Whether events before are to be found. Also from its end. */
+    boolean wantsBack() {
+        return (at.phase() == Phase.PLAYING || at.phase() == Phase.ENDED)
+                && at.goal() == null
+                && isHeld()
+                && !isOfGroup()
+                && wanted.step() != null
+                && wanted.step().total() < at.steps();
+    }
+
+    Fetch.Back back() {
+        return new Fetch.Back(at.epoch(), at.cursor(), beginning(), stepsBack());
+    }
+
+    /** As many as are found at once. */
+    private long stepsBack() {
+        return Math.min(at.steps() - wanted.step().total(), MAX_BACK);
+    }
+
+    /** Whether that is still requested. */
+    boolean awaits(Fetched.Back back) {
+        return wantsBack() && back.count() <= stepsBack();
+    }
+
+    /** Whether there were as many events before. */
+    boolean isWithin(Fetched.Back back) {
+        return !back.found().equals(beginning());
+    }
+
+    /** The state when those steps back are made. */
+    PlaybackState done(Fetched.Back back) {
+        return Moves.steps(
+                at, isWithin(back) ? at.steps() - back.count() : wanted.step().total());
+    }
+
+    private Cursor beginning() {
+        return Cursor.before(wanted.from(at.first()));
+    }
+}
