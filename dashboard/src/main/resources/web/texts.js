@@ -195,6 +195,7 @@ export const texts = {
     zoomIn: 'Zoom in', zoomInHint: 'Zoom in (wheel)', zoomOut: 'Zoom out', zoomOutHint: 'Zoom out (wheel)',
     encounter: '{count} encounter', encounters: '{count} encounters', marker: '{count} marker', markers: '{count} markers',
     lastMinutes: 'last {minutes} min',
+    lastSeconds: 'last {seconds} s',
     valueReplay: '{time}, {done} of {all}, {state}',
     valueLive: 'live',
     valueMoment: '{time}, chosen to replay from',

@@ -3,6 +3,7 @@ import { age } from '../core/format.js';
 import { store } from '../core/store.js';
 import { cluster, drawCluster } from './clusters.js';
 import { drawEncounter, isOver, placeEncounters } from './encounters.js';
+import { FieldLabels } from './field-labels.js';
 import { LabelPlaces, drawText, widthOf } from './labels.js';
 import { colourOf } from './palette.js';
 import { isOnMap, project, projectPoint } from './projection.js';
@@ -22,12 +23,14 @@ const RING = 7;
 const SAME_SPOT = 4;
 /** Px; on a narrower map only those that matter have a name. */
 const NARROW = 560;
-/** The corner in which the map's buttons lie, px. */
+/** The corners in which the map's buttons lie, and its scale, with the legend where there is room for one, px. */
 const CONTROLS = { width: 62, height: 244 };
+const SCALE = { width: 170, height: 42 };
+const LEGEND = { width: 600, height: 54, from: 690 };
 
 export class DeviceDrawing {
   constructor(fields) {
-    this.fields = fields;
+    this.fieldLabels = new FieldLabels(fields);
     this.spots = [];
     this.clusters = [];
     this.byId = new Map();
@@ -39,17 +42,18 @@ export class DeviceDrawing {
     context.clearRect(0, 0, frame.width, frame.height);
     const places = new LabelPlaces();
     places.block(frame.width - CONTROLS.width, 0, frame.width, CONTROLS.height);
+    const foot = frame.width < LEGEND.from ? SCALE : LEGEND;
+    places.block(0, frame.height - foot.height, foot.width, frame.height);
     const inView = this.collect(frame);
     const close = devicesOfEncounters();
     const { single, clusters } = cluster(inView, (entity) => entity.id === store.selection || entity.state === 'look' || close.has(entity.id), { x: frame.x(0, 0), y: frame.y(0, 0) });
     this.spots = single;
     this.clusters = clusters;
-    // names of fields keep clear of what stands still, and do not run away from what moves
     const [moving, standing] = [single.filter(isRobot), single.filter((spot) => !isRobot(spot))];
-    standing.forEach((spot) => blockSymbol(places, spot));
+    standing.forEach((spot) => places.block(...symbolBox(spot)));
     const encounters = placeEncounters(frame, palette, (id) => this.byId.get(id));
-    this.fields.drawLabels(frame, palette, places, encounters.filter(({ encounter }) => !isOver(encounter)));
-    moving.forEach((spot) => blockSymbol(places, spot));
+    this.fieldLabels.draw(frame, palette, places, moving.map(symbolBox), encounters);
+    moving.forEach((spot) => places.block(...symbolBox(spot)));
     encounters.forEach((each) => drawEncounter(frame, each, palette, places));
     for (const each of clusters) {
       each.radius = drawCluster(context, each, palette);
@@ -180,9 +184,9 @@ function isRobot({ entity }) {
   return entity.kind === 'robot';
 }
 
-function blockSymbol(places, { entity, x, y }) {
+function symbolBox({ entity, x, y }) {
   const half = SIZE[shapeOf(entity)];
-  places.block(x - half, y - half, x + half, y + half);
+  return [x - half, y - half, x + half, y + half];
 }
 
 function dimmed(entity) {

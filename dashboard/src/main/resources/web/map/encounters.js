@@ -5,8 +5,9 @@ import { t } from '../texts.js';
 import { isOnMap, project } from './projection.js';
 
 const FADING = 10_000;
-/** Height of what is written above a ring, with its gap, px. */
+/** Height of what is written above a ring, with its gap, and half of its width, px. */
 const PILL = 26;
+const HALF_PILL = 64;
 /** How long after its moment a prediction that did not come true stays, ms: nothing says that it is over. */
 const PREDICTION_STAYS = 3_000;
 
@@ -30,7 +31,8 @@ export function placeEncounters(frame, palette, spotOf) {
 
 /** Whether the ring, or the pill above it, covers a part of a box. */
 export function covers({ x, y, radius }, left, top, right, bottom) {
-  return left < x + radius && right > x - radius && top < y + radius && bottom > y - radius - PILL;
+  const half = top < y - radius ? Math.max(radius, HALF_PILL) : radius;
+  return left < x + half && right > x - half && top < y + radius && bottom > y - radius - PILL;
 }
 
 /** What is over only fades: it takes no place from what is known of a field. */

@@ -1,16 +1,8 @@
-/** Fields with their rows, zones without alarms, and what is known of each. */
-import { age, temperature } from '../core/format.js';
+/** Fields with their rows, and zones without alarms. */
 import { store } from '../core/store.js';
-import { t } from '../texts.js';
-import { covers } from './encounters.js';
 import { groundScale, isOnMap, project } from './projection.js';
-import { drawText, widthOf } from './labels.js';
 
 const NARROWEST_ROW = 7;
-/** From one place that is tried for a name to the next, px. */
-const STEP = 20;
-/** Px; on a narrower map texts go nearer to the borders of fields. */
-const NARROW = 560;
 
 export class FieldDrawing {
   constructor() {
@@ -54,75 +46,22 @@ export class FieldDrawing {
     const { context, ratio } = frame;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, frame.width, frame.height);
-    for (const field of store.fields.values()) {
-      const rings = this.outlineOf(field).rings.map((ring) => ring.map(([x, y]) => [frame.x(x, y), frame.y(x, y)]));
-      if (rings.length && isInView(rings, frame)) {
-        field.exclusion ? drawZone(context, rings, palette) : drawField(context, field, rings, frame, palette, options);
-      }
+    for (const { field, rings } of this.inView(frame)) {
+      field.exclusion ? drawZone(context, rings, palette) : drawField(context, field, rings, frame, palette, options);
     }
   }
 
-  /** Names and averages; they change by time, so they are drawn with the devices. */
-  drawLabels(frame, palette, places, encounters) {
-    const { context } = frame;
-    const now = store.now();
-    const isFree = (...box) => places.isFree(...box) && !encounters.some((each) => covers(each, ...box));
-    for (const field of store.fields.values()) {
-      const rings = this.outlineOf(field).rings.map((ring) => ring.map(([x, y]) => [frame.x(x, y), frame.y(x, y)]));
-      if (!rings.length || !isInView(rings, frame)) {
-        continue;
-      }
-      context.font = `600 14px ${palette.family}`;
-      const wide = widthOf(context, field.name);
-      context.font = `400 12px ${palette.family}`;
-      const [spot, line] = spotOf(context, rings[0], wide, linesOf(field, now), frame, isFree);
-      if (!spot) {
-        continue;
-      }
-      const second = widthOf(context, line);
-      context.globalAlpha = isFound(field) ? 1 : 0.3;
-      context.font = `600 14px ${palette.family}`;
-      drawText(context, field.name, spot.x, spot.y, field.exclusion ? palette.muted : palette.text, palette.field);
-      places.block(spot.x - 4, spot.y - 10, spot.x + wide + 4, spot.y + 10);
-      context.font = `400 12px ${palette.family}`;
-      if (line) {
-        drawText(context, line, spot.x, spot.y + 18, palette.muted, palette.field);
-        places.block(spot.x - 4, spot.y + 8, spot.x + second + 4, spot.y + 28);
-      }
-    }
-    context.globalAlpha = 1;
+  /** Those of which something is on the map, with their rings in pixels of the frame. */
+  inView(frame) {
+    return [...store.fields.values()]
+      .map((field) => ({ field, rings: this.outlineOf(field).rings.map((ring) => ring.map(([x, y]) => [frame.x(x, y), frame.y(x, y)])) }))
+      .filter(({ rings }) => rings.length && isInView(rings, frame));
   }
 }
 
 /** Whether the search is for this field. */
 export function isFound(field) {
   return store.isFound(field.name, field.id);
-}
-
-/** What is written below the name, the longest first: where there is no room for it the value alone, or nothing. */
-function linesOf(field, now) {
-  const average = store.averages.get(field.id);
-  if (field.exclusion) {
-    return [t('map.noAlarms'), ''];
-  }
-  if (!average) {
-    return [''];
-  }
-  const value = temperature(average.value);
-  const parts = [value, average.verified ? t('map.devices', { count: average.count }) : t('map.unverified')];
-  average.suspects.length && parts.push(t('map.suspects', { count: average.suspects.length }));
-  parts.push(age(now - average.time));
-  return [parts.join(' · '), value, ''];
-}
-
-function spotOf(context, ring, wide, lines, frame, isFree) {
-  for (const line of lines) {
-    const spot = spotIn(ring, Math.max(wide, widthOf(context, line)), line ? 28 : 10, frame, isFree);
-    if (spot) {
-      return [spot, line];
-    }
-  }
-  return [null, ''];
 }
 
 function ringsOf(geometry) {
@@ -137,7 +76,7 @@ function isInView(rings, frame) {
   return box[2] > 0 && box[3] > 0 && box[0] < frame.width && box[1] < frame.height;
 }
 
-function boxOf(ring) {
+export function boxOf(ring) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   for (const [x, y] of ring) {
     box[0] = Math.min(box[0], x);
@@ -213,44 +152,4 @@ function drawZone(context, rings, palette) {
   context.strokeStyle = palette.muted;
   context.stroke();
   context.setLineDash([]);
-}
-
-/** Where a text may begin inside an outline: near its top, where a line of it is wide enough and covers no symbol and no encounter. */
-function spotIn(ring, width, below, frame, isFree) {
-  const [, top, , bottom] = boxOf(ring);
-  const from = Math.max(top, 0);
-  const to = Math.min(bottom, frame.height);
-  for (let y = from + 22; y < to - 12; y += 12) {
-    const above = spansAt(ring, y - 9);
-    const lower = spansAt(ring, y + below);
-    for (const [left, right] of above) {
-      for (const [lowLeft, lowRight] of lower) {
-        const end = Math.min(right, lowRight, frame.width) - (frame.width < NARROW ? 4 : 8) - width;
-        for (let x = Math.max(left, lowLeft, 0) + (frame.width < NARROW ? 6 : 14); x <= end; x += STEP) {
-          if (isFree(x - 4, y - 10, x + width + 4, y + below)) {
-            return { x, y, below };
-          }
-        }
-      }
-    }
-  }
-  return null;
-}
-
-/** Stretches of a horizontal line that are inside a ring. */
-function spansAt(ring, y) {
-  const crossings = [];
-  for (let i = 0; i < ring.length; i++) {
-    const [x1, y1] = ring[i];
-    const [x2, y2] = ring[(i + 1) % ring.length];
-    if ((y1 > y) !== (y2 > y)) {
-      crossings.push(x1 + (y - y1) * (x2 - x1) / (y2 - y1));
-    }
-  }
-  crossings.sort((a, b) => a - b);
-  const spans = [];
-  for (let i = 0; i + 1 < crossings.length; i += 2) {
-    spans.push([crossings[i], crossings[i + 1]]);
-  }
-  return spans;
 }

@@ -3,8 +3,8 @@ import { api } from '../core/api.js';
 import { store } from '../core/store.js';
 
 export const LIVE_LENGTH = 15 * 60_000;
-/** As short as it may be where little came yet. */
-const SHORTEST = 60_000;
+/** As short as it may be where little came yet: some buckets. */
+const SHORTEST = 20_000;
 const WIDTH = 5_000;
 const TOPIC = 'data.raw';
 
@@ -42,13 +42,15 @@ export class LiveDensity {
     }
   }
 
-  /** The buckets before one: all at first, then those since the last answer, and two before, as records may be late. */
+  /** The buckets up to the newest: all at first, then those since the last answer, and two before, as records may be late. */
   async ask(start) {
     const from = this.countedTo === null ? start - LIVE_LENGTH : Math.max(start - LIVE_LENGTH, this.countedTo - 2 * WIDTH);
     try {
-      const { counts } = await api.get(`/api/density/${TOPIC}?${new URLSearchParams({ from, to: start, width: WIDTH })}`);
+      const { counts } = await api.get(`/api/density/${TOPIC}?${new URLSearchParams({ from, to: start + WIDTH, width: WIDTH })}`);
       this.countedTo = start;
+      const counted = this.counts.get(start) ?? 0; // may have gone on since Kafka answered
       counts.forEach((count, index) => this.counts.set(from + index * WIDTH, count));
+      this.counts.set(start, Math.max(counted, this.counts.get(start) ?? 0));
       this.show();
     } catch {
       // until it is asked again the page's own count stands

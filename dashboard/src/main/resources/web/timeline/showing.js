@@ -57,7 +57,7 @@ export const Showing = (Base) => class extends Base {
   showState() {
     const counts = `${counted('encounter', this.countShown(this.encounters, 'start'))} · ${counted('marker', this.countShown(this.markers, 'time'))}`;
     if (!store.isReplay) {
-      setText(this.sub, `${t('timeline.lastMinutes', { minutes: Math.max(1, Math.round((this.extent[1] - this.extent[0]) / MINUTE)) })} · ${counted('encounter', this.encounters.length)}`);
+      setText(this.sub, `${lately(this.extent[1] - this.extent[0])} · ${counted('encounter', this.encounters.length)}`);
       return;
     }
     const { state } = this;
@@ -204,4 +204,8 @@ export const Showing = (Base) => class extends Base {
 
 function counted(thing, count) {
   return t(`timeline.${count === 1 ? thing : `${thing}s`}`, { count });
+}
+
+function lately(ms) {
+  return ms < MINUTE ? t('timeline.lastSeconds', { seconds: Math.round(ms / SECOND) }) : t('timeline.lastMinutes', { minutes: Math.round(ms / MINUTE) });
 }

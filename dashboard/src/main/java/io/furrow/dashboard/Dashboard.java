@@ -7,17 +7,12 @@ import java.time.Duration;
 import java.util.List;
 
 import org.apache.kafka.clients.admin.Admin;
-import org.eclipse.jetty.client.HttpClient;
 import org.eclipse.jetty.ee10.servlet.ServletContextHandler;
 import org.eclipse.jetty.ee10.servlet.ServletHolder;
 import org.eclipse.jetty.ee10.websocket.server.JettyServerUpgradeRequest;
 import org.eclipse.jetty.ee10.websocket.server.JettyServerUpgradeResponse;
 import org.eclipse.jetty.ee10.websocket.server.config.JettyWebSocketServletContainerInitializer;
-import org.eclipse.jetty.http.HttpFields;
-import org.eclipse.jetty.http.HttpHeader;
-import org.eclipse.jetty.http.HttpURI;
 import org.eclipse.jetty.http.pathmap.ServletPathSpec;
-import org.eclipse.jetty.proxy.ProxyHandler;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
 import org.eclipse.jetty.server.HttpConnectionFactory;
@@ -81,7 +76,7 @@ public final class Dashboard implements AutoCloseable {
     private static final String CONTENT_POLICY =
             "default-src 'self'; img-src 'self' data: blob:%s; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 
-    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS);
+    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
     private final Server server = new Server(threads);
     private final TopicStreams streams;
     private final ImageIndex images;
@@ -124,7 +119,7 @@ public final class Dashboard implements AutoCloseable {
         for (String path : OWN_PATHS) {
             paths.addMapping(new ServletPathSpec(path), own);
         }
-        paths.addMapping(new ServletPathSpec("/api/*"), controlPlane(settings.controlPlane()));
+        paths.addMapping(new ServletPathSpec("/api/*"), new ControlPlaneProxy(settings.controlPlane()));
         Handler status = new StatusPages(surroundings, streams);
         STATUS.forEach(path -> paths.addMapping(new ServletPathSpec(path), status));
         if (settings.page().tileFile() != null) {
@@ -213,63 +208,6 @@ public final class Dashboard implements AutoCloseable {
             response.sendError(problem.status(), problem.getMessage());
             return null;
         }
-    }
-
-    /** The page's own origin means nothing to the control plane, which is asked by this process. */
-    private static Handler controlPlane(URI base) {
-        ProxyHandler.Reverse proxy =
-                new ProxyHandler.Reverse(
-                        request -> HttpURI.build(base.toString().replaceAll("/+$", "")
-                                        + request.getHttpURI().getPathQuery())
-                                .asImmutable()) {
-                    @Override
-                    protected void addProxyHeaders(
-                            Request clientRequest, org.eclipse.jetty.client.Request proxyRequest) {
-                        proxyRequest.headers(headers -> {
-                            headers.remove(HttpHeader.ORIGIN);
-                            headers.remove(HttpHeader.COOKIE);
-                            headers.remove("Sec-Fetch-Site");
-                            headers.remove("Sec-Fetch-Mode");
-                            headers.remove("Sec-Fetch-Dest");
-                        });
-                    }
-
-                    @Override
-                    protected void onServerToProxyResponseFailure(
-                            Request clientRequest,
-                            org.eclipse.jetty.client.Request proxyRequest,
-                            org.eclipse.jetty.client.Response serverResponse,
-                            Response proxyResponse,
-                            Callback callback,
-                            Throwable failure) {
-                        away(base, proxyResponse, callback, failure);
-                    }
-
-                    @Override
-                    protected HttpClient newHttpClient() {
-                        HttpClient client = super.newHttpClient();
-                        client.setIdleTimeout(IDLE.toMillis());
-                        return client;
-                    }
-                };
-        proxy.setProxyToServerHost(base.getAuthority());
-        return proxy;
-    }
-
-    private static void away(URI base, Response response, Callback callback, Throwable failure) {
-        if (response.isCommitted()) {
-            callback.failed(failure);
-            return;
-        }
-        HttpFields.Mutable headers = response.getHeaders();
-        headers.clear();
-        headers.put(HttpHeader.CONTENT_TYPE, "application/json");
-        response.setStatus(502);
-        byte[] json = Problem.json(
-                "control-plane-away",
-                "the control plane at %s does not answer (%s); check --control-plane and that it runs"
-                        .formatted(base, failure.getMessage()));
-        response.write(true, java.nio.ByteBuffer.wrap(json), callback);
     }
 
     /** Where it listens. */

@@ -77,6 +77,7 @@ export class Records {
     const chosen = this.streams.size > 0;
     this.hint.hidden = chosen;
     this.frame.hidden = this.bar.hidden = !chosen;
+    this.frame.classList.toggle('single', this.streams.size === 1);
     const shown = this.records.filter((each) => this.key === '' || String(each.key ?? '').toLowerCase().includes(this.key)).slice(-SHOWN).reverse();
     setText(this.note, this.stateOf(shown));
     const rows = [...this.body.children];

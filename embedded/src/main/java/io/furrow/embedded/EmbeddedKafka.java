@@ -176,6 +176,11 @@ public final class EmbeddedKafka implements AutoCloseable {
                 Map.entry("transaction.state.log.min.isr", 1),
                 Map.entry("share.coordinator.state.topic.replication.factor", 1),
                 Map.entry("share.coordinator.state.topic.min.isr", 1),
+                // The defaults are for a machine that does nothing else.
+                Map.entry("num.network.threads", 1),
+                Map.entry("num.io.threads", 4),
+                Map.entry("background.threads", 2),
+                Map.entry("group.coordinator.threads", 1),
                 Map.entry("log.cleaner.dedupe.buffer.size", 8 * 1024 * 1024),
                 // A consumer of a fresh group would otherwise wait three seconds for company.
                 Map.entry("group.initial.rebalance.delay.ms", 0));

@@ -1,14 +1,17 @@
 package io.furrow.launcher;
 
+import picocli.AutoComplete.GenerateCompletion;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
+import picocli.CommandLine.Option;
 
 import io.furrow.cli.Commands;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.launcher.command.ControlPlaneCommand;
 import io.furrow.launcher.command.DashboardCommand;
 import io.furrow.launcher.command.DemoCommand;
+import io.furrow.launcher.command.InitCommand;
 import io.furrow.launcher.command.ScenarioCommand;
 import io.furrow.launcher.command.SecretCommand;
 import io.furrow.launcher.command.UpCommand;
@@ -28,11 +31,18 @@ import io.furrow.simulators.host.DeviceHostCommand;
             DashboardCommand.class,
             DeviceHostCommand.class,
             ScenarioCommand.class,
-            SecretCommand.class
+            SecretCommand.class,
+            InitCommand.class
         })
 public final class Furrow {
     @Mixin
     private HelpOption help;
+
+    @Option(
+            names = {"-V", "--version"},
+            versionHelp = true,
+            description = "Show the version.")
+    private boolean version;
 
     private Furrow() {}
 
@@ -47,6 +57,8 @@ public final class Furrow {
     public static CommandLine commandLine() {
         CommandLine furrow = Commands.commandLine(new Furrow());
         furrow.getSubcommands().get("replay").addSubcommand(new AnalyticsCommand());
+        furrow.addSubcommand(new GenerateCompletion());
+        furrow.getCommandSpec().version(Version.TEXT);
         return furrow;
     }
 }

@@ -1,5 +1,6 @@
 package io.furrow.launcher;
 
+import java.nio.file.Files;
 import java.nio.file.Path;
 
 import org.apache.logging.log4j.core.LoggerContext;
@@ -8,8 +9,10 @@ import org.apache.logging.log4j.core.LoggerContext;
 public final class LogFile {
     private LogFile() {}
 
+    /** @param file a device, as {@code /dev/stderr}, or a file, which is renamed and begun anew at 10 MB */
     public static void writeTo(Path file) {
         System.setProperty("furrow.log", file.toString());
+        System.setProperty("furrow.log.rotated", Boolean.toString(!Files.exists(file) || Files.isRegularFile(file)));
         LoggerContext.getContext(false).reconfigure();
     }
 }

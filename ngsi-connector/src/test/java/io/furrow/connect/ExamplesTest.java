@@ -14,6 +14,7 @@ import org.apache.kafka.connect.connector.Connector;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.sink.NgsiSinkConnector;
 import io.furrow.connect.source.NgsiSourceConnector;
@@ -42,14 +43,24 @@ class ExamplesTest {
     @MethodSource("examples")
     void areValid(Path example) throws Exception {
         JsonNode json = NgsiJson.read(Files.readAllBytes(example));
+        assertThat(example.getFileName().toString())
+                .startsWith(json.path("name").textValue());
+        requireValid(json.path("config"));
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"ngsi-source.json", "ngsi-sink.json"})
+    void areValidInContainersToo(String config) throws Exception {
+        requireValid(NgsiJson.read(Files.readAllBytes(Path.of("..", "docker", "connectors", config))));
+    }
+
+    private void requireValid(JsonNode config) throws Exception {
         Map<String, String> options = new HashMap<>();
-        for (Map.Entry<String, JsonNode> option : json.path("config").properties()) {
+        for (Map.Entry<String, JsonNode> option : config.properties()) {
             options.put(option.getKey(), resolved(option.getValue().textValue()));
         }
         Connector connector = connector(options.get("connector.class"));
 
-        assertThat(example.getFileName().toString())
-                .startsWith(json.path("name").textValue());
         assertThat(connector.validate(options).configValues())
                 .allSatisfy(value -> assertThat(value.errorMessages()).isEmpty());
         assertThat(options.keySet())

@@ -41,6 +41,7 @@ import io.furrow.simulators.load.LoadPlan;
             FleetBench.class,
             MissionBench.class,
             WholeBench.class,
+            EvaluateBench.class,
             DashboardBench.class
         })
 public final class BenchCommand {

@@ -5,6 +5,8 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
+import java.util.Locale;
+import java.util.Map;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
@@ -99,12 +101,23 @@ final class WholeBench implements Callable<Integer> {
                     if (!known.has(turn, part, checkout)) {
                         out.printf("  turn %d of %d: %s, %s …%n", turn, turns, part, checkout.name());
                         out.flush();
-                        known.add(turn, part, checkout, measurement.run(checkout, part));
+                        WholeMeasurement.Result result = measurement.run(checkout, part);
+                        known.add(turn, part, checkout, result.figures());
+                        print(out, result);
                     }
                 }
             }
         }
         known.print(out, here, other);
         return 0;
+    }
+
+    /** Where the processor time went. */
+    private static void print(PrintWriter out, WholeMeasurement.Result result) {
+        result.roles().entrySet().stream()
+                .sorted(Map.Entry.<String, Double>comparingByValue().reversed())
+                .forEach(role -> out.printf(Locale.ROOT, "      %-32s %6.3f cores%n", role.getKey(), role.getValue()));
+        out.printf(Locale.ROOT, "      %-32s %6.0f/s%n", "switches between threads", result.switchesPerSecond());
+        out.flush();
     }
 }

@@ -2,7 +2,9 @@ package io.furrow.bench.load;
 
 import java.nio.charset.StandardCharsets;
 import java.util.EnumMap;
+import java.util.HashMap;
 import java.util.HashSet;
+import java.util.List;
 import java.util.Map;
 import java.util.Set;
 
@@ -20,7 +22,10 @@ final class Arrivals {
 
     private final Set<String> ids = new HashSet<>();
     private final Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
+    private final Timeline timeline = new Timeline();
+    private final Map<String, Long> newest = new HashMap<>();
     private long repeats;
+    private long reordered;
 
     Arrivals() {
         for (Hop hop : Hop.values()) {
@@ -31,11 +36,14 @@ final class Arrivals {
     /** To be called as soon as they are there. */
     void add(ConsumerRecords<byte[], byte[]> records) {
         long now = System.currentTimeMillis();
-        records.forEach(record -> add(record.headers(), now));
+        records.forEach(record -> add(new String(record.key(), StandardCharsets.UTF_8), record.headers(), now));
     }
 
-    /** @param now when the reader had the record, epoch ms */
-    synchronized void add(Headers headers, long now) {
+    /**
+     * @param entity whose messages are to come in the order in which they were sent
+     * @param now when the reader had the record, epoch ms
+     */
+    synchronized void add(String entity, Headers headers, long now) {
         if (!ids.add(text(headers, HeaderNames.CE_ID))) {
             repeats++;
             return;
@@ -47,6 +55,10 @@ final class Arrivals {
         record(Hop.SOURCE_TO_INGEST, ingest - source);
         record(Hop.INGEST_TO_READER, now - ingest);
         record(Hop.END_TO_END, now - device);
+        timeline.add(device, source, ingest, now);
+        if (newest.merge(entity, device, Math::max) > device) {
+            reordered++;
+        }
     }
 
     synchronized long distinct() {
@@ -55,6 +67,15 @@ final class Arrivals {
 
     synchronized long repeats() {
         return repeats;
+    }
+
+    /** Events that came after one of the same entity that was sent later. */
+    synchronized long reordered() {
+        return reordered;
+    }
+
+    synchronized List<LoadSecond> seconds() {
+        return timeline.seconds();
     }
 
     /** A copy that no longer changes. */

@@ -1,7 +1,7 @@
 package io.furrow.bench.load;
 
 /** One hop of a measure, between two timestamps. */
-enum Hop {
+public enum Hop {
     DEVICE_TO_SOURCE("device → source"),
     SOURCE_TO_INGEST("source → ingest"),
     INGEST_TO_READER("ingest → reader"),
@@ -13,7 +13,7 @@ enum Hop {
         this.title = title;
     }
 
-    String title() {
+    public String title() {
         return title;
     }
 }

@@ -65,7 +65,14 @@ public final class LoadMeasurement {
             reader.start();
             long sent = send(plan, arrivals);
             awaitArrivals(sent, arrivals);
-            return new LoadReport(plan, sent, arrivals.distinct(), arrivals.repeats(), delays(arrivals));
+            return new LoadReport(
+                    plan,
+                    sent,
+                    arrivals.distinct(),
+                    arrivals.repeats(),
+                    arrivals.reordered(),
+                    delays(arrivals),
+                    arrivals.seconds());
         }
     }
 

@@ -1,6 +1,7 @@
 package io.furrow.bench.load;
 
 import java.io.PrintWriter;
+import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 
@@ -14,9 +15,18 @@ import io.furrow.simulators.load.LoadPlan;
  * @param sent messages that the MQTT broker acknowledged
  * @param delivered distinct events at the mission's topic
  * @param repeats arrivals of events that had arrived before
+ * @param reordered events that came after one of the same entity that was sent later
  * @param delays milliseconds, of first arrivals
+ * @param seconds the load over time
  */
-public record LoadReport(LoadPlan plan, long sent, long delivered, long repeats, Map<Hop, Histogram> delays) {
+public record LoadReport(
+        LoadPlan plan,
+        long sent,
+        long delivered,
+        long repeats,
+        long reordered,
+        Map<Hop, Histogram> delays,
+        List<LoadSecond> seconds) {
     private static final double[] PERCENTILES = {50, 95, 99, 100};
 
     /** Distinct events that arrived, per message sent: 1 is what is promised. */
@@ -41,11 +51,12 @@ public record LoadReport(LoadPlan plan, long sent, long delivered, long repeats,
                 plan.duration().toSeconds());
         out.printf(
                 Locale.ROOT,
-                "sent %d   delivered %d   ratio %.4f   repeats %d%n",
+                "sent %d   delivered %d   ratio %.4f   repeats %d   reordered %d%n",
                 sent,
                 delivered,
                 deliveredRatio(),
-                repeats);
+                repeats,
+                reordered);
         out.printf("%-18s %8s %8s %8s %8s%n", "delay in ms", "p50", "p95", "p99", "max");
         for (Hop hop : Hop.values()) {
             out.printf("%-18s", hop.title());

@@ -14,17 +14,17 @@ import org.apache.kafka.common.serialization.ByteArraySerializer;
  * The rate at which one producer writes records like these, as fast as it can, with the settings that a Connect worker gives
  * to its producers: all replicas acknowledge, one request at a time to each broker.
  */
-final class BareProducer {
+public final class BareProducer {
     private final Properties client;
     private final String topic;
 
-    BareProducer(Properties client, String topic) {
+    public BareProducer(Properties client, String topic) {
         this.client = client;
         this.topic = topic;
     }
 
     /** Acknowledged records per second. */
-    double perSecond(List<ConsumerRecord<byte[], byte[]>> samples, Duration duration) {
+    public double perSecond(List<ConsumerRecord<byte[], byte[]>> samples, Duration duration) {
         Properties properties = new Properties();
         properties.putAll(client);
         properties.setProperty("acks", "all");

@@ -69,6 +69,10 @@ final class SuiteProcess implements AutoCloseable {
         return process.info().totalCpuDuration().orElseThrow(() -> new IOException("the suite has ended"));
     }
 
+    ThreadTimes threadTimes() throws IOException {
+        return ThreadTimes.of(process.pid());
+    }
+
     long threads() throws IOException {
         return status("Threads:");
     }

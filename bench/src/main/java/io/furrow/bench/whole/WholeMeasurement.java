@@ -5,6 +5,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.EnumMap;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.TimeUnit;
@@ -13,6 +14,19 @@ import io.furrow.bench.whole.Part.Figure;
 
 /** Measures one checkout at a time; the machine is to be quiet otherwise, and the suite's usual ports free. */
 public final class WholeMeasurement {
+    /**
+     * What was measured.
+     *
+     * @param roles processor time by what threads do, cores; with the switches between threads a second
+     */
+    public record Result(Map<Figure, Double> figures, Map<String, Double> roles, double switchesPerSecond) {
+        private static Result of(Map<Figure, Double> figures, ThreadTimes spent, double nanos) {
+            Map<String, Double> cores = new LinkedHashMap<>();
+            spent.byRole().forEach((role, time) -> cores.put(role, time / nanos));
+            return new Result(figures, cores, spent.switches() / nanos * 1e9);
+        }
+    }
+
     private static final String END_TO_END = "end_to_end";
     private static final String READY = "Flink web UI";
 
@@ -25,7 +39,7 @@ public final class WholeMeasurement {
     }
 
     /** @throws IOException if the suite did not start, or ended early */
-    public Map<Figure, Double> run(Checkout checkout, Part part) throws IOException, InterruptedException {
+    public Result run(Checkout checkout, Part part) throws IOException, InterruptedException {
         return switch (part) {
             case IDLE -> running(checkout, "up");
             case DEMO -> running(checkout, "demo");
@@ -33,7 +47,7 @@ public final class WholeMeasurement {
         };
     }
 
-    private Map<Figure, Double> running(Checkout checkout, String command) throws IOException, InterruptedException {
+    private Result running(Checkout checkout, String command) throws IOException, InterruptedException {
         long began = System.nanoTime();
         try (SuiteProcess suite = SuiteProcess.start(checkout, List.of(command))) {
             suite.awaitLine(line -> line.contains(READY));
@@ -42,16 +56,17 @@ public final class WholeMeasurement {
             suite.discardOutput();
             TimeUnit.NANOSECONDS.sleep(warmup.toNanos());
             Duration before = suite.processorTime();
+            ThreadTimes threads = suite.threadTimes();
             long from = System.nanoTime();
             TimeUnit.NANOSECONDS.sleep(measured.toNanos());
-            Duration spent = suite.processorTime().minus(before);
-            figures.put(Figure.CORES, spent.toNanos() / (double) (System.nanoTime() - from));
+            double took = System.nanoTime() - from;
+            figures.put(Figure.CORES, suite.processorTime().minus(before).toNanos() / took);
             putSize(suite, figures);
-            return figures;
+            return Result.of(figures, suite.threadTimes().since(threads), took);
         }
     }
 
-    private Map<Figure, Double> loaded(Checkout checkout, int devices) throws IOException, InterruptedException {
+    private Result loaded(Checkout checkout, int devices) throws IOException, InterruptedException {
         Path csv = Files.createTempFile("furrow-whole-", ".csv");
         List<String> arguments = List.of(
                 "bench",
@@ -64,8 +79,12 @@ public final class WholeMeasurement {
             String first = " of " + devices * measured.toSeconds() + " sent";
             suite.awaitLine(line -> line.contains(first));
             Duration before = suite.processorTime();
+            ThreadTimes threads = suite.threadTimes();
+            long from = System.nanoTime();
             suite.awaitLine(line -> line.startsWith("sent "));
+            double took = System.nanoTime() - from;
             Duration spent = suite.processorTime().minus(before);
+            ThreadTimes byRole = suite.threadTimes().since(threads);
             Map<Figure, Double> figures = new EnumMap<>(Figure.class);
             putSize(suite, figures);
             suite.awaitLine(line -> line.startsWith("end to end"));
@@ -77,7 +96,7 @@ public final class WholeMeasurement {
             figures.put(Figure.P50_MS, Double.parseDouble(row[9]));
             figures.put(Figure.P95_MS, Double.parseDouble(row[10]));
             figures.put(Figure.P99_MS, Double.parseDouble(row[11]));
-            return figures;
+            return Result.of(figures, byRole, took);
         } finally {
             Files.deleteIfExists(csv);
         }

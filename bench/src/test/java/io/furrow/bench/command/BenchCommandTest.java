@@ -19,6 +19,7 @@ class BenchCommandTest {
         "bench sink --help, --stand-in",
         "bench control --help, --outstanding",
         "bench whole --help, --against",
+        "bench evaluate --help, --sweeps",
         "bench --help, dashboard",
         "bench dashboard --help, ./furrow soak page --help"
     })

@@ -55,7 +55,7 @@ public final class RestApi implements AutoCloseable {
     private static final int THREADS = 32;
     private static final long STOPPING_MS = 2000;
 
-    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS);
+    private final QueuedThreadPool threads = new QueuedThreadPool(THREADS, 2);
     private final ServiceView view = new ServiceView();
     private final PendingReplies answers = new PendingReplies();
     private final Server server = new Server(threads);

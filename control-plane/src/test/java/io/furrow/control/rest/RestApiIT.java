@@ -44,6 +44,17 @@ class RestApiIT {
         assertThat(ApiClient.ASKED).containsAll(OpenApiDocument.read().operations());
     }
 
+    /** More of these is in tests of their own. */
+    @Test
+    void saysWhoAsksAndKnowsWhatIsNotThere() throws Exception {
+        assertThat(client.send("GET", "/api/me", null).statusCode()).isEqualTo(200);
+        assertThat(client.send("HEAD", "/api/replays/events", null).statusCode())
+                .isEqualTo(200);
+        assertThat(client.send("HEAD", "/api/replays/none.1/events", null).statusCode())
+                .isEqualTo(404);
+        running.refused("GET", "/api/recordings/none/timeline", null, 404, "unknown-mission");
+    }
+
     @Test
     void takesADomainFromItsBeginningToItsEnd() throws Exception {
         HttpResponse<byte[]> made = client.send("POST", "/api/domains", "{\"domain\":\"north\",\"name\":\"North\"}");

@@ -71,12 +71,15 @@ public final class Restarts {
 
     /** With the metrics that the runs look at. */
     public static MiniClusterExtension cluster() {
-        metrics = InMemoryReporter.create();
-        return new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()
-                .setNumberTaskManagers(1)
-                .setNumberSlotsPerTaskManager(4)
-                .setConfiguration(metrics.addToConfiguration(new Configuration()))
-                .build());
+        return new MiniClusterExtension(() -> {
+            metrics =
+                    InMemoryReporter.create(); // closed with its cluster; of a test that is run again there are several
+            return new MiniClusterResourceConfiguration.Builder()
+                    .setNumberTaskManagers(1)
+                    .setNumberSlotsPerTaskManager(4)
+                    .setConfiguration(metrics.addToConfiguration(new Configuration()))
+                    .build();
+        });
     }
 
     /** @param caseOf the case of a seed */
@@ -234,9 +237,16 @@ public final class Restarts {
                 .pollDelay(Duration.ZERO)
                 .pollInterval(Duration.ofMillis(2))
                 .atMost(Duration.ofMinutes(1))
-                .failFast(
-                        "the job has ended", () -> flink.getJobStatus(run).get().isTerminalState())
+                .failFast("the job has ended", () -> requireUnended(run))
                 .until(condition);
+    }
+
+    /** Says why it has ended, if it failed. */
+    private void requireUnended(JobID run) throws Exception {
+        if (flink.getJobStatus(run).get().isTerminalState()) {
+            end(run);
+            throw new IllegalStateException("it ended by itself");
+        }
     }
 
     private String stop(JobID run) {

@@ -34,6 +34,7 @@ import io.furrow.launcher.option.TlsOptions;
 import io.furrow.launcher.option.WatchFlags;
 import io.furrow.launcher.suite.ControlService;
 import io.furrow.launcher.suite.FarmSecretFile;
+import io.furrow.launcher.suite.PortCheck;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.AgentSettings;
 import io.furrow.provisioner.ProvisioningSettings;
@@ -146,6 +147,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
         watch.watch(null); // refuses what cannot be used before anything starts
         provisioning.agent(fiwareService); // the same
         replays.settings(); // the same
+        PortCheck.free(host, port, "the REST API", "--control-port");
+        PortCheck.free(host, healthPort, "its health", "--health-port");
         CertificateFiles certificate = tls.certificate();
         LogFile.writeTo(log);
         SecretFile secret = provisioning.secret == null

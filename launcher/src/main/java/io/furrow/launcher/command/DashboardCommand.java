@@ -29,6 +29,7 @@ import io.furrow.dashboard.page.PageSettings;
 import io.furrow.launcher.LogFile;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
+import io.furrow.launcher.suite.PortCheck;
 
 /** {@code ./furrow dashboard}. */
 @Command(
@@ -145,6 +146,7 @@ public final class DashboardCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         DashboardSettings settings = settings();
+        PortCheck.free(host, port, "the dashboard", "--port");
         LogFile.writeTo(log);
         CountDownLatch stop = new CountDownLatch(1);
         CountDownLatch stopped = new CountDownLatch(1);

@@ -22,6 +22,9 @@ import io.furrow.model.ngsi.NgsiJson;
 public final class Connectors {
     private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    /** Records that come within this time are one batch for all that read them: a fraction of the requests and wake-ups. */
+    private static final String LINGER_MS = "25";
+
     private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
 
     private final RestClient rest = new RestClient();
@@ -48,6 +51,8 @@ public final class Connectors {
         put(
                 "ngsi-source",
                 Map.of(
+                        "producer.override.linger.ms",
+                        LINGER_MS,
                         "connector.class",
                         "io.furrow.connect.source.NgsiSourceConnector",
                         "tasks.max",

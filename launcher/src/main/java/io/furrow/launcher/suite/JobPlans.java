@@ -33,8 +33,6 @@ final class JobPlans {
     /** Folder of stored images in the run directory. */
     static final String IMAGES = "images";
 
-    private static final String CHECKPOINT_INTERVAL = "5s";
-
     private final SuiteSettings settings;
     private final KafkaAccess kafka;
     private final String mongo;
@@ -121,7 +119,6 @@ final class JobPlans {
     private <T extends JobOptions> T parsed(String name, T options, String... own) {
         List<String> args = new ArrayList<>(List.of(own));
         args.addAll(List.of("--bootstrap-servers", kafka.bootstrapServers()));
-        args.addAll(List.of("--checkpoint-interval", CHECKPOINT_INTERVAL));
         args.addAll(List.of(
                 "--checkpoint-dir",
                 directory.resolve("jobs").resolve(name).toUri().toString()));

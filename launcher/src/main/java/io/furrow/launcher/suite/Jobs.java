@@ -27,6 +27,8 @@ final class Jobs {
     private static final long SAVEPOINT_SECONDS = 4;
     private static final Duration CHECKPOINT = Duration.ofSeconds(1);
     private static final Duration BETWEEN_CHECKS = Duration.ofMillis(10);
+    /** Within one process a record need not wait for company, and a thread per task need not look for those that do. */
+    private static final long AT_ONCE = 0;
 
     private final EmbeddedFlink flink;
     private final Path directory;
@@ -39,6 +41,7 @@ final class Jobs {
     }
 
     synchronized void submit(String name, StreamExecutionEnvironment env) {
+        env.setBufferTimeout(AT_ONCE);
         StreamGraph graph = env.getStreamGraph();
         graph.setJobName(name);
         NewestState.below(directory.resolve(name))

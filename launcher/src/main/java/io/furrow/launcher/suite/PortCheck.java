@@ -8,7 +8,9 @@ import java.net.ServerSocket;
 import io.furrow.cli.CommandException;
 
 /** Finds a port in use before anything is started on it. */
-final class PortCheck {
+public final class PortCheck {
+    private static final String LOOPBACK = "127.0.0.1";
+
     private PortCheck() {}
 
     /** @throws CommandException if somebody listens on a port that a suite of these settings needs */
@@ -33,21 +35,26 @@ final class PortCheck {
         }
     }
 
+    private static void free(int port, String what, String option) {
+        free(LOOPBACK, port, what, option);
+    }
+
     /**
+     * @param host address of this machine, on which the port will be opened
      * @param option the option that sets the port
      * @throws CommandException if somebody listens there
      */
-    static void free(int port, String what, String option) {
+    public static void free(String host, int port, String what, String option) {
         if (port == 0) {
             return;
         }
         try (ServerSocket socket = new ServerSocket()) {
             socket.setReuseAddress(true); // a port that is only cooling down is free
-            socket.bind(new InetSocketAddress(InetAddress.getLoopbackAddress(), port));
+            socket.bind(new InetSocketAddress(InetAddress.getByName(host), port));
         } catch (IOException e) {
             throw new CommandException(
-                    "Port %d of 127.0.0.1, meant for %s, is in use. Stop what listens there, or choose another with %s."
-                            .formatted(port, what, option),
+                    "Port %d of %s, meant for %s, is in use. Stop what listens there, or choose another with %s."
+                            .formatted(port, host, what, option),
                     e);
         }
     }

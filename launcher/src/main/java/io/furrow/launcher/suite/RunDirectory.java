@@ -8,12 +8,14 @@ import java.nio.channels.OverlappingFileLockException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
+import java.nio.file.attribute.FileAttribute;
+import java.nio.file.attribute.PosixFilePermissions;
 import java.time.Duration;
 import java.util.Comparator;
 import java.util.Deque;
 import java.util.List;
-import java.util.Set;
 import java.util.concurrent.ConcurrentLinkedDeque;
+import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import org.slf4j.Logger;
@@ -32,7 +34,10 @@ public final class RunDirectory implements AutoCloseable {
     private static final Duration BETWEEN_DELETIONS = Duration.ofMillis(20);
     private static final String LOCK = "lock";
     /** What a start that was refused leaves. */
-    private static final Set<String> WITHOUT_DATA = Set.of(LOCK, "furrow.log");
+    private static final Pattern WITHOUT_DATA = Pattern.compile(Pattern.quote(LOCK) + "|furrow\\.log(\\.\\d+)?");
+
+    private static final FileAttribute<?> OWNER_ONLY =
+            PosixFilePermissions.asFileAttribute(PosixFilePermissions.fromString("rwx------"));
 
     private final Path path;
     private final boolean temporary;
@@ -57,9 +62,7 @@ public final class RunDirectory implements AutoCloseable {
      */
     public static RunDirectory open(Path kept) {
         try {
-            Path path = kept == null
-                    ? Files.createTempDirectory("furrow-")
-                    : Files.createDirectories(kept.toAbsolutePath());
+            Path path = kept == null ? Files.createTempDirectory("furrow-") : make(kept.toAbsolutePath());
             FileChannel lock = lock(path);
             return new RunDirectory(path, kept == null, isFresh(path), lock);
         } catch (IOException e) {
@@ -68,6 +71,16 @@ public final class RunDirectory implements AutoCloseable {
                             .formatted(kept == null ? System.getProperty("java.io.tmpdir") : kept, e.getMessage()),
                     e);
         }
+    }
+
+    /** What is kept holds passwords and API keys of devices: nobody else may look into a directory that is made for it. */
+    private static Path make(Path directory) throws IOException {
+        if (Files.isDirectory(directory)) {
+            return directory;
+        }
+        Files.createDirectories(directory.getParent());
+        boolean posix = directory.getFileSystem().supportedFileAttributeViews().contains("posix");
+        return posix ? Files.createDirectory(directory, OWNER_ONLY) : Files.createDirectory(directory);
     }
 
     public Path path() {
@@ -120,7 +133,7 @@ public final class RunDirectory implements AutoCloseable {
     private static boolean isFresh(Path directory) throws IOException {
         try (Stream<Path> files = Files.list(directory)) {
             return files.allMatch(
-                    file -> WITHOUT_DATA.contains(file.getFileName().toString()));
+                    file -> WITHOUT_DATA.matcher(file.getFileName().toString()).matches());
         }
     }
 

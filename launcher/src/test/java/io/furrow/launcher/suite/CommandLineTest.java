@@ -33,6 +33,8 @@ class CommandLineTest {
     @ParameterizedTest
     @CsvSource({
         "--help, demo",
+        "--version, furrow",
+        "init --help, FILE",
         "demo --help, --kafka-port",
         "up --help, --orion",
         "dead-letters redrive --help, --dry-run",
@@ -73,6 +75,26 @@ class CommandLineTest {
                     .isEqualTo("Port " + port
                             + " of 127.0.0.1, meant for Flink's web UI, is in use. Stop what listens there, "
                             + "or choose another with --flink-port.");
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "dashboard, --port",
+        "control-plane --health-port 0, --control-port",
+        "control-plane --control-port 0, --health-port"
+    })
+    void namesItOfAPartThatRunsAloneToo(String command, String option) throws Exception {
+        try (ServerSocket taken = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
+            List<String> words = new ArrayList<>(List.of(command.split(" ")));
+            words.addAll(List.of("--kafka", "127.0.0.1:1", option, Integer.toString(taken.getLocalPort())));
+
+            assertThat(furrow.execute(words.toArray(String[]::new))).isNotZero();
+
+            assertThat(err.toString().trim())
+                    .startsWith("Port %d of 127.0.0.1, meant for ".formatted(taken.getLocalPort()))
+                    .endsWith("or choose another with %s.".formatted(option))
+                    .hasLineCount(1);
         }
     }
 

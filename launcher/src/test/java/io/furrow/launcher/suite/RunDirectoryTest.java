@@ -2,6 +2,7 @@ package io.furrow.launcher.suite;
 
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.nio.file.attribute.PosixFilePermissions;
 
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -42,6 +43,7 @@ class RunDirectoryTest {
         Path kept = parent.resolve("kept");
         RunDirectory.open(kept).close();
         Files.createFile(kept.resolve("furrow.log"));
+        Files.createFile(kept.resolve("furrow.log.1"));
         try (RunDirectory refusedBefore = RunDirectory.open(kept)) {
             assertThat(refusedBefore.isFresh()).isTrue();
         }
@@ -49,5 +51,19 @@ class RunDirectoryTest {
         try (RunDirectory used = RunDirectory.open(kept)) {
             assertThat(used.isFresh()).isFalse();
         }
+    }
+
+    @Test
+    void letsNobodyElseLookIntoADirectoryThatItMakes() throws Exception {
+        Path kept = parent.resolve("var/kept");
+        RunDirectory.open(kept).close();
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(kept)))
+                .isEqualTo("rwx------");
+
+        Files.setPosixFilePermissions(kept, PosixFilePermissions.fromString("rwxr-x---"));
+        RunDirectory.open(kept).close();
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(kept)))
+                .as("one that was there stays as it is")
+                .isEqualTo("rwxr-x---");
     }
 }

@@ -32,6 +32,7 @@ import io.furrow.simulators.scenario.SimulatedDevice.Robot;
 public final class FarmFleet implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(FarmFleet.class);
     private static final Duration POLL_INTERVAL = Duration.ofMillis(10);
+    private static final Duration POLL_INTERVAL_WITHOUT_DEVICES = Duration.ofMillis(100);
 
     private final Clock clock;
     private final FarmSimulation scene = new FarmSimulation();
@@ -206,14 +207,18 @@ public final class FarmFleet implements AutoCloseable {
                 // One device's fault must not stop all others.
                 LOG.error("a simulated device failed in one report", e);
             }
-            Instant now = clock.instant();
-            Instant next = draining ? now.plus(POLL_INTERVAL) : timetable.next().orElse(now.plus(POLL_INTERVAL));
-            long wait = Math.min(
-                    POLL_INTERVAL.toNanos(), Duration.between(now, next).toNanos());
+            long wait = draining
+                    ? POLL_INTERVAL.toNanos()
+                    : timetable.next().map(this::untilDue).orElse(POLL_INTERVAL_WITHOUT_DEVICES.toNanos());
             if (wait > 0 && !closed) {
                 LockSupport.parkNanos(wait);
             }
         }
+    }
+
+    private long untilDue(Instant next) {
+        return Math.min(
+                POLL_INTERVAL.toNanos(), Duration.between(clock.instant(), next).toNanos());
     }
 
     private void step() {

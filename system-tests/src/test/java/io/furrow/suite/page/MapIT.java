@@ -287,4 +287,48 @@ class MapIT {
     private static double zoom(FarmPage farm) {
         return ((Number) farm.page().evaluate("document.querySelector('furrow-map').view.getZoom()")).doubleValue();
     }
+
+    /** On the map of a phone too, where only some fields have room for it inside their outline. */
+    @Tag("full")
+    @Test
+    void saysTheAverageOfEachFieldAndCoversNoSymbolWithIt(PageSuite suite) {
+        FarmPage farm = suite.open("", Look.PHONE);
+        farm.untilStore("store.primed && store.entities.size >= 17"
+                + " && ['field-1', 'field-2', 'field-3'].every((id) => store.averages.has(id))");
+        farm.page().waitForCondition(() -> labels(farm, "each.line.includes('°C') && isFree") == 3);
+
+        // a robot drives onto each of them
+        farm.page().evaluate("""
+                        async () => {
+                          const { store } = await import('/core/store.js');
+                          const { map, devices } = document.querySelector('furrow-map');
+                          devices.fieldLabels.drawn.forEach(({ box: [left, top] }, number) => {
+                            const [longitude, latitude] = ol.proj.toLonLat(map.getCoordinateFromPixel([left + 20, top + 9]));
+                            const id = `urn:ngsi-ld:Robot:on-${number}`;
+                            store.takeEntity({ key: id, kind: 'event', time: Date.now(), headers: {},
+                              value: { id, type: 'Robot', Latitude: { value: latitude }, Longitude: { value: longitude } } });
+                          });
+                        }""");
+        farm.page()
+                .waitForCondition(() -> ((Number)
+                                        farm.page()
+                                                .evaluate(
+                                                        "document.querySelector('furrow-map').devices.spots.filter(({ entity }) => entity.id.includes(':on-')).length"))
+                                .intValue()
+                        >= 3);
+        farm.page().waitForCondition(() -> labels(farm, "isFree") >= 3 && labels(farm, "!isFree") == 0);
+    }
+
+    /** How many texts of fields are drawn of which an expression over {@code each} and {@code isFree} is true. */
+    private static int labels(FarmPage farm, String expression) {
+        return ((Number) farm.page().evaluate("""
+                        () => {
+                          const { spots, fieldLabels } = document.querySelector('furrow-map').devices;
+                          return fieldLabels.drawn.filter((each) => {
+                            const [left, top, right, bottom] = each.box;
+                            const isFree = spots.every(({ x, y }) => x < left || x > right || y < top || y > bottom);
+                            return %s;
+                          }).length;
+                        }""".formatted(expression))).intValue();
+    }
 }

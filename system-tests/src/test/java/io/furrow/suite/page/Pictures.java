@@ -9,13 +9,15 @@ final class Pictures {
     private static final String ENCOUNTER =
             "[...store.encounters.values()].some((each) => ['started', 'ongoing'].includes(each.phase) && each.distance < 4.8)";
 
+    private static final String SKELETON = ".skeleton:visible";
+
     private Pictures() {}
 
     static boolean take(PageSuite suite, Path folder) {
+        replay(suite, folder); // waits until something is recorded, so that the others have some minutes to show
         live(suite, folder, "live-dark", Look.DESK);
         live(suite, folder, "live-tablet", Look.TABLET);
         live(suite, folder, "live-phone", Look.PHONE);
-        replay(suite, folder);
         for (String view : new String[] {"missions", "replays", "analyses", "topics", "platform"}) {
             view(suite, folder, view, Look.DESK, "-dark");
         }
@@ -29,6 +31,7 @@ final class Pictures {
         farm.untilStore(
                 "store.averages.has('field-1') && store.entities.get('urn:ngsi-ld:Robot:1')?.trail.length > 40");
         assertThat(farm.card("urn:ngsi-ld:Robot:1")).isVisible();
+        assertThat(farm.find(SKELETON)).hasCount(0);
         farm.untilStore(ENCOUNTER);
         save(farm, folder, name);
     }
@@ -56,7 +59,7 @@ final class Pictures {
         if (view.equals("replays")) {
             farm.page().getByLabel("Choose weeding").check();
         }
-        assertThat(farm.find("furrow-" + view + " .skeleton:visible")).hasCount(0);
+        assertThat(farm.find(SKELETON)).hasCount(0);
         farm.page().waitForTimeout(2_000);
         save(farm, folder, view + suffix);
     }

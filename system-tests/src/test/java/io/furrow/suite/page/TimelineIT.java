@@ -65,6 +65,42 @@ class TimelineIT {
         farm.page().waitForCondition(() -> number(farm.page().evaluate(WRONG)) == 0, AT_ONCE);
     }
 
+    /** In the first minute too: the timeline is as long as there is something to show. */
+    @Test
+    void beginsWithTheFirstRecord(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        Object length = farm.page().evaluate("""
+                async () => {
+                  const { LiveDensity } = await import('/timeline/live.js');
+                  const density = new LiveDensity(() => {});
+                  density.countedTo = Date.now();
+                  density.counts.set(Date.now() - 30_000, 7);
+                  const [from, to] = density.extent();
+                  return to - from;
+                }""");
+
+        assertThat(number(length)).isBetween(29_900, 31_000);
+    }
+
+    @Test
+    void knowsWhatCameInTheNewestBucketBeforeThePageWasOpened(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        Object newest = farm.page().evaluate("""
+                async () => {
+                  const { LiveDensity } = await import('/timeline/live.js');
+                  const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+                  const density = new LiveDensity(() => {});
+                  await wait(density.width + 3000 - Date.now() % density.width); // some records are in it
+                  const start = Math.floor(Date.now() / density.width) * density.width;
+                  await density.ask(start);
+                  return density.counts.get(start);
+                }""");
+
+        assertThat(number(newest)).isPositive();
+    }
+
     private static int number(Object value) {
         return ((Number) value).intValue();
     }

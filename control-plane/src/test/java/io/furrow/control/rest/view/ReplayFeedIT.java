@@ -22,6 +22,7 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.TestInstance;
+import org.junit.jupiter.api.Timeout;
 import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.rest.ApiClient;
@@ -88,6 +89,7 @@ class ReplayFeedIT {
     }
 
     @Test
+    @Timeout(value = 60, threadMode = Timeout.ThreadMode.SEPARATE_THREAD)
     void followsAReplayUntilItIsOver() throws Exception {
         String replay = startReplay();
         try (BufferedReader one = events(open("/api/replays/" + replay + "/events"));
@@ -101,8 +103,12 @@ class ReplayFeedIT {
             until(one, "\"wanted\":\"paused\"");
 
             report(replay, 1_000_000, ReplayStatus.State.ENDED);
+            until(one, "\"state\":\"ended\""); // where it rests, and can be rewound
+            client.send("DELETE", "/api/replays/" + replay, null);
+            until(one, "\"wanted\":\"stopped\"");
+            report(replay, 1_000_001, ReplayStatus.State.STOPPED);
             until(one, "event: over");
-            assertThat(one.readLine()).startsWith("data: {").contains(replay, "\"state\":\"ended\"");
+            assertThat(one.readLine()).startsWith("data: {").contains(replay, "\"state\":\"stopped\"");
             assertThat(one.readLine()).isEmpty();
             assertThat(one.readLine()).as("the end").isNull();
             until(all, "event: over");

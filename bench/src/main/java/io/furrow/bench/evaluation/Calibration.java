@@ -1,0 +1,77 @@
+package io.furrow.bench.evaluation;
+
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
+import java.util.Properties;
+import java.util.SplittableRandom;
+
+import org.apache.kafka.clients.consumer.ConsumerRecord;
+
+import io.furrow.bench.http.BareServer;
+import io.furrow.bench.http.HttpLoad;
+import io.furrow.bench.http.HttpLoadPlan;
+import io.furrow.bench.http.HttpLoadResult;
+import io.furrow.bench.notifications.BareProducer;
+import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.launcher.suite.RunDirectory;
+
+/**
+ * What this machine can do in these minutes, without anything of ours.
+ *
+ * @param producer records of 1 kB a second that one producer writes, all acknowledged
+ * @param server requests of 1 kB a second that a Jetty answers without looking at them
+ */
+public record Calibration(double producer, double server) {
+    private static final Duration LASTING = Duration.ofSeconds(3);
+    private static final int BYTES = 1_000;
+    private static final int CONNECTIONS = 16;
+    private static final int ENTITIES = 100;
+
+    /** Takes some ten seconds. */
+    public static Calibration measure() throws Exception {
+        return new Calibration(producing(), serving());
+    }
+
+    private static double producing() throws Exception {
+        try (RunDirectory directory = RunDirectory.open(null);
+                EmbeddedKafka kafka =
+                        EmbeddedKafka.start(Path.of(directory.path().toString(), "kafka"))) {
+            Properties client = new Properties();
+            client.setProperty("bootstrap.servers", kafka.bootstrapServers());
+            byte[] value = new byte[BYTES];
+            new SplittableRandom(1).nextBytes(value);
+            byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
+            BareProducer producer = new BareProducer(client, "calibration");
+            List<ConsumerRecord<byte[], byte[]>> samples =
+                    List.of(new ConsumerRecord<>("calibration", 0, 0, key, value));
+            producer.perSecond(samples, LASTING);
+            return producer.perSecond(samples, LASTING);
+        }
+    }
+
+    private static double serving() {
+        try (BareServer server = BareServer.start()) {
+            HttpLoadPlan plan = new HttpLoadPlan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
+            new HttpLoad(server.address(), plan, 0).run();
+            HttpLoadResult load = new HttpLoad(server.address(), plan, 0).run();
+            return load.answered() * 1e9 / load.nanos();
+        }
+    }
+
+    /** For the head of a report. */
+    public String sentence() {
+        return String.format(
+                Locale.ROOT,
+                "Machine: %d processors, %s %s, Java %s; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"
+                        + " HTTP server answers %,.0f requests a second.",
+                Runtime.getRuntime().availableProcessors(),
+                System.getProperty("os.name"),
+                System.getProperty("os.arch"),
+                System.getProperty("java.version"),
+                producer,
+                server);
+    }
+}

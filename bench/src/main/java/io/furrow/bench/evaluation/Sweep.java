@@ -1,0 +1,87 @@
+package io.furrow.bench.evaluation;
+
+import java.time.Duration;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.IntStream;
+
+import io.furrow.simulators.load.LoadPlan;
+
+/** The sweeps of the evaluation, each with its points: one of the quantities grows, the others stay. */
+public enum Sweep {
+    /** 5 devices report more and more often. */
+    PERIOD("shorter periods of 5 devices"),
+    /** More and more devices report every 200 ms. */
+    DEVICES("more devices"),
+    /** Messages of 50 devices become larger. */
+    PAYLOAD("larger messages of 50 devices"),
+    /** The context broker notifies of each change as often as it is subscribed to. */
+    SUBSCRIPTIONS("more copies of each notification");
+
+    private static final int KILOBYTE = 1_000;
+
+    private final String title;
+
+    Sweep(String title) {
+        this.title = title;
+    }
+
+    /**
+     * One load of a sweep.
+     *
+     * @param copies notifications of each change
+     */
+    public record Point(Sweep sweep, int devices, int periodMs, int payloadBytes, int copies) {
+        /** Notifications per second. */
+        public double rate() {
+            return devices * 1000.0 / periodMs * copies;
+        }
+
+        /** What grows: kilobytes in the sweep of the payload, notifications per second in the others. */
+        public double abscissa() {
+            return sweep == PAYLOAD ? payloadBytes / (double) KILOBYTE : rate();
+        }
+
+        String title() {
+            return switch (sweep) {
+                case PERIOD -> periodMs + " ms";
+                case DEVICES -> devices + (devices == 1 ? " device" : " devices");
+                case PAYLOAD -> payloadBytes / KILOBYTE + " kB";
+                case SUBSCRIPTIONS -> copies + (copies == 1 ? " subscription" : " subscriptions");
+            };
+        }
+
+        LoadPlan plan(Duration duration, String domain) {
+            String mission = sweep.name().toLowerCase(Locale.ROOT) + "-" + title().replaceAll("\\D", "");
+            return new LoadPlan(devices, Duration.ofMillis(periodMs), payloadBytes, duration, domain, mission);
+        }
+    }
+
+    public List<Point> points() {
+        IntStream values = switch (this) {
+            case PERIOD -> IntStream.of(1000, 100, 40, 20, 10, 8);
+            case DEVICES -> IntStream.of(1, 10, 25, 50, 100, 125);
+            case PAYLOAD -> IntStream.of(1, 10, 50, 65, 80, 100);
+            case SUBSCRIPTIONS -> IntStream.of(1, 2, 3, 4, 5, 6, 30);
+        };
+        return values.mapToObj(this::point).toList();
+    }
+
+    private Point point(int value) {
+        return switch (this) {
+            case PERIOD -> new Point(this, 5, value, KILOBYTE, 1);
+            case DEVICES -> new Point(this, value, 200, KILOBYTE, 1);
+            case PAYLOAD -> new Point(this, 50, 200, value * KILOBYTE, 1);
+            case SUBSCRIPTIONS -> new Point(this, 25, 200, KILOBYTE, value);
+        };
+    }
+
+    String title() {
+        return title;
+    }
+
+    /** What {@link Point#abscissa} is. */
+    String abscissa() {
+        return this == PAYLOAD ? "kB a message" : "notifications a second";
+    }
+}

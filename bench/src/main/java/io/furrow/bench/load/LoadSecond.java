@@ -1,0 +1,15 @@
+package io.furrow.bench.load;
+
+import java.util.List;
+
+/**
+ * One second of a load.
+ *
+ * @param second since the first message
+ * @param atDevice messages that were sent in it
+ * @param atSource that the source had in it; likewise the others
+ * @param delays mean delay from device to source, source to ingest and ingest to reader of the messages that were sent in it, ms; empty
+ *     if none was
+ */
+public record LoadSecond(
+        long second, long atDevice, long atSource, long atIngest, long atReader, List<Double> delays) {}

@@ -1,0 +1,115 @@
+package io.furrow.bench.evaluation;
+
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Arrays;
+import java.util.EnumMap;
+import java.util.List;
+import java.util.Map;
+import javax.imageio.ImageIO;
+
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.bench.evaluation.Sweep.Point;
+import io.furrow.bench.load.Hop;
+import io.furrow.bench.load.LoadSecond;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
+
+class EvaluationReportTest {
+    private static final String COMMIT = "0123abc";
+
+    @TempDir
+    private Path folder;
+
+    @Test
+    void hasTheRatesOfTheThesis() {
+        assertThat(Sweep.PERIOD.points())
+                .extracting(Point::rate)
+                .containsExactly(5.0, 50.0, 125.0, 250.0, 500.0, 625.0);
+        assertThat(Sweep.DEVICES.points())
+                .extracting(Point::rate)
+                .containsExactly(5.0, 50.0, 125.0, 250.0, 500.0, 625.0);
+        assertThat(Sweep.PAYLOAD.points())
+                .extracting(Point::abscissa)
+                .containsExactly(1.0, 10.0, 50.0, 65.0, 80.0, 100.0);
+        assertThat(Sweep.SUBSCRIPTIONS.points())
+                .extracting(Point::rate)
+                .startsWith(125.0, 250.0)
+                .endsWith(750.0, 3750.0);
+    }
+
+    @Test
+    void goesOnWithWhatAnEarlierRunMeasured() throws Exception {
+        Path file = folder.resolve("results.jsonl");
+        Point point = Sweep.PERIOD.points().get(2);
+        EvaluationResults.in(file).add(result(point, 100, 0));
+
+        EvaluationResults known = EvaluationResults.in(file);
+
+        assertThat(known.has(COMMIT, point, 60)).isTrue();
+        assertThat(known.has("another", point, 60)).isFalse();
+        assertThat(known.has(COMMIT, point, 4)).isFalse();
+        assertThat(known.of(COMMIT, 60, Sweep.PERIOD)).containsExactly(result(point, 100, 0));
+    }
+
+    @Test
+    void refusesAFileOfSomethingElse() throws Exception {
+        Path file = Files.writeString(folder.resolve("other.jsonl"), "hello\n");
+
+        assertThatThrownBy(() -> EvaluationResults.in(file)).hasMessageContaining("--results");
+    }
+
+    @Test
+    void marksWhatWasLostOrCameTwiceAndDrawsWhatThereIs() throws Exception {
+        EvaluationResults known = EvaluationResults.in(folder.resolve("results.jsonl"));
+        known.add(result(Sweep.PAYLOAD.points().get(0), 100, 0));
+        known.add(result(Sweep.PAYLOAD.points().get(1), 99, 0));
+        known.add(result(Sweep.PAYLOAD.points().get(2), 100, 1));
+
+        new EvaluationReport(known, COMMIT, 60, List.of("a machine")).write(folder);
+
+        assertThat(Files.readAllLines(folder.resolve("evaluation.md")))
+                .contains("- a machine")
+                .anyMatch(line -> line.startsWith("| 1 kB | 250 | 100 | 100 | 1.0000 | 0 |"))
+                .anyMatch(line -> line.startsWith("| 10 kB ⚠ | 250 | 100 | 99 | 0.9900 | 0 |"))
+                .anyMatch(line -> line.startsWith("| 50 kB ⚠ | 250 | 100 | 100 | 1.0000 | 1 |"))
+                .contains("![Delay from device to reader](images/evaluation-delay.png)");
+        assertThat(Files.readString(folder.resolve("report.html"))).contains("src=\"data:image/png;base64,iVBOR");
+        for (String name : List.of("delivered", "delay", "payload-messages", "payload-hops")) {
+            int[] pixels = pixels(folder.resolve("images").resolve("evaluation-" + name + ".png"));
+            assertThat(Arrays.stream(pixels).distinct().count()).as(name).isGreaterThan(10);
+        }
+    }
+
+    private static int[] pixels(Path file) throws Exception {
+        var image = ImageIO.read(file.toFile());
+        return image.getRGB(0, 0, image.getWidth(), image.getHeight(), null, 0, image.getWidth());
+    }
+
+    private static PointResult result(Point point, long delivered, long duplicated) {
+        Map<Hop, PointResult.Delay> delays = new EnumMap<>(Hop.class);
+        for (Hop hop : Hop.values()) {
+            delays.put(hop, new PointResult.Delay(10, 9, 20, 30, 40));
+        }
+        List<LoadSecond> seconds = List.of(
+                new LoadSecond(0, 20, 20, 20, 20, List.of(1.0, 2.0, 3.0)),
+                new LoadSecond(1, 50, 50, 50, 50, List.of(2.0, 3.0, 4.0)),
+                new LoadSecond(2, 50, 40, 40, 40, List.of(3.0, 4.0, 5.0)),
+                new LoadSecond(3, 0, 10, 10, 10, List.of()));
+        return new PointResult(
+                COMMIT,
+                point,
+                60,
+                100,
+                delivered,
+                delivered,
+                duplicated,
+                0,
+                delays,
+                seconds,
+                Map.of("Kafka broker", 0.2));
+    }
+}

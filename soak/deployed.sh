@@ -1,0 +1,168 @@
+#!/usr/bin/env bash
+# The archive's programs as separate processes, as docker/compose.yaml starts them: a mission, its results, its replay.
+set -euo pipefail
+
+soak=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+home=$(dirname "$soak")
+java=${JAVA_HOME:+$JAVA_HOME/bin/}java
+# shellcheck source=parts/machine.sh
+. "$soak/parts/machine.sh"
+# shellcheck source=parts/flink.sh
+. "$soak/parts/flink.sh"
+
+if (($# > 0)); then
+    cat <<USAGE
+Usage: ./furrow soak deployed
+Unpacks distribution/target/furrow-*.tar.gz, which ./mvnw package -Prelease -DskipTests makes, and runs what its docker/compose.yaml
+says without containers: Kafka, two Connect workers, Mosquitto, a Flink cluster, the jobs by flink run, the control plane, simulated
+devices, the dashboard. Commands, options, connectors and settings are those of the file, with other hosts, ports and folders.
+Stand-ins take the places of Orion, the IoT Agent and MongoDB, a folder that of HDFS. FLINK_HOME names a Flink $flink_version;
+without it one is fetched once, some 315 MB.
+USAGE
+    exit 0
+fi
+command -v python3 >/dev/null || fail "No Python 3 found."
+[[ -x /usr/sbin/mosquitto ]] || command -v mosquitto >/dev/null || fail "No Mosquitto found. Install the packages mosquitto and mosquitto-clients."
+
+run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-deployed.XXXXXX")
+logs=$home/target/soak/deployed
+rm -rf "$logs" && mkdir -p "$logs" "$run/secrets" "$run/accounts" "$run/mosquitto-data"
+
+clean_up() {
+    local code=$?
+    trap - EXIT INT TERM
+    stop_own
+    rm -rf "$run" "${making:-}"
+    ((code == 0)) || printf 'deployed: failed; logs: %s\n' "$logs"
+    exit "$code"
+}
+trap clean_up EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+tar xzf "$home"/distribution/target/furrow-*.tar.gz -C "$run"
+archive=$(echo "$run"/furrow-*)
+# As the Dockerfile does.
+(cd "$archive/jobs" && for job in ingest analytics replay; do mv furrow-$job-*-job.jar $job.jar; done)
+"$archive/bin/furrow" init "$run/.env" >/dev/null
+class_path=$(sed "s|^|$archive/lib/|" "$archive/lib/class-path" | paste -sd:)
+test_path=$home/system-tests/target/test-classes:$class_path
+snakeyaml=$(find "${MAVEN_REPOSITORY:-$HOME/.m2/repository}/org/yaml/snakeyaml" -name 'snakeyaml-*.jar' | sort -V | tail -n 1)
+
+for name in kafka controller mqtt orion agent mongo notify worker1 worker2 control health dashboard; do
+    free_port
+    declare "$name=$port"
+done
+
+# Other hosts, ports and folders in what stands in the compose file and beside it.
+here() {
+    sed -e "s|kafka:9092|127.0.0.1:$kafka|g; s|://:9092|://127.0.0.1:$kafka|g; s|kafka:9093|127.0.0.1:$controller|g; s|://:9093|://127.0.0.1:$controller|g" \
+        -e "s|mosquitto:1883|127.0.0.1:$mqtt|g; s|orion:1026|127.0.0.1:$orion|g; s|iot-agent:4041|127.0.0.1:$agent|g" \
+        -e "s|mongodb://.*@mongo:27017[^ ]*|mongodb://127.0.0.1:$mongo|g; s|hdfs://namenode:8020|file://$run/hdfs|g" \
+        -e "s|control-plane:8085|127.0.0.1:$control|g; s|jobmanager:8081|${rest:-127.0.0.1}|g; s|http://http|http|g" \
+        -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
+        -e "s|/opt/furrow|$archive|g; s|/run/secrets|$run/secrets|g; s|/mosquitto/config|$run/accounts|g; s|/mosquitto/data|$run/mosquitto-data|g" \
+        -e "s|/var/lib/furrow/journal|$run/journal|g; s|/var/lib/kafka/data|$run/kafka|g; s#/connectors/\(ngsi-[a-z]*\.json\)#$run/\1#g"
+}
+
+# words SERVICE PART: into the array of that name.
+words() {
+    local text
+    text=$("$java" -Xmx128m -cp "$test_path:$snakeyaml" io.furrow.deployment.ComposeCommand "$archive/docker/compose.yaml" "$run/.env" "$1" "$2" | here)
+    mapfile -t words <<<"$text"
+}
+
+# start NAME COMMAND…: in the background, ours.
+start() {
+    local name=$1
+    shift
+    "$@" >"$logs/$name.log" 2>&1 &
+    own $!
+}
+
+say "Mosquitto, Kafka, stand-ins"
+# shellcheck source=/dev/null
+MQTT_PASSWORD=$(sed -n 's/^MQTT_PASSWORD=//p' "$run/.env") && export MQTT_PASSWORD
+sed -n 's/^FARM_SECRET=//p' "$run/.env" >"$run/secrets/farm-secret"
+sed -n 's/^API_TOKENS="\(.*\)"/\1/p' "$run/.env" >"$run/secrets/api-tokens"
+chmod 600 "$run"/secrets/*
+here <"$archive/docker/mosquitto/mosquitto.conf" | sed "s|listener 1883|listener $mqtt 127.0.0.1\nuser $(id -un)|" >"$run/mosquitto.conf"
+PATH=$PATH:/usr/sbin start mosquitto "$archive/docker/mosquitto/run" "$run/mosquitto.conf" "$run/accounts"
+
+words kafka environment
+# As the image of Kafka does.
+printf '%s\n' "${words[@]}" | sed -n 's/^KAFKA_\([A-Z_]*\)=/\1=/p' | while IFS='=' read -r name value; do
+    name=${name,,}
+    printf '%s=%s\n' "${name//_/.}" "$value"
+done | sed 's|,HOST:[^,]*||; /^heap/d' >"$run/kafka.properties"
+"$java" -cp "$class_path" kafka.tools.StorageTool format -t "$("$java" -cp "$class_path" kafka.tools.StorageTool random-uuid)" \
+    -c "$run/kafka.properties" >"$logs/kafka-format.log" 2>&1
+start kafka "$java" -Xmx512m -Dfurrow.log="$logs/kafka.log" -cp "$class_path" kafka.Kafka "$run/kafka.properties"
+until_true 60 "Kafka" open_port "$kafka"
+until_true 60 "Mosquitto" open_port "$mqtt"
+start stand-ins "$java" -Xmx512m -cp "$test_path" io.furrow.deployment.StandIns "$run/mongo" "$orion" "$agent" "$mongo" "tcp://127.0.0.1:$mqtt" iot-agent "$MQTT_PASSWORD" "127.0.0.1:$kafka"
+until_true 60 "The context broker's stand-in" open_port "$orion"
+
+say "two Connect workers and the connectors"
+for worker in 1 2; do
+    port=worker$worker
+    { here <"$archive/docker/connect.properties" | sed "s|^listeners=.*|listeners=http://127.0.0.1:${!port}|; s|^rest.advertised.host.name=.*|rest.advertised.host.name=127.0.0.1|"
+        echo "rest.advertised.port=${!port}"; } >"$run/connect-$worker.properties"
+    start "connect-$worker" "$java" -Xmx512m -Dfurrow.log="$logs/connect-$worker.log" -cp "$class_path" org.apache.kafka.connect.cli.ConnectDistributed "$run/connect-$worker.properties"
+    until_true 90 "Connect worker $worker" curl -fs "http://127.0.0.1:${!port}/health"
+done
+for connector in source sink; do here <"$archive/docker/connectors/ngsi-$connector.json" >"$run/ngsi-$connector.json"; done
+words connectors entrypoint
+curl_words=("${words[@]}")
+words connectors command
+"${curl_words[@]}" "${words[@]}" >"$logs/connectors.log"
+
+say "Flink"
+provide_flink
+words jobmanager environment
+mapfile -t settings < <(printf '%s\n' "${words[@]}" | grep -E '^(execution|classloader)\.')
+task_slots=12 task_manager_memory=2g start_flink "${settings[@]}"
+
+say "control plane, devices, dashboard"
+words control-plane command
+start control-plane env FURROW_OPTS="-Xms128m -Xmx512m" "$archive/bin/furrow" "${words[@]}" --control-port "$control" --health-port "$health"
+until_true 120 "The control plane" curl -fs "http://127.0.0.1:$health/ready"
+for service in simulators replay-analytics; do
+    words "$service" command
+    start "$service" env FURROW_OPTS="-Xms128m -Xmx384m" "$archive/bin/furrow" "${words[@]}"
+done
+words dashboard command
+start dashboard env FURROW_OPTS="-Xms128m -Xmx384m" "$archive/bin/furrow" "${words[@]}" --port "$dashboard"
+until_true 60 "The dashboard" curl -fs "http://127.0.0.1:$dashboard/"
+
+say "jobs by flink run"
+export FLINK_HOME CHECKPOINTS=$run/checkpoints
+for job in ingest temperature collision presence replay; do
+    words "job-$job" command
+    words[0]=$archive/docker/flink/submit
+    "${words[@]}" >"$logs/job-$job.log" 2>&1 || fail "$job was not submitted: $logs/job-$job.log"
+done
+
+say "a mission"
+export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api-tokens
+furrow() { FURROW_OPTS="-Xms64m -Xmx256m" "$archive/bin/furrow" "$@"; }
+demo=$home/simulators/src/main/resources/io/furrow/simulators/demo
+python3 -c 'import json,sys; print(json.dumps(json.load(open(sys.argv[1]))["templates"][0]["devices"]))' "$demo/missions.json" >"$run/devices.json"
+furrow fields import "$demo/fields.geojson" --kafka "127.0.0.1:$kafka" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Fields were not imported: $logs/fields.log"
+furrow domain create farm >"$logs/mission.log"
+furrow mission start mine --domain farm --devices "$run/devices.json" >>"$logs/mission.log"
+timeout 180 "$archive/bin/furrow" mission watch mine --until running >>"$logs/mission.log" || fail "The mission does not run: $logs/mission.log"
+
+# found TYPE: whether the context broker has results of that type, all the way back from the jobs.
+found() { curl -fs -H 'fiware-service: farm' "http://127.0.0.1:$orion/v2/entities?type=$1&limit=1" | grep -q '"id"'; }
+until_true 180 "An average in the context broker" found Analytics:FieldTemperature
+say "averages are in the context broker"
+until_true 180 "An encounter in the context broker" found Analytics:Collision
+say "encounters too"
+
+say "its replay"
+furrow mission stop mine >>"$logs/mission.log"
+furrow replay start mine --speed max --topic data.mine.replay.0a1b2c3d >"$logs/replay.log"
+timeout 120 "$archive/bin/furrow" replay watch mine.0a1b2c3d >>"$logs/replay.log" || fail "The replay did not end: $logs/replay.log"
+tail -n 1 "$logs/replay.log"
+echo "deployed: passed"

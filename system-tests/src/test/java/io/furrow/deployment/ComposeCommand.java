@@ -1,0 +1,41 @@
+package io.furrow.deployment;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Properties;
+import java.util.regex.Matcher;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+/** Prints what a service of a compose file runs, a word a line, for those who run it without containers. */
+public final class ComposeCommand {
+    private ComposeCommand() {}
+
+    /** Arguments: compose file, {@code .env} file, service, and {@code entrypoint}, {@code command} or {@code environment}. */
+    public static void main(String... args) throws IOException {
+        JsonNode part =
+                ComposeFile.read(Path.of(args[0])).services().get(args[2]).path(args[3]);
+        if (part.isMissingNode()) {
+            throw new IllegalArgumentException(args[2] + " has no " + args[3]);
+        }
+        Properties variables = new Properties();
+        try (Reader file = Files.newBufferedReader(Path.of(args[1]))) {
+            variables.load(file);
+        }
+        part.properties()
+                .forEach(entry -> print(entry.getKey() + "=" + entry.getValue().asText(), variables));
+        part.elements().forEachRemaining(word -> {
+            if (part.isArray()) {
+                print(word.asText(), variables);
+            }
+        });
+    }
+
+    private static void print(String word, Properties variables) {
+        System.out.println(ComposeFile.VARIABLE
+                .matcher(word)
+                .replaceAll(found -> Matcher.quoteReplacement(variables.getProperty(found.group(1)))));
+    }
+}

@@ -1,0 +1,77 @@
+package io.furrow.deployment;
+
+import java.io.IOException;
+import java.io.Reader;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.Set;
+import java.util.TreeMap;
+import java.util.TreeSet;
+import java.util.regex.MatchResult;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+import java.util.stream.StreamSupport;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.ObjectMapper;
+import org.yaml.snakeyaml.Yaml;
+
+/** A compose file, by default {@code docker/compose.yaml}, as Compose reads it, with its anchors resolved. */
+final class ComposeFile {
+    static final Path FOLDER = Path.of("..", "docker");
+    static final Pattern VARIABLE = Pattern.compile("\\$\\{(\\w+)[^}]*}");
+
+    private final JsonNode root;
+
+    private ComposeFile(JsonNode root) {
+        this.root = root;
+    }
+
+    static ComposeFile read() throws IOException {
+        return read(FOLDER.resolve("compose.yaml"));
+    }
+
+    static ComposeFile read(Path file) throws IOException {
+        try (Reader reader = Files.newBufferedReader(file)) {
+            return new ComposeFile(new ObjectMapper().valueToTree(new Yaml().load(reader)));
+        }
+    }
+
+    JsonNode root() {
+        return root;
+    }
+
+    Map<String, JsonNode> services() {
+        Map<String, JsonNode> services = new TreeMap<>();
+        root.path("services").properties().forEach(service -> services.put(service.getKey(), service.getValue()));
+        return services;
+    }
+
+    /** Those whose image has this name and that run its own program, by name, with the words of their command. */
+    Map<String, List<String>> commands(String image) {
+        return services().entrySet().stream()
+                .filter(service -> service.getValue().path("image").asText().equals(image)
+                        && !service.getValue().has("entrypoint"))
+                .collect(Collectors.toMap(Map.Entry::getKey, service -> words(service.getValue())));
+    }
+
+    /** What it takes from the environment. */
+    Set<String> variables() {
+        Set<String> variables = new TreeSet<>();
+        root.path("secrets")
+                .forEach(secret -> variables.add(secret.path("environment").asText()));
+        VARIABLE.matcher(root.toString())
+                .results()
+                .map((MatchResult found) -> found.group(1))
+                .forEach(variables::add);
+        return variables;
+    }
+
+    private static List<String> words(JsonNode service) {
+        return StreamSupport.stream(service.path("command").spliterator(), false)
+                .map(word -> VARIABLE.matcher(word.asText()).replaceAll("secret"))
+                .toList();
+    }
+}

@@ -1,0 +1,210 @@
+package io.furrow.deployment;
+
+import java.io.IOException;
+import java.io.InputStream;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Properties;
+import java.util.Set;
+import java.util.TreeSet;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.ObjectMapper;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.networknt.schema.JsonSchemaFactory;
+import com.networknt.schema.SpecVersion.VersionFlag;
+import org.apache.kafka.connect.runtime.distributed.DistributedConfig;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+import picocli.CommandLine;
+
+import io.furrow.analytics.AnalyticsJobs;
+import io.furrow.flink.job.JobCommandLine;
+import io.furrow.flink.job.JobOptions;
+import io.furrow.ingest.IngestJobs;
+import io.furrow.launcher.Furrow;
+import io.furrow.replay.ReplayJobs;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.entry;
+
+/** No engine for containers is needed to know that the compose file says what the specification and our programs understand. */
+class ComposeFileTest {
+    private static final Map<String, Class<?>> JOBS = Map.of(
+            "ingest.jar", IngestJobs.class, "analytics.jar", AnalyticsJobs.class, "replay.jar", ReplayJobs.class);
+    /** Done when they have done their work. */
+    private static final String ONE_SHOT = "topics|connectors|job-.*";
+    /** Listen on nothing that a probe could ask. */
+    private static final Set<String> UNPROBED = Set.of("datanode", "replay-analytics", "simulators", "taskmanager");
+
+    private final ComposeFile compose = ComposeFile.read();
+
+    @TempDir
+    Path directory;
+
+    ComposeFileTest() throws IOException {}
+
+    @Test
+    void conformsToTheSpecification() throws IOException {
+        try (InputStream schema = getClass().getResourceAsStream("/compose-spec/compose-spec.json")) {
+            ObjectNode specification = new ObjectMapper().readValue(schema, ObjectNode.class);
+            specification.remove("$id"); // names no place
+            assertThat(JsonSchemaFactory.getInstance(VersionFlag.V202012)
+                            .getSchema(specification)
+                            .validate(compose.root()))
+                    .isEmpty();
+        }
+    }
+
+    @Test
+    void saysCommandsAndOptionsThatThereAre() {
+        Map<String, List<String>> commands = compose.commands("furrow:local");
+
+        assertThat(commands.keySet())
+                .containsExactlyInAnyOrder("control-plane", "dashboard", "replay-analytics", "simulators");
+        commands.forEach(
+                (service, words) -> assertThat(last(Furrow.commandLine(), words).isUsageHelpRequested())
+                        .as(service)
+                        .isFalse());
+    }
+
+    @Test
+    void submitsEachJobWithOptionsThatItHas() {
+        Map<String, String> submitted = new HashMap<>();
+        compose.commands("furrow-flink:local").forEach((service, words) -> {
+            if (words.get(0).equals("/opt/furrow/submit")) {
+                String jar = Path.of(words.get(1)).getFileName().toString();
+                CommandLine job = last(JobCommandLine.of(JOBS.get(jar)), words.subList(2, words.size()));
+                Object options = job.getCommand();
+                assertThat(options).as(service).isInstanceOf(JobOptions.class);
+                submitted.put(job.getCommandName(), jar);
+            }
+        });
+
+        assertThat(submitted)
+                .containsOnly(
+                        entry("ingest", "ingest.jar"),
+                        entry("temperature", "analytics.jar"),
+                        entry("collision", "analytics.jar"),
+                        entry("presence", "analytics.jar"),
+                        entry("replay", "replay.jar"));
+    }
+
+    @Test
+    void takesFromTheEnvironmentWhatInitMakes() throws IOException {
+        Path file = directory.resolve(".env");
+        assertThat(Furrow.commandLine().execute("init", file.toString())).isZero();
+
+        Set<String> made = new TreeSet<>();
+        Files.readAllLines(file).forEach(line -> made.add(line.substring(0, line.indexOf('='))));
+        assertThat(compose.variables()).isEqualTo(made);
+    }
+
+    @Test
+    void opensPortsOnThisMachineAlone() {
+        compose.services()
+                .values()
+                .forEach(service -> service.path("ports")
+                        .forEach(port -> assertThat(port.asText()).startsWith("127.0.0.1:")));
+    }
+
+    @Test
+    void waitsForWhatCanBeWaitedFor() {
+        Map<String, JsonNode> services = compose.services();
+        services.forEach((name, service) -> {
+            if (!name.matches(ONE_SHOT) && !UNPROBED.contains(name)) {
+                assertThat(service.path("healthcheck").path("test")).as(name).isNotEmpty();
+            }
+            service.path("depends_on").properties().forEach(need -> {
+                assertThat(services).as(name).containsKey(need.getKey());
+                switch (need.getValue().path("condition").asText()) {
+                    case "service_healthy" ->
+                        assertThat(services.get(need.getKey()).has("healthcheck"))
+                                .as("%s waits for %s", name, need.getKey())
+                                .isTrue();
+                    case "service_completed_successfully" ->
+                        assertThat(need.getKey()).matches(ONE_SHOT);
+                    default -> assertThat(UNPROBED).contains(need.getKey());
+                }
+            });
+        });
+    }
+
+    @Test
+    void namesFilesThatAreThereAndImagesByVersion() throws IOException {
+        List<String> dockerfile = Files.readAllLines(ComposeFile.FOLDER.resolve("Dockerfile"));
+        List<String> images = new ArrayList<>();
+        compose.services().values().forEach(service -> {
+            JsonNode build = service.path("build");
+            if (build.isMissingNode()) {
+                images.add(service.path("image").asText());
+            } else {
+                assertThat(dockerfile)
+                        .anyMatch(line ->
+                                line.endsWith(" AS " + build.path("target").asText()));
+            }
+            service.path("volumes").forEach(volume -> {
+                String from = volume.asText().replaceFirst(":.*", "");
+                assertThat(
+                                from.startsWith("./")
+                                        ? Files.isDirectory(ComposeFile.FOLDER.resolve(from))
+                                        : compose.root().path("volumes").has(from))
+                        .as(volume.asText())
+                        .isTrue();
+            });
+        });
+        dockerfile.stream().filter(line -> line.startsWith("FROM ")).forEach(line -> images.add(line.split(" ")[1]));
+        assertThat(images).isNotEmpty().allSatisfy(image -> assertThat(image).matches("[a-z/-]+:\\d+(\\.\\d+)+.*"));
+        dockerfile.stream()
+                .filter(line -> line.startsWith("COPY ") && line.contains(" docker/"))
+                .forEach(line -> assertThat(Path.of("..", line.replaceFirst(".* (docker/\\S+) .*", "$1")))
+                        .exists());
+        JOBS.keySet()
+                .forEach(jar -> assertThat(dockerfile)
+                        .as("it makes %s of what the archive has", jar)
+                        .anyMatch(line ->
+                                line.matches(".*for job in [a-z ]*\\b%s\\b.*".formatted(jar.replace(".jar", "")))));
+    }
+
+    @Test
+    void configuresAWorkerOfConnect() throws IOException {
+        Properties properties = new Properties();
+        try (InputStream file = Files.newInputStream(ComposeFile.FOLDER.resolve("connect.properties"))) {
+            properties.load(file);
+        }
+        Map<String, String> settings = new HashMap<>();
+        properties.stringPropertyNames().forEach(name -> settings.put(name, properties.getProperty(name)));
+
+        DistributedConfig config = new DistributedConfig(settings);
+
+        assertThat(settings.keySet())
+                .filteredOn(name ->
+                        !name.startsWith("producer.") && !config.values().containsKey(name))
+                .isEmpty();
+        assertThat(config.exactlyOnceSourceEnabled()).isTrue();
+    }
+
+    @Test
+    void startsAsAServiceWithOptionsThatThereAre() throws IOException {
+        String unit = Files.readString(Path.of("..", "distribution/src/archive/systemd/furrow.service"));
+        String start = unit.lines()
+                .filter(line -> line.startsWith("ExecStart="))
+                .findFirst()
+                .orElseThrow();
+
+        List<String> words = List.of(start.split(" "));
+        assertThat(words.get(0)).isEqualTo("ExecStart=/opt/furrow/bin/furrow");
+        assertThat(last(Furrow.commandLine(), words.subList(1, words.size())).getCommandName())
+                .isEqualTo("up");
+    }
+
+    /** @throws CommandLine.ParameterException if a word is unknown or its value cannot be used */
+    private static CommandLine last(CommandLine root, List<String> words) {
+        List<CommandLine> parsed = root.parseArgs(words.toArray(String[]::new)).asCommandLineList();
+        return parsed.get(parsed.size() - 1);
+    }
+}

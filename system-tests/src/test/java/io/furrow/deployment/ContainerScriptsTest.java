@@ -1,0 +1,162 @@
+package io.furrow.deployment;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.nio.file.attribute.FileTime;
+import java.nio.file.attribute.PosixFilePermissions;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+import io.furrow.embedded.FreePort;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** The scripts that run in containers: with a real Mosquitto, and with a Flink that only says how it was called. */
+class ContainerScriptsTest {
+    private static final String PATHS = "/usr/sbin:/usr/bin:/bin";
+
+    @TempDir
+    Path directory;
+
+    private Path checkpoints;
+
+    @BeforeEach
+    void runsOneJob() throws IOException {
+        checkpoints = directory.resolve("checkpoints");
+        Path flink = Files.createDirectories(directory.resolve("flink/bin")).resolve("flink");
+        Files.writeString(flink, """
+                #!/bin/sh
+                [ "$1" = list ] || { echo "$@"; exit; }
+                echo '25.11.2026 12:00:00 : 0123456789abcdef0123456789abcdef : collision (RUNNING)'
+                """);
+        Files.setPosixFilePermissions(flink, PosixFilePermissions.fromString("rwxr-xr-x"));
+    }
+
+    @Test
+    void submitsAJobThatDoesNotRun() throws Exception {
+        assertThat(submit("jobs/analytics.jar", "temperature", "--window", "10s"))
+                .isEqualTo("run -d jobs/analytics.jar temperature --window 10s --checkpoint-dir file://%s/temperature\n"
+                        .formatted(checkpoints));
+    }
+
+    @Test
+    void goesOnFromTheNewestCompleteCheckpoint() throws Exception {
+        completed("presence/first/chk-9", 60);
+        Path newest = completed("presence/second/chk-2", 30);
+        Files.createDirectories(checkpoints.resolve("presence/second/chk-3"));
+        completed("ingest/other/chk-1", 0);
+
+        assertThat(submit("jobs/analytics.jar", "presence"))
+                .isEqualTo("run -d -s file://%s jobs/analytics.jar presence --checkpoint-dir file://%s/presence\n"
+                        .formatted(newest, checkpoints));
+    }
+
+    @Test
+    void leavesAJobThatRunsAsItIs() throws Exception {
+        assertThat(submit("jobs/analytics.jar", "collision")).isEqualTo("collision runs already.\n");
+    }
+
+    @Test
+    void letsMosquittoReadAccountsThatWereReplaced() throws Exception {
+        int port = FreePort.orFree(0);
+        Path accounts = Files.createDirectory(directory.resolve("accounts"));
+        Files.createDirectory(directory.resolve("data"));
+        String settings = Files.readString(ComposeFile.FOLDER.resolve("mosquitto/mosquitto.conf"))
+                .replace(
+                        "listener 1883",
+                        "listener %d 127.0.0.1\nuser %s".formatted(port, System.getProperty("user.name")))
+                .replace("/mosquitto/config", accounts.toString())
+                .replace("/mosquitto/data", directory.resolve("data").toString());
+        Path file = Files.writeString(directory.resolve("mosquitto.conf"), settings);
+        Process broker = start("mosquitto/run", file.toString(), accounts.toString());
+        try {
+            await().until(() -> publishes(port, "iot-agent", "plough"));
+            assertThat(publishes(port, "iot-agent", "wrong")).isFalse();
+            assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(accounts.resolve("passwords"))))
+                    .isEqualTo("rw-------");
+
+            replace(accounts.resolve("rules"), "user robot\ntopic readwrite #\n");
+            Path passwords = Files.copy(accounts.resolve("passwords"), directory.resolve("new"));
+            run("mosquitto_passwd", "-b", passwords.toString(), "robot", "harrow");
+            replace(accounts.resolve("passwords"), Files.readString(passwords));
+
+            await().until(() -> publishes(port, "robot", "harrow"));
+        } finally {
+            List<ProcessHandle> all = broker.descendants().toList();
+            broker.destroy();
+            assertThat(broker.waitFor(1, TimeUnit.MINUTES)).isTrue();
+            assertThat(all).allSatisfy(process -> await().until(() -> !process.isAlive()));
+        }
+    }
+
+    private Path completed(String checkpoint, int secondsAgo) throws IOException {
+        Path folder = Files.createDirectories(checkpoints.resolve(checkpoint));
+        Path file = Files.createFile(folder.resolve("_metadata"));
+        Files.setLastModifiedTime(file, FileTime.from(Instant.now().minusSeconds(secondsAgo)));
+        return folder;
+    }
+
+    /** In one step, as the control plane does. */
+    private void replace(Path file, String text) throws IOException {
+        String former = Files.readString(file);
+        Path fresh = Files.writeString(file.resolveSibling("fresh"), text.startsWith(former) ? text : former + text);
+        Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+    }
+
+    private static boolean publishes(int port, String user, String password) throws Exception {
+        return run(
+                        "mosquitto_pub",
+                        "-h",
+                        "127.0.0.1",
+                        "-p",
+                        Integer.toString(port),
+                        "-u",
+                        user,
+                        "-P",
+                        password,
+                        "-q",
+                        "1",
+                        "-t",
+                        "t",
+                        "-m",
+                        "m")
+                == 0;
+    }
+
+    private static int run(String... words) throws Exception {
+        Process process = new ProcessBuilder(words)
+                .redirectErrorStream(true)
+                .redirectOutput(ProcessBuilder.Redirect.DISCARD)
+                .start();
+        assertThat(process.waitFor(1, TimeUnit.MINUTES)).isTrue();
+        return process.exitValue();
+    }
+
+    private String submit(String... words) throws Exception {
+        assertThat(start("flink/submit", words).waitFor(1, TimeUnit.MINUTES)).isTrue();
+        return Files.readString(directory.resolve("out"));
+    }
+
+    private Process start(String script, String... words) throws IOException {
+        List<String> command =
+                new ArrayList<>(List.of(ComposeFile.FOLDER.resolve(script).toString()));
+        command.addAll(List.of(words));
+        ProcessBuilder builder = new ProcessBuilder(command)
+                .redirectErrorStream(true)
+                .redirectOutput(directory.resolve("out").toFile());
+        builder.environment().put("PATH", PATHS);
+        builder.environment().put("FLINK_HOME", directory.resolve("flink").toString());
+        builder.environment().put("CHECKPOINTS", checkpoints.toString());
+        builder.environment().put("MQTT_PASSWORD", "plough");
+        return builder.start();
+    }
+}

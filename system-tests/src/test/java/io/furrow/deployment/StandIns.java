@@ -1,0 +1,37 @@
+package io.furrow.deployment;
+
+import java.net.URI;
+import java.nio.file.Path;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.concurrent.CountDownLatch;
+import java.util.concurrent.ExecutionException;
+
+import org.apache.kafka.clients.admin.Admin;
+import org.apache.kafka.clients.admin.NewTopic;
+
+import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.fiware.FiwareSettings;
+import io.furrow.fiware.FiwareStandIn;
+import io.furrow.model.topic.Topics;
+
+/** Stand-ins for the context broker, the IoT Agent, MongoDB and the one use of {@code kafka-topics.sh}, in one process. */
+public final class StandIns {
+    private StandIns() {}
+
+    /**
+     * Arguments: folder; ports of context broker, IoT Agent and MongoDB; URI of the MQTT broker, the agent's user and password
+     * there; Kafka, on which {@code data.raw} is made. Ends when it is killed.
+     */
+    public static void main(String... args) throws InterruptedException, ExecutionException {
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", args[7]))) {
+            NewTopic raw = new NewTopic(Topics.RAW, Optional.empty(), Optional.empty());
+            admin.createTopics(List.of(raw)).all().get();
+        }
+        EmbeddedMongo.start(Path.of(args[0]), Integer.parseInt(args[3]));
+        FiwareStandIn.start(new FiwareSettings(
+                Integer.parseInt(args[1]), Integer.parseInt(args[2]), URI.create(args[4]), args[5], args[6]));
+        new CountDownLatch(1).await();
+    }
+}
