@@ -125,14 +125,14 @@ task_slots=12 task_manager_memory=2g start_flink "${settings[@]}"
 
 say "control plane, devices, dashboard"
 words control-plane command
-start control-plane env FURROW_OPTS=-Xmx512m "$archive/bin/furrow" "${words[@]}" --control-port "$control" --health-port "$health"
+start control-plane env FURROW_OPTS="-Xms128m -Xmx512m" "$archive/bin/furrow" "${words[@]}" --control-port "$control" --health-port "$health"
 until_true 120 "The control plane" curl -fs "http://127.0.0.1:$health/ready"
 for service in simulators replay-analytics; do
     words "$service" command
-    start "$service" env FURROW_OPTS=-Xmx384m "$archive/bin/furrow" "${words[@]}"
+    start "$service" env FURROW_OPTS="-Xms128m -Xmx384m" "$archive/bin/furrow" "${words[@]}"
 done
 words dashboard command
-start dashboard env FURROW_OPTS=-Xmx384m "$archive/bin/furrow" "${words[@]}" --port "$dashboard"
+start dashboard env FURROW_OPTS="-Xms128m -Xmx384m" "$archive/bin/furrow" "${words[@]}" --port "$dashboard"
 until_true 60 "The dashboard" curl -fs "http://127.0.0.1:$dashboard/"
 
 say "jobs by flink run"
@@ -145,7 +145,7 @@ done
 
 say "a mission"
 export FURROW_API=http://127.0.0.1:$control FURROW_TOKEN_FILE=$run/secrets/api-tokens
-furrow() { FURROW_OPTS=-Xmx256m "$archive/bin/furrow" "$@"; }
+furrow() { FURROW_OPTS="-Xms64m -Xmx256m" "$archive/bin/furrow" "$@"; }
 demo=$home/simulators/src/main/resources/io/furrow/simulators/demo
 python3 -c 'import json,sys; print(json.dumps(json.load(open(sys.argv[1]))["templates"][0]["devices"]))' "$demo/missions.json" >"$run/devices.json"
 furrow fields import "$demo/fields.geojson" --kafka "127.0.0.1:$kafka" --domain farm --valid-from 2020-01-01T00:00:00Z >"$logs/fields.log" 2>&1 || fail "Fields were not imported: $logs/fields.log"

@@ -3,11 +3,10 @@ package io.furrow.flink.kafka;
 import java.io.IOException;
 import java.time.Duration;
 import java.util.Collection;
-import java.util.HashSet;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
-import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.concurrent.ExecutionException;
 import java.util.function.LongSupplier;
@@ -141,13 +140,13 @@ final class OutputTopics implements AutoCloseable {
         }
     }
 
-    /** Those of the topics that the broker has not heard of. */
-    Set<String> missing(Collection<String> topics) throws IOException, InterruptedException {
-        Set<String> missing = new HashSet<>();
+    /** The broker's ids of those topics that it has heard of: a topic that is made again has another. */
+    Map<String, String> ids(Collection<String> topics) throws IOException, InterruptedException {
+        Map<String, String> ids = new HashMap<>();
         for (Map.Entry<String, KafkaFuture<TopicDescription>> each :
                 admin().describeTopics(topics).topicNameValues().entrySet()) {
             try {
-                each.getValue().get();
+                ids.put(each.getKey(), each.getValue().get().topicId().toString());
             } catch (ExecutionException e) {
                 if (!(e.getCause() instanceof UnknownTopicOrPartitionException)) {
                     throw new IOException(
@@ -155,10 +154,9 @@ final class OutputTopics implements AutoCloseable {
                                     + e.getCause().getMessage(),
                             e.getCause());
                 }
-                missing.add(each.getKey());
             }
         }
-        return missing;
+        return ids;
     }
 
     private void ensure(String topic) throws IOException, InterruptedException {

@@ -5,7 +5,6 @@ import java.util.Arrays;
 import java.util.Collection;
 import java.util.HashMap;
 import java.util.Map;
-import java.util.Set;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.event.DeadLetter;
@@ -42,12 +41,12 @@ public final class WritableRecords implements AutoCloseable {
     }
 
     /**
-     * Those of the topics that the broker has not heard of. From any thread.
+     * The broker's ids of those topics that it has heard of: a topic that is made again has another. From any thread.
      *
      * @throws IOException if that cannot be asked now
      */
-    public Set<String> missing(Collection<String> names) throws IOException, InterruptedException {
-        return topics.missing(names);
+    public Map<String, String> ids(Collection<String> names) throws IOException, InterruptedException {
+        return topics.ids(names);
     }
 
     /**

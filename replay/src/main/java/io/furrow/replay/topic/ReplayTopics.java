@@ -3,8 +3,8 @@ package io.furrow.replay.topic;
 import java.io.IOException;
 import java.io.Serializable;
 import java.util.Collection;
+import java.util.Map;
 import java.util.Properties;
-import java.util.Set;
 
 import org.apache.kafka.clients.consumer.ConsumerConfig;
 
@@ -37,11 +37,11 @@ public interface ReplayTopics extends Serializable {
         TopicEnd end(String topic) throws IOException, InterruptedException;
 
         /**
-         * Those of the topics that the broker has not heard of; from any thread.
+         * The broker's ids of those topics that it has heard of: a topic that is made again has another; from any thread.
          *
          * @throws IOException if that cannot be asked now
          */
-        Set<String> missing(Collection<String> topics) throws IOException, InterruptedException;
+        Map<String, String> ids(Collection<String> topics) throws IOException, InterruptedException;
 
         /** The record, or what is written in its place because the topic does not take it. */
         TopicRecord writable(TopicRecord record) throws IOException, InterruptedException;
@@ -69,8 +69,8 @@ public interface ReplayTopics extends Serializable {
                 }
 
                 @Override
-                public Set<String> missing(Collection<String> names) throws IOException, InterruptedException {
-                    return records.missing(names);
+                public Map<String, String> ids(Collection<String> names) throws IOException, InterruptedException {
+                    return records.ids(names);
                 }
 
                 @Override

@@ -17,7 +17,7 @@ import org.slf4j.LoggerFactory;
 /**
  * Asks every second whether the topics that replays are played on are still there. One that was deleted is made again before its replay is
  * told: a record that is under way to a missing topic would hold up those of all other replays. What is missing twice was deleted; a broker
- * may hear of a topic late.
+ * may hear of a topic late. What has another id was deleted, too, and made again by a broker that does so for any producer.
  */
 public final class TopicWatch implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(TopicWatch.class);
@@ -25,6 +25,7 @@ public final class TopicWatch implements AutoCloseable {
     private final ReplayTopics.Writing topics;
     private final Map<String, Watched> watched = new ConcurrentHashMap<>();
     private final ScheduledExecutorService thread;
+    private final Map<String, String> ids = new ConcurrentHashMap<>();
     private Set<String> missedBefore = Set.of();
 
     /** Who plays on a topic. Called by the watching thread. */
@@ -47,6 +48,7 @@ public final class TopicWatch implements AutoCloseable {
 
     public void add(String topic, Watched player) {
         watched.put(topic, player);
+        ids.remove(topic);
     }
 
     public void remove(String topic) {
@@ -59,11 +61,21 @@ public final class TopicWatch implements AutoCloseable {
                 .map(Map.Entry::getKey)
                 .toList();
         try {
-            Set<String> missing = played.isEmpty() ? Set.of() : topics.missing(played);
+            Map<String, String> found = played.isEmpty() ? Map.of() : topics.ids(played);
+            Set<String> missing = new HashSet<>(played);
+            missing.removeAll(found.keySet());
             Set<String> deleted = new HashSet<>(missing);
             deleted.retainAll(missedBefore);
+            ids.keySet().retainAll(played);
+            found.forEach((topic, id) -> {
+                String before = ids.put(topic, id);
+                if (before != null && !before.equals(id)) {
+                    deleted.add(topic);
+                }
+            });
             for (String topic : deleted) {
                 replace(topic);
+                ids.remove(topic);
             }
             missedBefore = missing;
         } catch (IOException e) {

@@ -2,9 +2,10 @@ package io.furrow.replay.source;
 
 import java.io.IOException;
 import java.util.Collection;
-import java.util.HashSet;
+import java.util.Map;
 import java.util.Set;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.stream.Collectors;
 
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.replay.topic.ReplayTopics;
@@ -14,8 +15,13 @@ import io.furrow.replay.topic.TopicEnd;
 final class OnePartition implements ReplayTopics.Writing {
     TopicEnd end = TopicEnd.EMPTY;
 
+    /** How often it was asked which topics are there. */
+    volatile int asked;
+
     /** Topics that somebody has deleted. */
     final Set<String> deleted = ConcurrentHashMap.newKeySet();
+    /** Topics that somebody has deleted, and the broker has made again. */
+    final Set<String> madeAgain = ConcurrentHashMap.newKeySet();
     /** Why no topic can be prepared; null if each can. */
     volatile String refusal;
 
@@ -29,10 +35,11 @@ final class OnePartition implements ReplayTopics.Writing {
     }
 
     @Override
-    public Set<String> missing(Collection<String> topics) {
-        Set<String> missing = new HashSet<>(topics);
-        missing.retainAll(deleted);
-        return missing;
+    public Map<String, String> ids(Collection<String> topics) {
+        asked++;
+        return topics.stream()
+                .filter(topic -> !deleted.contains(topic))
+                .collect(Collectors.toMap(topic -> topic, topic -> madeAgain.contains(topic) ? "2" : "1"));
     }
 
     @Override

@@ -391,6 +391,22 @@ class ReplayReaderTest {
     }
 
     @Test
+    void failsAReplayWhoseTopicWasDeletedAndMadeAgainByTheBroker() throws Exception {
+        missions.with("m", TIME, TIME + 100, TIME + 200_000).with("other", TIME, TIME + 200_000);
+        start(wanted("m", 1, State.RUNNING, 1));
+        start(wanted("other", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+        int before = topics.asked;
+        playUntil(() -> topics.asked > before + 1);
+
+        topics.madeAgain.add(Topics.replay("m", "0a1b2c3d"));
+        play("m", "end", 1);
+
+        assertThat(status("m").reason()).isEqualTo("its topic was deleted while it was played");
+        assertThat(status("other").state()).isEqualTo(State.RUNNING);
+    }
+
+    @Test
     void stopsAReplayWhoseTopicIsRefusedAfterARestart() throws Exception {
         missions.with("m", TIME, TIME + 100_000);
         WantedReplay running = wanted("m", 1, State.RUNNING, 1);

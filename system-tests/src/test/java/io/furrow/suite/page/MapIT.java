@@ -316,8 +316,7 @@ class MapIT {
                                                         "document.querySelector('furrow-map').devices.spots.filter(({ entity }) => entity.id.includes(':on-')).length"))
                                 .intValue()
                         >= 3);
-        farm.page().waitForCondition(() -> labels(farm, "isFree") >= 3);
-        org.assertj.core.api.Assertions.assertThat(labels(farm, "!isFree")).isZero();
+        farm.page().waitForCondition(() -> labels(farm, "isFree") >= 3 && labels(farm, "!isFree") == 0);
     }
 
     /** How many texts of fields are drawn of which an expression over {@code each} and {@code isFree} is true. */
