@@ -5,10 +5,13 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Locale;
+import java.util.Optional;
 import java.util.Properties;
 import java.util.SplittableRandom;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.common.header.internals.RecordHeaders;
+import org.apache.kafka.common.record.TimestampType;
 
 import io.furrow.bench.http.BareServer;
 import io.furrow.bench.http.HttpLoad;
@@ -45,8 +48,19 @@ public record Calibration(double producer, double server) {
             new SplittableRandom(1).nextBytes(value);
             byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
             BareProducer producer = new BareProducer(client, "calibration");
-            List<ConsumerRecord<byte[], byte[]>> samples =
-                    List.of(new ConsumerRecord<>("calibration", 0, 0, key, value));
+            long now = System.currentTimeMillis();
+            List<ConsumerRecord<byte[], byte[]>> samples = List.of(new ConsumerRecord<>(
+                    "calibration",
+                    0,
+                    0,
+                    now,
+                    TimestampType.CREATE_TIME,
+                    key.length,
+                    value.length,
+                    key,
+                    value,
+                    new RecordHeaders(),
+                    Optional.empty()));
             producer.perSecond(samples, LASTING);
             return producer.perSecond(samples, LASTING);
         }

@@ -128,8 +128,9 @@ public final class Evaluation {
 
     /** Provisioning is notified of too, without a payload. */
     private static void count(ConsumerRecord<byte[], byte[]> record, LoadPlan plan, LongAdder notified) {
+        String entity = new String(record.key(), StandardCharsets.UTF_8);
         String value = new String(record.value(), StandardCharsets.UTF_8);
-        if (value.contains("\"" + plan.mission() + "\"") && value.contains("\"payload\"")) {
+        if (entity.contains(":" + plan.mission() + "-") && value.contains("\"Payload\"")) {
             notified.increment();
         }
     }

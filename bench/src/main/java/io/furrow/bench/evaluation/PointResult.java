@@ -4,6 +4,7 @@ import java.util.EnumMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.Set;
 
 import org.HdrHistogram.Histogram;
 
@@ -37,6 +38,8 @@ public record PointResult(
         Map<Hop, Delay> delays,
         List<LoadSecond> seconds,
         Map<String, Double> cores) {
+    private static final Set<String> NO_PARTS = Set.of(ThreadTimes.DEVICES, ThreadTimes.COMPILERS);
+
     /** Of the messages of one load, ms. */
     public record Delay(double mean, long p50, long p95, long p99, long max) {
         static Delay of(Histogram millis) {
@@ -78,10 +81,10 @@ public record PointResult(
         return delays.get(Hop.END_TO_END);
     }
 
-    /** The part that took most processor time, but the devices and what stands in for MQTT broker, IoT Agent and context broker. */
+    /** The part that took most processor time, but compilers, devices and what stands in for MQTT broker, IoT Agent and context broker. */
     String busiest() {
         return cores.entrySet().stream()
-                .filter(part -> !part.getKey().equals(ThreadTimes.DEVICES))
+                .filter(part -> !NO_PARTS.contains(part.getKey()))
                 .max(Map.Entry.comparingByValue())
                 .map(part -> String.format(Locale.ROOT, "%s (%.2f cores)", part.getKey(), part.getValue()))
                 .orElse("");

@@ -22,6 +22,7 @@ public record ThreadTimes(Map<String, Spent> threads) {
     }
 
     public static final String DEVICES = "devices, MQTT, stand-in";
+    public static final String COMPILERS = "compilers of the JVM";
     static final String OTHERS = "everything else";
 
     /** What threads do, by how their names begin; the first that fits counts. */
@@ -29,7 +30,7 @@ public record ThreadTimes(Map<String, Spent> threads) {
 
     private static Map<String, List<String>> roles() {
         Map<String, List<String>> roles = new LinkedHashMap<>();
-        roles.put("compilers of the JVM", List.of("C1 Compiler", "C2 Compiler", "Sweeper"));
+        roles.put(COMPILERS, List.of("C1 Compiler", "C2 Compiler", "Sweeper"));
         roles.put("garbage collection, VM", List.of("GC Thread", "VM ", "G1 "));
         roles.put(
                 DEVICES,

@@ -52,7 +52,7 @@ class RestApiIT {
                 .isEqualTo(200);
         assertThat(client.send("HEAD", "/api/replays/none.1/events", null).statusCode())
                 .isEqualTo(200); // of an answer without an end only the form is told
-        running.refused("GET", "/api/recordings/none/timeline", null, 404, "unknown-mission");
+        running.refused("GET", "/api/recordings/none/timeline", null, 501, "no-mongodb");
     }
 
     @Test
