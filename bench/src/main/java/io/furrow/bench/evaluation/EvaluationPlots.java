@@ -108,7 +108,7 @@ final class EvaluationPlots {
         List<LoadSecond> inside = result.seconds().stream()
                 .filter(second -> second.delays().size() == COLUMNS)
                 .toList();
-        String[] names = {"device to source", "source to ingest", "ingest to reader"};
+        String[] names = {"to source", "to ingest", "to reader"};
         IntStream.range(0, names.length)
                 .forEach(hop ->
                         add(chart, names[hop], inside, second -> second.delays().get(hop), hop));
