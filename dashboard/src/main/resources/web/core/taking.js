@@ -35,14 +35,20 @@ export const Taking = (Base) => class extends Base {
     this.tell('entities', id);
   }
 
-  /** What was reported before the page was opened. @param {import('./stream.js').TopicRecord[]} records oldest first */
+  /**
+   * What was reported before the page was opened: lines and trails, and what `data.latest` did not have yet.
+   *
+   * @param {import('./stream.js').TopicRecord[]} records oldest first
+   */
   takePast(records) {
     const reports = new Map();
     records.forEach((record) => reports.has(record.key) ? reports.get(record.key).push(record) : reports.set(record.key, [record]));
     for (const [id, of] of reports) {
+      const known = this.entities.get(id)?.time ?? -Infinity;
+      of.filter((each) => each.time > known).forEach((each) => this.takeEntity(each));
       const entity = this.entities.get(id);
-      if (entity) {
-        takePast(entity, of);
+      if (entity && known > -Infinity) {
+        takePast(entity, of.filter((each) => each.time <= known));
         entity.state = this.stateOf(entity);
         this.tell('entities', id);
       }

@@ -229,7 +229,9 @@ class Analyses extends HTMLElement {
       throw new Error(t('analyses.noRecording'));
     }
     const firsts = all.map((each) => store.recordings.get(each).first);
-    const running = [...store.replays.values()].find((each) => !each.gone && !each.group && all.length === 1 && each.mission === all[0] && each.status && !['stopped', 'failed'].includes(each.status.state));
+    // one that was begun before the encounter ends before it
+    const running = all.length === 1 && [...store.replays.values()].find((each) => !each.gone && !each.group && each.mission === all[0]
+      && !['stopped', 'failed'].includes(each.status?.state) && each.status?.progress?.to >= to);
     if (running) {
       store.enterReplay(running);
     } else {

@@ -14,6 +14,7 @@ import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.Limits;
+import io.furrow.model.control.mission.RecordedMission;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.event.DeadLetter;
@@ -356,9 +357,13 @@ class ControlTopologyTest {
         assertThat(steer(whole, "'seek','to':99000").error())
                 .as("of what nobody knows")
                 .isEmpty();
-        report(whole, 2, ReplayStatus.State.RUNNING, false);
+        farm.pipe(Topics.RECORDINGS, "m", new RecordedMission("m", 1000, 5000).toBytes());
+        assertThat(steer(whole, "'seek','to':9000").error())
+                .as("of a mission that runs, later than when it was listed")
+                .isEmpty();
+        report(whole, 3, ReplayStatus.State.RUNNING, false);
         String part = startReplay(",'from':2000,'to':8000");
-        report(part, 3, ReplayStatus.State.RUNNING, false);
+        report(part, 4, ReplayStatus.State.RUNNING, false);
         farm.read(Topics.REPLAYS);
 
         for (String outside : List.of("999", "9001")) {

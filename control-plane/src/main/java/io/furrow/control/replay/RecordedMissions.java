@@ -37,25 +37,27 @@ record RecordedMissions(boolean checked, Function<String, RecordedMission> find)
     }
 
     /**
-     * Refuses a time that a replay does not play: outside of its recording, as far as that is known, or of what is requested of it.
+     * Refuses a time that a replay does not play: outside of its recording, as far as that is known, or of what is requested of it. A mission
+     * that runs is longer than the list of recordings says; until the replay reports how long, any later time is in it.
      *
      * @param time of an event, epoch ms
      * @param reported null if nothing was reported of the replay
      */
     void requireWithin(long time, WantedReplay replay, ReportedReplay reported) throws RefusedException {
         RecordedMission listed = replay.plan().source() == null ? known(replay.mission()) : null;
+        boolean isReported = reported != null && reported.first() != null;
         LongStream.Builder firsts = LongStream.builder();
-        LongStream.Builder lasts = LongStream.builder();
         if (listed != null) {
             firsts.add(listed.first());
-            lasts.add(listed.last());
         }
-        if (reported != null && reported.first() != null) {
+        if (isReported) {
             firsts.add(reported.first());
-            lasts.add(reported.last());
         }
         long begin = replay.from(firsts.build().min().orElse(0));
-        long end = Math.min(lasts.build().max().orElse(Long.MAX_VALUE), replay.to() - 1);
+        long last = !isReported
+                ? Long.MAX_VALUE
+                : listed == null ? reported.last() : Math.max(listed.last(), reported.last());
+        long end = Math.min(last, replay.to() - 1);
         if (time < begin || time > end) {
             throw new RefusedException(
                     ErrorCode.WRONG_MEMBER,

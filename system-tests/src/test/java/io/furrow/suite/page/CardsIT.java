@@ -36,6 +36,21 @@ class CardsIT {
         assertThat(card.locator("svg.spark path")).hasAttribute("d", Pattern.compile("^M.*L.*"));
     }
 
+    /** {@code data.latest} is behind {@code data.raw}, by a checkpoint where it is written exactly once. */
+    @Tag("full")
+    @Test
+    void showsWhatWasReportedBeforeThePageWasOpenedAndIsNotMergedYet(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.pastKnown");
+        farm.store("""
+                store.takePast([21.5, 22.5].map((value, index) => ({
+                  topic: 'data.raw', kind: 'prime', key: 'urn:ngsi-ld:Thermometer:new', time: Date.now() - 1000 + index, headers: {},
+                  value: { id: 'urn:ngsi-ld:Thermometer:new', type: 'Thermometer', Temperature: { type: 'Float', value } },
+                })))""");
+
+        assertThat(farm.card("urn:ngsi-ld:Thermometer:new")).containsText("22.5 °C");
+    }
+
     @Tag("full")
     @Test
     void findsOutTheDefectiveThermometerAndPutsItFirst(PageSuite suite) {
