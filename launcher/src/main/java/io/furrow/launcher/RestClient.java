@@ -39,6 +39,10 @@ public final class RestClient {
                 .build());
     }
 
+    public Answer delete(URI uri, Map<String, String> headers) {
+        return send(request(uri, headers).DELETE().build());
+    }
+
     private static HttpRequest.Builder request(URI uri, Map<String, String> headers) {
         HttpRequest.Builder request = HttpRequest.newBuilder(uri).timeout(Duration.ofSeconds(30));
         headers.forEach(request::header);

@@ -3,7 +3,7 @@ package io.furrow.bench.command;
 import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.Callable;
 
@@ -18,6 +18,7 @@ import io.furrow.bench.evaluation.Evaluation;
 import io.furrow.bench.evaluation.EvaluationReport;
 import io.furrow.bench.evaluation.EvaluationResults;
 import io.furrow.bench.evaluation.Sweep;
+import io.furrow.bench.evaluation.Target;
 import io.furrow.bench.whole.Checkout;
 import io.furrow.cli.option.HelpOption;
 
@@ -26,10 +27,17 @@ import io.furrow.cli.option.HelpOption;
         name = "evaluate",
         abbreviateSynopsis = true,
         description =
-                "Repeats the evaluation of the WeLASER platform: sends four sweeps of load at the devices' end of the embedded suite, and reports"
-                        + " what arrived at a reader, how late, twice or out of order, in a page with plots. One that was interrupted goes on"
-                        + " where it was.")
+                "Repeats the evaluation of the WeLASER platform: sends four sweeps of load at the devices' end of a suite, then twice and twice"
+                        + " again as much until it does not hold, and reports what arrived at a reader, how late, twice or out of order, in a"
+                        + " page with plots. One that was interrupted goes on where it was.")
 final class EvaluateBench implements Callable<Integer> {
+    private static final long SHORT_SECONDS = 3;
+
+    private static final List<String> EMBEDDED = List.of(
+            "Context broker, IoT Agent, MQTT broker and MongoDB are the embedded stand-ins; Kafka, Connect and Flink are real; sender,"
+                    + " suite and reader share one JVM and its processors.",
+            "At-least-once delivery, checkpoints each 10 s; the reader reads what is committed.");
+
     @Spec
     private CommandSpec spec;
 
@@ -46,8 +54,21 @@ final class EvaluateBench implements Callable<Integer> {
             paramLabel = "S",
             defaultValue = "60",
             description =
-                    "How long each point is measured; with 4 the whole takes some 7 minutes, with 60 half an hour. Default: ${DEFAULT-VALUE}.")
+                    "How long each point is measured; with 60 all of it takes some 45 minutes. Default: ${DEFAULT-VALUE}.")
     private long seconds;
+
+    @Option(
+            names = "--short",
+            description = "Some 5 minutes: 3 s a point, one suite for all sweeps, no way to the knee.")
+    private boolean isShort;
+
+    @Option(
+            names = "--no-knee",
+            description = "Not beyond the last point of each sweep. Default: twice the load, until it does not hold.")
+    private boolean noKnee;
+
+    @Mixin
+    private DeploymentOptions deployment;
 
     @Option(
             names = "--report",
@@ -72,23 +93,22 @@ final class EvaluateBench implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         Files.createDirectories(results.toAbsolutePath().getParent());
         String commit = Checkout.here().name();
+        long seconds = isShort ? SHORT_SECONDS : this.seconds;
         EvaluationResults known = EvaluationResults.in(results);
         Calibration machine = Calibration.measure();
         out.println(machine.sentence());
         out.flush();
-        new Evaluation(commit, Duration.ofSeconds(seconds), known, out).run(sweeps);
-        new EvaluationReport(
-                        known,
-                        commit,
-                        seconds,
-                        List.of(
-                                "Commit %s, each point %d s after a warm-up of 20 s for each sweep."
-                                        .formatted(commit, seconds),
-                                "Context broker, IoT Agent, MQTT broker and MongoDB are the embedded stand-ins; Kafka, Connect and Flink are real; sender,"
-                                        + " suite and reader share one JVM and its processors.",
-                                "At-least-once delivery, checkpoints each 10 s; the reader reads what is committed.",
-                                machine.sentence()))
-                .write(report);
+        Target target = deployment.target();
+        new Evaluation(
+                        new Evaluation.Plan(sweeps, commit, seconds, !noKnee && !isShort, isShort, target), known, out)
+                .run();
+        List<String> setting = new ArrayList<>(
+                List.of("Commit %s; each point %d s, after a warm-up of 20 s for each suite%s."
+                        .formatted(
+                                commit, seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
+        setting.addAll(target == null ? EMBEDDED : deployment.setting());
+        setting.add(machine.sentence());
+        new EvaluationReport(known, commit, seconds, setting).write(report);
         out.println("Report: " + report.resolve("report.html").toAbsolutePath());
         out.flush();
         return 0;

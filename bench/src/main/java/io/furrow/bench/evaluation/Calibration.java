@@ -10,8 +10,10 @@ import java.util.Properties;
 import java.util.SplittableRandom;
 
 import org.apache.kafka.clients.consumer.ConsumerRecord;
+import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.bench.http.BareServer;
 import io.furrow.bench.http.HttpLoad;
@@ -26,53 +28,66 @@ import io.furrow.launcher.suite.RunDirectory;
  *
  * @param producer records of 1 kB a second that one producer writes, all acknowledged
  * @param server requests of 1 kB a second that a Jetty answers without looking at them
+ * @param bridge requests of 1 kB a second that a Jetty answers when Kafka has them
  */
-public record Calibration(double producer, double server) {
+public record Calibration(double producer, double server, double bridge) {
     private static final Duration LASTING = Duration.ofSeconds(3);
     private static final int BYTES = 1_000;
     private static final int CONNECTIONS = 16;
     private static final int ENTITIES = 100;
 
-    /** Takes some ten seconds. */
+    /** Takes some 20 seconds. */
     public static Calibration measure() throws Exception {
-        return new Calibration(producing(), serving());
-    }
-
-    private static double producing() throws Exception {
         try (RunDirectory directory = RunDirectory.open(null);
                 EmbeddedKafka kafka =
                         EmbeddedKafka.start(Path.of(directory.path().toString(), "kafka"))) {
             Properties client = new Properties();
             client.setProperty("bootstrap.servers", kafka.bootstrapServers());
-            byte[] value = new byte[BYTES];
-            new SplittableRandom(1).nextBytes(value);
-            byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
-            BareProducer producer = new BareProducer(client, "calibration");
-            long now = System.currentTimeMillis();
-            List<ConsumerRecord<byte[], byte[]>> samples = List.of(new ConsumerRecord<>(
-                    "calibration",
-                    0,
-                    0,
-                    now,
-                    TimestampType.CREATE_TIME,
-                    key.length,
-                    value.length,
-                    key,
-                    value,
-                    new RecordHeaders(),
-                    Optional.empty()));
-            producer.perSecond(samples, LASTING);
-            return producer.perSecond(samples, LASTING);
+            return new Calibration(producing(client), serving(), bridging(client));
         }
+    }
+
+    private static double producing(Properties client) {
+        byte[] value = new byte[BYTES];
+        new SplittableRandom(1).nextBytes(value);
+        byte[] key = "device".getBytes(StandardCharsets.US_ASCII);
+        BareProducer producer = new BareProducer(client, "calibration");
+        List<ConsumerRecord<byte[], byte[]>> samples = List.of(new ConsumerRecord<>(
+                "calibration",
+                0,
+                0,
+                System.currentTimeMillis(),
+                TimestampType.CREATE_TIME,
+                key.length,
+                value.length,
+                key,
+                value,
+                new RecordHeaders(),
+                Optional.empty()));
+        producer.perSecond(samples, LASTING);
+        return producer.perSecond(samples, LASTING);
     }
 
     private static double serving() {
         try (BareServer server = BareServer.start()) {
-            HttpLoadPlan plan = new HttpLoadPlan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
-            new HttpLoad(server.address(), plan, 0).run();
-            HttpLoadResult load = new HttpLoad(server.address(), plan, 0).run();
-            return load.answered() * 1e9 / load.nanos();
+            return answered(server);
         }
+    }
+
+    private static double bridging(Properties client) {
+        try (KafkaProducer<byte[], byte[]> producer =
+                        new KafkaProducer<>(client, new ByteArraySerializer(), new ByteArraySerializer());
+                BareServer server = BareServer.start(producer, "calibration-bridge")) {
+            return answered(server);
+        }
+    }
+
+    /** Per second, of a second run. */
+    private static double answered(BareServer server) {
+        HttpLoadPlan plan = new HttpLoadPlan(CONNECTIONS, false, 0, BYTES, ENTITIES, LASTING);
+        new HttpLoad(server.address(), plan, 0).run();
+        HttpLoadResult load = new HttpLoad(server.address(), plan, 0).run();
+        return load.answered() * 1e9 / load.nanos();
     }
 
     /** For the head of a report. */
@@ -80,12 +95,13 @@ public record Calibration(double producer, double server) {
         return String.format(
                 Locale.ROOT,
                 "Machine: %d processors, %s %s, Java %s; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"
-                        + " HTTP server answers %,.0f requests a second.",
+                        + " HTTP server answers %,.0f requests a second, a bare bridge from HTTP to Kafka %,.0f.",
                 Runtime.getRuntime().availableProcessors(),
                 System.getProperty("os.name"),
                 System.getProperty("os.arch"),
                 System.getProperty("java.version"),
                 producer,
-                server);
+                server,
+                bridge);
     }
 }

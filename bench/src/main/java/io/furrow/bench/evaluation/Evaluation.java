@@ -1,17 +1,18 @@
 package io.furrow.bench.evaluation;
 
+import java.io.IOException;
 import java.io.PrintWriter;
-import java.net.URI;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
 import java.util.concurrent.atomic.LongAdder;
 
-import com.fasterxml.jackson.databind.JsonNode;
-import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 
 import io.furrow.bench.arrival.TopicReader;
@@ -19,111 +20,174 @@ import io.furrow.bench.evaluation.Sweep.Point;
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
 import io.furrow.bench.whole.ThreadTimes;
-import io.furrow.cli.CommandException;
 import io.furrow.launcher.Progress;
-import io.furrow.launcher.RestClient;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.topic.Topics;
 import io.furrow.simulators.load.LoadPlan;
 
-/** Runs sweeps through a suite in this JVM, one suite for each sweep, with the stand-ins of context broker and IoT Agent. */
+/**
+ * Runs sweeps through a suite. One that is to find the knee goes on after its last point with twice the load, until a point does not hold
+ * any more.
+ */
 public final class Evaluation {
     private static final String DOMAIN = "evaluation";
     private static final Duration WARM_UP = Duration.ofSeconds(20);
+    /** How long points beyond those of a sweep are measured at most: there the load is the question, not its course. */
+    private static final long MAX_FURTHER_SECONDS = 20;
     /** A start, a warm-up, and what is waited for before and after each point. */
-    private static final long SECONDS_A_SWEEP = 45;
+    private static final long SECONDS_A_SUITE = 45;
 
     private static final long SECONDS_A_POINT = 6;
 
-    private final String commit;
-    private final Duration lasting;
+    private final Plan plan;
     private final EvaluationResults results;
     private final PrintWriter out;
 
-    /** @param lasting how long each point is measured */
-    public Evaluation(String commit, Duration lasting, EvaluationResults results, PrintWriter out) {
-        this.commit = commit;
-        this.lasting = lasting;
+    /**
+     * What is measured, and how.
+     *
+     * @param commit of the suite
+     * @param seconds of each point
+     * @param knee whether it is looked for
+     * @param oneSuite for all sweeps, else each has one of its own
+     * @param target null for suites in this JVM, with stand-ins for context broker and IoT Agent
+     */
+    public record Plan(
+            List<Sweep> sweeps, String commit, long seconds, boolean knee, boolean oneSuite, Target target) {}
+
+    public Evaluation(Plan plan, EvaluationResults results, PrintWriter out) {
+        this.plan = plan;
         this.results = results;
         this.out = out;
     }
 
+    /** Of a point, where those of the sweeps are measured for so long. */
+    static long seconds(Point point, long seconds) {
+        return point.sweep().points().contains(point) ? seconds : Math.min(seconds, MAX_FURTHER_SECONDS);
+    }
+
     /** Measures what the results do not have yet. */
-    public void run(List<Sweep> sweeps) throws Exception {
-        for (Sweep sweep : sweeps) {
-            List<Point> missing = missing(sweep);
-            if (!missing.isEmpty()) {
-                out.printf(
-                        "%s: %d points, some %d min of %d in all%n",
-                        sweep.title(), missing.size(), minutes(List.of(sweep)), minutes(sweeps));
-                out.flush();
-                run(sweep, missing);
-            }
+    public void run() throws Exception {
+        List<Sweep> missing =
+                plan.sweeps.stream().filter(sweep -> next(sweep) != null).toList();
+        List<List<Sweep>> suites = new ArrayList<>();
+        if (plan.oneSuite || plan.target != null) {
+            suites.add(missing);
+        } else {
+            missing.forEach(sweep -> suites.add(List.of(sweep)));
+        }
+        for (int i = 0; i < suites.size() && !missing.isEmpty(); i++) {
+            out.printf(
+                    "Some %d min to go%s%n",
+                    minutes(suites.subList(i, suites.size())), plan.knee ? ", and the way to the knee" : "");
+            out.flush();
+            runInSuite(suites.get(i));
         }
     }
 
-    private List<Point> missing(Sweep sweep) {
-        return sweep.points().stream()
-                .filter(point -> !results.has(commit, point, lasting.toSeconds()))
-                .toList();
+    private void runInSuite(List<Sweep> sweeps) throws Exception {
+        if (plan.target != null) {
+            run(sweeps, plan.target);
+            return;
+        }
+        try (RunDirectory directory = RunDirectory.open(null);
+                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+            run(sweeps, Target.of(suite));
+        }
     }
 
-    private long minutes(List<Sweep> sweeps) {
-        long seconds = 0;
-        for (Sweep sweep : sweeps) {
-            int points = missing(sweep).size();
-            seconds += points == 0 ? 0 : SECONDS_A_SWEEP + points * (lasting.toSeconds() + SECONDS_A_POINT);
+    private long minutes(List<List<Sweep>> suites) {
+        long seconds = suites.size() * SECONDS_A_SUITE;
+        for (List<Sweep> sweeps : suites) {
+            for (Sweep sweep : sweeps) {
+                seconds += sweep.points().stream()
+                                .filter(point -> !isMeasured(point))
+                                .count()
+                        * (plan.seconds + SECONDS_A_POINT);
+            }
         }
         return (seconds + 59) / 60;
     }
 
-    private void run(Sweep sweep, List<Point> points) throws Exception {
-        try (RunDirectory directory = RunDirectory.open(null);
-                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
-            LoadMeasurement measurement = new LoadMeasurement(
-                    suite.devices(), suite.kafka().clientProperties(), line -> progress("    " + line));
-            measurement.run(new LoadPlan(25, Duration.ofMillis(200), 1_000, WARM_UP, DOMAIN, "warmup"));
-            int copies = 1;
-            for (Point point : points) {
-                for (; copies < point.copies(); copies++) {
-                    subscribeAgain(suite, copies);
+    private boolean isMeasured(Point point) {
+        return results.of(plan.commit, plan.seconds, point) != null;
+    }
+
+    /** The first point that is not measured; null if there is none any more. */
+    private Point next(Sweep sweep) {
+        for (Point point : sweep.points()) {
+            if (!isMeasured(point)) {
+                return point;
+            }
+        }
+        Point last = sweep.points().get(sweep.points().size() - 1);
+        while (plan.knee && last != null) {
+            PointResult result = results.of(plan.commit, plan.seconds, last);
+            if (result == null) {
+                return last;
+            }
+            last = result.holds() ? sweep.further(last) : null;
+        }
+        return null;
+    }
+
+    private void run(List<Sweep> sweeps, Target target) throws Exception {
+        LoadMeasurement measurement = new LoadMeasurement(target.devices(), target.kafka(), this::progress);
+        measurement.run(new LoadPlan(25, Duration.ofMillis(200), 1_000, WARM_UP, DOMAIN, "warmup"));
+        for (Sweep sweep : sweeps) {
+            progress(sweep.title());
+            try (SubscriptionCopies copies = new SubscriptionCopies(target.devices())) {
+                for (Point point = next(sweep); point != null; point = next(sweep)) {
+                    copies.ensure(point.copies());
+                    PointResult result = measure(target, measurement, point);
+                    results.add(result);
+                    print(result);
                 }
-                PointResult result = measure(suite, measurement, point);
-                results.add(result);
-                print(result);
             }
         }
     }
 
-    private PointResult measure(Suite suite, LoadMeasurement measurement, Point point) throws Exception {
-        LoadPlan plan = point.plan(lasting, DOMAIN);
+    private PointResult measure(Target target, LoadMeasurement measurement, Point point) throws Exception {
+        LoadPlan load = point.plan(Duration.ofSeconds(seconds(point, plan.seconds)), DOMAIN);
         LongAdder notified = new LongAdder();
         ThreadTimes before = ThreadTimes.of(ProcessHandle.current().pid());
         long from = System.nanoTime();
-        LoadReport load;
+        LoadReport report;
         // Only where there are copies: another reader of large messages would change what is measured.
         if (point.sweep() == Sweep.SUBSCRIPTIONS) {
             try (TopicReader raw = new TopicReader(
-                    suite.kafka().clientProperties(),
+                    target.kafka(),
                     Topics.RAW,
                     Map.of(),
-                    records -> records.forEach(record -> count(record, plan, notified)))) {
+                    records -> records.forEach(record -> count(record, load, notified)))) {
                 raw.start();
-                load = measurement.run(plan);
+                report = measurement.run(load);
             }
         } else {
-            load = measurement.run(plan);
-            notified.add(load.delivered());
+            report = measurement.run(load);
+            notified.add(report.delivered());
         }
         double nanos = System.nanoTime() - from;
         Map<String, Double> cores = new HashMap<>();
-        ThreadTimes.of(ProcessHandle.current().pid())
-                .since(before)
-                .byRole()
-                .forEach((role, time) -> cores.put(role, time / nanos));
-        return PointResult.of(commit, point, load, notified.sum(), cores);
+        if (target.isOurs()) {
+            ThreadTimes.of(ProcessHandle.current().pid())
+                    .since(before)
+                    .byRole()
+                    .forEach((role, time) -> cores.put(role, time / nanos));
+        }
+        return PointResult.of(
+                plan.commit, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
+    }
+
+    /** As Linux tells it. */
+    private static long residentBytes() throws IOException {
+        return Files.readAllLines(Path.of("/proc/self/status")).stream()
+                .filter(line -> line.startsWith("VmRSS:"))
+                .mapToLong(line -> Long.parseLong(line.replaceAll("\\D", "")) * 1024)
+                .findFirst()
+                .orElse(0);
     }
 
     /** Provisioning is notified of too, without a payload. */
@@ -135,33 +199,10 @@ public final class Evaluation {
         }
     }
 
-    /** The source's own subscription a second time. */
-    private static void subscribeAgain(Suite suite, int copy) {
-        RestClient rest = new RestClient();
-        URI subscriptions = suite.contextBroker().resolve("/v2/subscriptions");
-        Map<String, String> tenant = Map.of("fiware-service", suite.fiwareService());
-        JsonNode own = rest.get(subscriptions, tenant).body().path(0);
-        ObjectNode again = ((ObjectNode) own.deepCopy()).put("description", "copy " + copy);
-        again.retain("description", "subject", "notification");
-        ((ObjectNode) again.get("notification"))
-                .remove(List.of(
-                        "timesSent",
-                        "lastNotification",
-                        "lastSuccess",
-                        "lastSuccessCode",
-                        "lastFailure",
-                        "lastFailureReason",
-                        "failsCounter"));
-        RestClient.Answer answer = rest.send("POST", subscriptions, tenant, again);
-        if (!answer.isSuccess()) {
-            throw new CommandException("The context broker refused a copy of the subscription: " + answer.body());
-        }
-    }
-
     private void print(PointResult result) {
-        out.printf(
+        progress(String.format(
                 Locale.ROOT,
-                "  %-18s %6.0f/s  sent %6d  delivered %.4f  duplicated %d  reordered %d  ms p50 %d p99 %d max %d  %s%n",
+                "%-18s %6.0f/s  sent %6d  delivered %.4f  duplicated %d  reordered %d  ms p50 %d p99 %d max %d  %s%s",
                 result.point().title(),
                 result.point().rate(),
                 result.sent(),
@@ -171,12 +212,12 @@ public final class Evaluation {
                 result.endToEnd().p50(),
                 result.endToEnd().p99(),
                 result.endToEnd().max(),
-                result.busiest());
-        out.flush();
+                result.busiest(),
+                result.holds() ? "" : "  beyond the knee: " + result.limit()));
     }
 
     private void progress(String line) {
-        out.println(line);
+        out.println("  " + line);
         out.flush();
     }
 }

@@ -4,16 +4,22 @@ import java.awt.Color;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
 import java.nio.file.Path;
+import java.util.HashMap;
 import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
 import java.util.function.ToDoubleFunction;
 import java.util.stream.IntStream;
 
+import org.knowm.xchart.AnnotationLine;
+import org.knowm.xchart.AnnotationText;
 import org.knowm.xchart.BitmapEncoder;
 import org.knowm.xchart.XYChart;
 import org.knowm.xchart.XYChartBuilder;
 import org.knowm.xchart.XYSeries;
 import org.knowm.xchart.style.Styler;
 import org.knowm.xchart.style.XYStyler;
+import org.knowm.xchart.style.lines.SeriesLines;
 import org.knowm.xchart.style.markers.SeriesMarkers;
 
 import io.furrow.bench.load.LoadSecond;
@@ -24,8 +30,15 @@ final class EvaluationPlots {
     private static final int WIDTH = 420;
     private static final int HEIGHT = 300;
     private static final Color[] COLORS = {
-        new Color(0x1b, 0x6c, 0xa8), new Color(0xc9, 0x8a, 0x1b), new Color(0x3a, 0x7d, 0x44)
+        new Color(0x1b, 0x6c, 0xa8),
+        new Color(0xc9, 0x8a, 0x1b),
+        new Color(0x3a, 0x7d, 0x44),
+        new Color(0x8e, 0x44, 0x8e),
+        new Color(0x5f, 0x6b, 0x76)
     };
+    private static final Color THESIS = new Color(0xb0, 0x3a, 0x2e);
+    /** Parts of a plot of processor time. */
+    private static final int PARTS = 5;
 
     private EvaluationPlots() {}
 
@@ -42,6 +55,19 @@ final class EvaluationPlots {
     /** Mean and 99th percentile of the delay from device to reader, a panel for each sweep. */
     static void delay(List<List<PointResult>> sweeps, Path file) throws IOException {
         save(sweeps.stream().map(EvaluationPlots::delays).toList(), 2, file);
+    }
+
+    /** Processor time of those parts that take most of it, a panel for each sweep. */
+    static void cores(List<List<PointResult>> sweeps, Path file) throws IOException {
+        Map<String, Double> sums = new HashMap<>();
+        sweeps.forEach(results -> results.forEach(
+                result -> result.cores().forEach((part, cores) -> sums.merge(part, cores, Double::sum))));
+        List<String> parts = sums.entrySet().stream()
+                .sorted(Map.Entry.<String, Double>comparingByValue().reversed())
+                .limit(PARTS)
+                .map(Map.Entry::getKey)
+                .toList();
+        save(sweeps.stream().map(results -> cores(results, parts)).toList(), 2, file);
     }
 
     /** Messages a second at device, source and reader over time, a panel for each point. */
@@ -69,6 +95,9 @@ final class EvaluationPlots {
         chart.getStyler().setYAxisMin(0.0);
         chart.getStyler().setYAxisMax(max);
         chart.getStyler().setLegendVisible(false);
+        double fell = Thesis.fellBeyond(results.get(0).point().sweep());
+        chart.addAnnotation(new AnnotationLine(fell, true, false));
+        chart.addAnnotation(new AnnotationText(" thesis: falls beyond", fell, max / 2, false));
         return chart;
     }
 
@@ -81,15 +110,41 @@ final class EvaluationPlots {
                 chart,
                 "mean",
                 abscissas(results),
-                results.stream().mapToDouble(each -> each.endToEnd().mean()).toArray(),
+                results.stream()
+                        .mapToDouble(each -> Math.max(1, each.endToEnd().mean()))
+                        .toArray(),
                 0);
         add(
                 chart,
                 "p99",
                 abscissas(results),
-                results.stream().mapToDouble(each -> each.endToEnd().p99()).toArray(),
+                results.stream()
+                        .mapToDouble(each -> Math.max(1, each.endToEnd().p99()))
+                        .toArray(),
                 1);
+        Map<Double, Double> theirs = new TreeMap<>(Thesis.delays(results.get(0).point().sweep()));
+        if (!theirs.isEmpty()) {
+            XYSeries series = chart.addSeries("thesis", List.copyOf(theirs.keySet()), List.copyOf(theirs.values()));
+            series.setMarker(SeriesMarkers.DIAMOND);
+            series.setMarkerColor(THESIS);
+            series.setLineStyle(SeriesLines.NONE);
+        }
+        chart.getStyler().setYAxisLogarithmic(true);
+        return chart;
+    }
+
+    private static XYChart cores(List<PointResult> results, List<String> parts) {
+        Sweep sweep = results.get(0).point().sweep();
+        XYChart chart = chart(sweep.title(), sweep.abscissa(), "cores");
+        for (int part = 0; part < parts.size(); part++) {
+            String name = parts.get(part);
+            double[] cores = results.stream()
+                    .mapToDouble(result -> result.cores().getOrDefault(name, 0.0))
+                    .toArray();
+            add(chart, name, abscissas(results), cores, part);
+        }
         chart.getStyler().setYAxisMin(0.0);
+        chart.getStyler().setLegendLayout(Styler.LegendLayout.Vertical);
         return chart;
     }
 

@@ -6,6 +6,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.ObjectMapper;
@@ -42,13 +43,6 @@ public final class EvaluationResults {
         return all;
     }
 
-    /** Of the same commit and length. */
-    boolean has(String commit, Point point, long seconds) {
-        return results.stream()
-                .anyMatch(result ->
-                        result.commit().equals(commit) && result.point().equals(point) && result.lasting() == seconds);
-    }
-
     void add(PointResult result) throws IOException {
         Files.writeString(
                 file,
@@ -59,14 +53,21 @@ public final class EvaluationResults {
         results.add(result);
     }
 
-    /** Those of one commit and length, by sweep and point. */
+    /** Those of one commit, by load; {@code seconds} of the points of the sweep, further ones are measured for less. */
     List<PointResult> of(String commit, long seconds, Sweep sweep) {
-        return sweep.points().stream()
-                .flatMap(point -> results.stream()
-                        .filter(result -> result.commit().equals(commit)
-                                && result.point().equals(point)
-                                && result.lasting() == seconds)
-                        .limit(1))
+        return results.stream()
+                .filter(result -> result.commit().equals(commit)
+                        && result.point().sweep() == sweep
+                        && result.lasting() == Evaluation.seconds(result.point(), seconds))
+                .sorted(Comparator.comparingDouble(result -> result.point().abscissa()))
                 .toList();
+    }
+
+    /** @return null if it is not measured */
+    PointResult of(String commit, long seconds, Point point) {
+        return of(commit, seconds, point.sweep()).stream()
+                .filter(result -> result.point().equals(point))
+                .findFirst()
+                .orElse(null);
     }
 }

@@ -1,5 +1,8 @@
 package io.furrow.bench.evaluation;
 
+import java.nio.ByteBuffer;
+import java.util.Arrays;
+import java.util.Base64;
 import java.util.EnumMap;
 import java.util.List;
 import java.util.Locale;
@@ -24,7 +27,8 @@ import io.furrow.bench.whole.ThreadTimes;
  * @param duplicated arrivals there of events that had arrived before
  * @param reordered events there that came after one of the same entity that was sent later
  * @param delays by hop, ms
- * @param cores processor time of the suite, sender and reader included, by what threads do
+ * @param cores processor time of the suite, sender and reader included, by what threads do; empty of one that is another process
+ * @param memoryBytes resident memory of its process after the load; 0 of one that is another process
  */
 public record PointResult(
         String commit,
@@ -37,22 +41,37 @@ public record PointResult(
         long reordered,
         Map<Hop, Delay> delays,
         List<LoadSecond> seconds,
-        Map<String, Double> cores) {
+        Map<String, Double> cores,
+        long memoryBytes) {
+    /** Beyond it a point is beyond the knee, ms. */
+    static final long MAX_P99 = 1_000;
+
+    /** Of the rate that was to be sent; where the MQTT broker takes less, devices wait, and delays do not show it. */
+    private static final double MIN_ATTAINED = 0.95;
+
     private static final Set<String> NO_PARTS = Set.of(ThreadTimes.DEVICES, ThreadTimes.COMPILERS);
 
-    /** Of the messages of one load, ms. */
-    public record Delay(double mean, long p50, long p95, long p99, long max) {
+    /**
+     * Of the messages of one load, ms.
+     *
+     * @param histogram all of it, in Base64 what HdrHistogram's {@code decodeFromCompressedByteBuffer} reads
+     */
+    public record Delay(double mean, long p50, long p95, long p99, long max, String histogram) {
         static Delay of(Histogram millis) {
+            ByteBuffer all = ByteBuffer.allocate(millis.getNeededByteBufferCapacity());
+            millis.encodeIntoCompressedByteBuffer(all);
             return new Delay(
                     millis.getTotalCount() == 0 ? 0 : millis.getMean(),
                     millis.getValueAtPercentile(50),
                     millis.getValueAtPercentile(95),
                     millis.getValueAtPercentile(99),
-                    millis.getMaxValue());
+                    millis.getMaxValue(),
+                    Base64.getEncoder().encodeToString(Arrays.copyOf(all.array(), all.position())));
         }
     }
 
-    static PointResult of(String commit, Point point, LoadReport load, long notified, Map<String, Double> cores) {
+    static PointResult of(
+            String commit, Point point, LoadReport load, long notified, Map<String, Double> cores, long memoryBytes) {
         Map<Hop, Delay> delays = new EnumMap<>(Hop.class);
         load.delays().forEach((hop, millis) -> delays.put(hop, Delay.of(millis)));
         return new PointResult(
@@ -66,7 +85,8 @@ public record PointResult(
                 load.reordered(),
                 delays,
                 load.seconds(),
-                cores);
+                cores,
+                memoryBytes);
     }
 
     double deliveredRatio() {
@@ -75,6 +95,32 @@ public record PointResult(
 
     boolean isWhole() {
         return delivered == sent && duplicated == 0 && reordered == 0;
+    }
+
+    /** Whether the suite holds this load: nothing is lost, soon enough, and as much as was to be sent. */
+    boolean holds() {
+        return delivered == sent && endToEnd().p99() <= MAX_P99 && attained() >= MIN_ATTAINED;
+    }
+
+    /** Why it does not. */
+    String limit() {
+        if (delivered < sent) {
+            return String.format(Locale.ROOT, "%.4f delivered", deliveredRatio());
+        }
+        return endToEnd().p99() > MAX_P99
+                ? String.format(Locale.ROOT, "p99 %,d ms", endToEnd().p99())
+                : String.format(Locale.ROOT, "%.2f of it could be sent", attained());
+    }
+
+    /** The rate at which devices sent, of that of the plan. */
+    private double attained() {
+        long last = seconds.stream()
+                .filter(second -> second.atDevice() > 0)
+                .mapToLong(LoadSecond::second)
+                .max()
+                .orElse(0);
+        // the first and the last second are only parts of one
+        return lasting / Math.max(lasting, (double) last);
     }
 
     Delay endToEnd() {

@@ -19,6 +19,7 @@ public enum Sweep {
     SUBSCRIPTIONS("more copies of each notification");
 
     private static final int KILOBYTE = 1_000;
+    private static final int MIN_PERIOD_MS = 1;
 
     private final String title;
 
@@ -73,6 +74,16 @@ public enum Sweep {
             case DEVICES -> new Point(this, value, 200, KILOBYTE, 1);
             case PAYLOAD -> new Point(this, 50, 200, value * KILOBYTE, 1);
             case SUBSCRIPTIONS -> new Point(this, 25, 200, KILOBYTE, value);
+        };
+    }
+
+    /** With twice the load of the last one, to find the knee; null where devices cannot report more often. */
+    Point further(Point last) {
+        return switch (this) {
+            case PERIOD -> last.periodMs() == MIN_PERIOD_MS ? null : point(last.periodMs() / 2);
+            case DEVICES -> point(2 * last.devices());
+            case PAYLOAD -> point(2 * last.payloadBytes() / KILOBYTE);
+            case SUBSCRIPTIONS -> point(2 * last.copies());
         };
     }
 

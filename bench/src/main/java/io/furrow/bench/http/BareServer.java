@@ -3,6 +3,8 @@ package io.furrow.bench.http;
 import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
 
+import org.apache.kafka.clients.producer.Producer;
+import org.apache.kafka.clients.producer.ProducerRecord;
 import org.eclipse.jetty.io.Content;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
@@ -11,18 +13,23 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.server.Server;
 import org.eclipse.jetty.server.ServerConnector;
+import org.eclipse.jetty.util.BufferUtil;
 import org.eclipse.jetty.util.Callback;
+import org.eclipse.jetty.util.Promise;
 import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
 
-/** A Jetty on 127.0.0.1 that reads each body, forgets it and answers 200: what no receiver built on it can exceed. */
+/**
+ * A Jetty on 127.0.0.1 that reads each body and answers 200: one that forgets it, which no receiver built on it can exceed; or one that
+ * answers when Kafka has it, the simplest bridge that loses nothing that it acknowledged.
+ */
 public final class BareServer implements AutoCloseable {
     private static final int THREADS = 16;
 
     private final Server server;
     private final ServerConnector connector;
 
-    private BareServer() {
+    private BareServer(Handler handler) {
         QueuedThreadPool threads = new QueuedThreadPool(THREADS, 4);
         threads.setName("bare-server");
         threads.setDaemon(true);
@@ -33,12 +40,21 @@ public final class BareServer implements AutoCloseable {
         connector.setHost("127.0.0.1");
         connector.setAcceptQueueSize(1024);
         server.addConnector(connector);
-        server.setHandler(new Answering());
+        server.setHandler(handler);
     }
 
     /** On a free port. */
     public static BareServer start() {
-        BareServer bare = new BareServer();
+        return start(new Answering());
+    }
+
+    /** A bridge to a topic. */
+    public static BareServer start(Producer<byte[], byte[]> producer, String topic) {
+        return start(new Bridging(producer, topic));
+    }
+
+    private static BareServer start(Handler handler) {
+        BareServer bare = new BareServer(handler);
         LifeCycle.start(bare.server);
         return bare;
     }
@@ -62,6 +78,30 @@ public final class BareServer implements AutoCloseable {
                                 response.setStatus(200);
                                 response.write(true, ByteBuffer.allocate(0), callback);
                             },
+                            callback::failed));
+            return true;
+        }
+    }
+
+    private static final class Bridging extends Handler.Abstract.NonBlocking {
+        private final Producer<byte[], byte[]> producer;
+        private final String topic;
+
+        Bridging(Producer<byte[], byte[]> producer, String topic) {
+            this.producer = producer;
+            this.topic = topic;
+        }
+
+        @Override
+        public boolean handle(Request request, Response response, Callback callback) {
+            Content.Source.asByteBuffer(
+                    request,
+                    Promise.from(
+                            body -> producer.send(
+                                    new ProducerRecord<>(topic, BufferUtil.toArray(body)), (metadata, failure) -> {
+                                        response.setStatus(failure == null ? 200 : 503);
+                                        response.write(true, ByteBuffer.allocate(0), callback);
+                                    }),
                             callback::failed));
             return true;
         }

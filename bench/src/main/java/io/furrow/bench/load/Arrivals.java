@@ -54,6 +54,7 @@ final class Arrivals {
         record(Hop.DEVICE_TO_SOURCE, source - device);
         record(Hop.SOURCE_TO_INGEST, ingest - source);
         record(Hop.INGEST_TO_READER, now - ingest);
+        record(Hop.SOURCE_TO_READER, now - source);
         record(Hop.END_TO_END, now - device);
         timeline.add(device, source, ingest, now);
         if (newest.merge(entity, device, Math::max) > device) {

@@ -1,10 +1,12 @@
 package io.furrow.bench.load;
 
-/** One hop of a measure, between two timestamps. */
+/** A part of the way of a measure, between two timestamps. */
 public enum Hop {
     DEVICE_TO_SOURCE("device → source"),
     SOURCE_TO_INGEST("source → ingest"),
     INGEST_TO_READER("ingest → reader"),
+    /** From the notification on: what takes the place of the thesis' Draco, and Kafka. */
+    SOURCE_TO_READER("source → reader"),
     END_TO_END("end to end");
 
     private final String title;

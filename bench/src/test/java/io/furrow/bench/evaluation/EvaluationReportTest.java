@@ -42,6 +42,33 @@ class EvaluationReportTest {
     }
 
     @Test
+    void goesOnWithTwiceTheLoad() {
+        assertThat(Sweep.PERIOD.further(point(Sweep.PERIOD, 5)).rate()).isEqualTo(1250);
+        assertThat(Sweep.PERIOD.further(new Point(Sweep.PERIOD, 5, 1, 1_000, 1)))
+                .isNull();
+        assertThat(Sweep.DEVICES.further(point(Sweep.DEVICES, 5)).rate()).isEqualTo(1250);
+        assertThat(Sweep.PAYLOAD.further(point(Sweep.PAYLOAD, 5)).abscissa()).isEqualTo(200);
+        assertThat(Sweep.SUBSCRIPTIONS.further(point(Sweep.SUBSCRIPTIONS, 6)).rate())
+                .isEqualTo(7500);
+    }
+
+    @Test
+    void holdsWhatArrivesSoonAndCouldBeSent() {
+        Point point = point(Sweep.DEVICES, 1);
+        assertThat(result(point, 100, 0).holds()).isTrue();
+        assertThat(result(point, 99, 0).limit()).isEqualTo("0.9900 delivered");
+        assertThat(result(point, 100, 0, 1_001, 59).limit()).isEqualTo("p99 1,001 ms");
+        assertThat(result(point, 100, 0, 1_000, 60).holds()).isTrue();
+        PointResult slow = result(point, 100, 0, 1_000, 80);
+        assertThat(slow.holds()).isFalse();
+        assertThat(slow.limit()).isEqualTo("0.75 of it could be sent");
+    }
+
+    private static Point point(Sweep sweep, int number) {
+        return sweep.points().get(number);
+    }
+
+    @Test
     void goesOnWithWhatAnEarlierRunMeasured() throws Exception {
         Path file = folder.resolve("results.jsonl");
         Point point = Sweep.PERIOD.points().get(2);
@@ -49,9 +76,9 @@ class EvaluationReportTest {
 
         EvaluationResults known = EvaluationResults.in(file);
 
-        assertThat(known.has(COMMIT, point, 60)).isTrue();
-        assertThat(known.has("another", point, 60)).isFalse();
-        assertThat(known.has(COMMIT, point, 4)).isFalse();
+        assertThat(known.of("another", 60, point)).isNull();
+        assertThat(known.of(COMMIT, 4, point)).isNull();
+        assertThat(known.of(COMMIT, 60, point)).isEqualTo(result(point, 100, 0));
         assertThat(known.of(COMMIT, 60, Sweep.PERIOD)).containsExactly(result(point, 100, 0));
     }
 
@@ -76,9 +103,10 @@ class EvaluationReportTest {
                 .anyMatch(line -> line.startsWith("| 1 kB | 250 | 100 | 100 | 1.0000 | 0 |"))
                 .anyMatch(line -> line.startsWith("| 10 kB ⚠ | 250 | 100 | 99 | 0.9900 | 0 |"))
                 .anyMatch(line -> line.startsWith("| 50 kB ⚠ | 250 | 100 | 100 | 1.0000 | 1 |"))
+                .contains("| larger messages of 50 devices | 1 kB | 250 | 30 | 10 kB | 0.9900 delivered | Kafka broker (0.20 cores) |")
                 .contains("![Delay from device to reader](images/evaluation-delay.png)");
         assertThat(Files.readString(folder.resolve("report.html"))).contains("src=\"data:image/png;base64,iVBOR");
-        for (String name : List.of("delivered", "delay", "payload-messages", "payload-hops")) {
+        for (String name : List.of("delivered", "delay", "cores", "payload-messages", "payload-hops")) {
             int[] pixels = pixels(folder.resolve("images").resolve("evaluation-" + name + ".png"));
             assertThat(Arrays.stream(pixels).distinct().count()).as(name).isGreaterThan(10);
         }
@@ -90,15 +118,21 @@ class EvaluationReportTest {
     }
 
     private static PointResult result(Point point, long delivered, long duplicated) {
+        return result(point, delivered, duplicated, 30, 59);
+    }
+
+    /** @param last second in which something was sent */
+    private static PointResult result(Point point, long delivered, long duplicated, long p99, long last) {
         Map<Hop, PointResult.Delay> delays = new EnumMap<>(Hop.class);
         for (Hop hop : Hop.values()) {
-            delays.put(hop, new PointResult.Delay(10, 9, 20, 30, 40));
+            delays.put(hop, new PointResult.Delay(10, 9, 20, p99, 40, ""));
         }
         List<LoadSecond> seconds = List.of(
                 new LoadSecond(0, 20, 20, 20, 20, List.of(1.0, 2.0, 3.0)),
                 new LoadSecond(1, 50, 50, 50, 50, List.of(2.0, 3.0, 4.0)),
                 new LoadSecond(2, 50, 40, 40, 40, List.of(3.0, 4.0, 5.0)),
-                new LoadSecond(3, 0, 10, 10, 10, List.of()));
+                new LoadSecond(3, 0, 10, 10, 10, List.of()),
+                new LoadSecond(last, 1, 1, 1, 1, List.of(1.0, 2.0, 3.0)));
         return new PointResult(
                 COMMIT,
                 point,
@@ -110,6 +144,7 @@ class EvaluationReportTest {
                 0,
                 delays,
                 seconds,
-                Map.of("Kafka broker", 0.2));
+                Map.of("Kafka broker", 0.2),
+                1_000_000_000);
     }
 }
