@@ -49,7 +49,7 @@ class_path=$(sed "s|^|$archive/lib/|" "$archive/lib/class-path" | paste -sd:)
 test_path=$home/system-tests/target/test-classes:$class_path
 snakeyaml=$(find "${MAVEN_REPOSITORY:-$HOME/.m2/repository}/org/yaml/snakeyaml" -name 'snakeyaml-*.jar' | sort -V | tail -n 1)
 
-for name in kafka controller mqtt orion agent mongo notify worker1 worker2 control health dashboard; do
+for name in kafka controller mqtt orion agent mongo notify worker1 worker2 control health dashboard metrics; do
     free_port
     declare "$name=$port"
 done
@@ -61,6 +61,7 @@ here() {
         -e "s|mongodb://.*@mongo:27017[^ ]*|mongodb://127.0.0.1:$mongo|g; s|hdfs://namenode:8020|file://$run/hdfs|g" \
         -e "s|control-plane:8085|127.0.0.1:$control|g; s|jobmanager:8081|${rest:-127.0.0.1}|g; s|http://http|http|g" \
         -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
+        -e "s|9249-9250|$metrics-$((metrics + 9))|g" \
         -e "s|/opt/furrow|$archive|g; s|/run/secrets|$run/secrets|g; s|/mosquitto/config|$run/accounts|g; s|/mosquitto/data|$run/mosquitto-data|g" \
         -e "s|/var/lib/furrow/journal|$run/journal|g; s|/var/lib/kafka/data|$run/kafka|g; s#/connectors/\(ngsi-[a-z]*\.json\)#$run/\1#g"
 }
@@ -120,7 +121,7 @@ words connectors command
 say "Flink"
 provide_flink
 words jobmanager environment
-mapfile -t settings < <(printf '%s\n' "${words[@]}" | grep -E '^(execution|classloader)\.')
+mapfile -t settings < <(printf '%s\n' "${words[@]}" | grep -E '^(execution|classloader|metrics)\.')
 task_slots=12 task_manager_memory=2g start_flink "${settings[@]}"
 
 say "control plane, devices, dashboard"
@@ -165,4 +166,13 @@ furrow mission stop mine >>"$logs/mission.log"
 furrow replay start mine --speed max --topic data.mine.replay.0a1b2c3d >"$logs/replay.log"
 timeout 120 "$archive/bin/furrow" replay watch mine.0a1b2c3d >>"$logs/replay.log" || fail "The replay did not end: $logs/replay.log"
 tail -n 1 "$logs/replay.log"
+
+say "metrics"
+pages=$run/metrics.txt
+for ((port = metrics; port < metrics + 10; port++)); do curl -fs "http://127.0.0.1:$port/metrics" || true; done >"$pages"
+for port in "$notify" "$health" "$dashboard"; do curl -fs "http://127.0.0.1:$port/metrics" >>"$pages" || fail "Nothing on port $port has /metrics."; done
+cp "$pages" "$logs/metrics.txt"
+for metric in $(grep -ohE '\b(flink|furrow)_[A-Za-z_]+' "$archive/docker/grafana/dashboards/furrow.json" "$archive/docker/prometheus/alerts.yml" | sort -u); do
+    grep -q "^$metric[{ ]" "$pages" || fail "No page of metrics has $metric, which the dashboard of Grafana or an alert names: $logs/metrics.txt"
+done
 echo "deployed: passed"
