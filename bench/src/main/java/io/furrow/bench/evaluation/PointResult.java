@@ -130,11 +130,11 @@ public record PointResult(
     /** Messages that came to the reader while devices sent. */
     double arrivedPerSecond() {
         long last = lastSecond();
-        return seconds.stream()
+        double arrived = seconds.stream()
                 .filter(second -> second.second() > 0 && second.second() < last)
                 .mapToLong(LoadSecond::atReader)
-                .average()
-                .orElse(0);
+                .sum();
+        return arrived / Math.max(1, last - 1);
     }
 
     Delay endToEnd() {
