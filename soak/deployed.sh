@@ -14,8 +14,8 @@ if (($# > 0)); then
     cat <<USAGE
 Usage: ./furrow soak deployed
 Unpacks distribution/target/furrow-*.tar.gz, which ./mvnw package -Prelease -DskipTests makes, and runs what its docker/compose.yaml
-says without containers: Kafka, two Connect workers, Mosquitto, a Flink cluster, the jobs by flink run, the control plane, simulated
-devices, the dashboard. Commands, options, connectors and settings are those of the file, with other hosts, ports and folders.
+says without containers: Kafka, two Connect workers, Mosquitto, a Flink cluster, the jobs by flink run, two control planes, simulated
+devices, the dashboard. Of a load, while a worker, a task manager and a control plane are killed, nothing may be lost. Commands, options, connectors and settings are those of the file, with other hosts, ports and folders.
 Stand-ins take the places of Orion, the IoT Agent and MongoDB, a folder that of HDFS. FLINK_HOME names a Flink $flink_version;
 without it one is fetched once, some 315 MB.
 USAGE
@@ -49,7 +49,7 @@ class_path=$(sed "s|^|$archive/lib/|" "$archive/lib/class-path" | paste -sd:)
 test_path=$home/system-tests/target/test-classes:$class_path
 snakeyaml=$(find "${MAVEN_REPOSITORY:-$HOME/.m2/repository}/org/yaml/snakeyaml" -name 'snakeyaml-*.jar' | sort -V | tail -n 1)
 
-for name in kafka controller mqtt orion agent mongo notify worker1 worker2 control health dashboard; do
+for name in kafka controller mqtt orion agent mongo notify worker1 worker2 control health control2 health2 dashboard metrics; do
     free_port
     declare "$name=$port"
 done
@@ -61,6 +61,7 @@ here() {
         -e "s|mongodb://.*@mongo:27017[^ ]*|mongodb://127.0.0.1:$mongo|g; s|hdfs://namenode:8020|file://$run/hdfs|g" \
         -e "s|control-plane:8085|127.0.0.1:$control|g; s|jobmanager:8081|${rest:-127.0.0.1}|g; s|http://http|http|g" \
         -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
+        -e "s|9249-9250|$metrics-$((metrics + 9))|g" \
         -e "s|/opt/furrow|$archive|g; s|/run/secrets|$run/secrets|g; s|/mosquitto/config|$run/accounts|g; s|/mosquitto/data|$run/mosquitto-data|g" \
         -e "s|/var/lib/furrow/journal|$run/journal|g; s|/var/lib/kafka/data|$run/kafka|g; s#/connectors/\(ngsi-[a-z]*\.json\)#$run/\1#g"
 }
@@ -103,12 +104,18 @@ until_true 60 "Mosquitto" open_port "$mqtt"
 start stand-ins "$java" -Xmx512m -cp "$test_path" io.furrow.deployment.StandIns "$run/mongo" "$orion" "$agent" "$mongo" "tcp://127.0.0.1:$mqtt" iot-agent "$MQTT_PASSWORD" "127.0.0.1:$kafka"
 until_true 60 "The context broker's stand-in" open_port "$orion"
 
+# start_worker NUMBER: sets worker_NUMBER to its process.
+start_worker() {
+    start "connect-$1" "$java" -Xmx512m -Dfurrow.log="$logs/connect-$1.log" -cp "$class_path" org.apache.kafka.connect.cli.ConnectDistributed "$run/connect-$1.properties"
+    declare -g "worker_$1=$!"
+}
+
 say "two Connect workers and the connectors"
 for worker in 1 2; do
     port=worker$worker
     { here <"$archive/docker/connect.properties" | sed "s|^listeners=.*|listeners=http://127.0.0.1:${!port}|; s|^rest.advertised.host.name=.*|rest.advertised.host.name=127.0.0.1|"
         echo "rest.advertised.port=${!port}"; } >"$run/connect-$worker.properties"
-    start "connect-$worker" "$java" -Xmx512m -Dfurrow.log="$logs/connect-$worker.log" -cp "$class_path" org.apache.kafka.connect.cli.ConnectDistributed "$run/connect-$worker.properties"
+    start_worker "$worker"
     until_true 90 "Connect worker $worker" curl -fs "http://127.0.0.1:${!port}/health"
 done
 for connector in source sink; do here <"$archive/docker/connectors/ngsi-$connector.json" >"$run/ngsi-$connector.json"; done
@@ -120,13 +127,16 @@ words connectors command
 say "Flink"
 provide_flink
 words jobmanager environment
-mapfile -t settings < <(printf '%s\n' "${words[@]}" | grep -E '^(execution|classloader)\.')
+mapfile -t settings < <(printf '%s\n' "${words[@]}" | grep -E '^(execution|classloader|metrics)\.')
 task_slots=12 task_manager_memory=2g start_flink "${settings[@]}"
 
-say "control plane, devices, dashboard"
+say "two control planes, devices, dashboard"
 words control-plane command
+start control-plane-2 env FURROW_OPTS="-Xms128m -Xmx512m" "$archive/bin/furrow" "${words[@]}" --control-port "$control2" --health-port "$health2"
 start control-plane env FURROW_OPTS="-Xms128m -Xmx512m" "$archive/bin/furrow" "${words[@]}" --control-port "$control" --health-port "$health"
+control_plane=$!
 until_true 120 "The control plane" curl -fs "http://127.0.0.1:$health/ready"
+until_true 120 "The second control plane" curl -fs "http://127.0.0.1:$health2/ready"
 for service in simulators replay-analytics; do
     words "$service" command
     start "$service" env FURROW_OPTS="-Xms128m -Xmx384m" "$archive/bin/furrow" "${words[@]}"
@@ -160,9 +170,46 @@ say "averages are in the context broker"
 until_true 180 "An encounter in the context broker" found Analytics:Collision
 say "encounters too"
 
+# created DOMAIN: also where an answer was lost on the way.
+created() { furrow domain create "$1" || furrow domain list | grep -q "$1"; }
+
+say "a load, while a task manager, a control plane and a worker without the source are killed"
+sed -n 's/^MQTT_PASSWORD=//p' "$run/.env" >"$run/secrets/mqtt"
+start load env FURROW_OPTS="-Xms256m -Xmx512m" "$archive/bin/furrow" bench evaluate --against "127.0.0.1:$kafka" --orion "http://127.0.0.1:$orion" --iot-agent "http://127.0.0.1:$agent" \
+    --mqtt "tcp://127.0.0.1:$mqtt" --mqtt-user iot-agent --mqtt-password-file "$run/secrets/mqtt" --sweeps DEVICES --seconds 10 --no-knee --results "$logs/load.jsonl" --report "$logs/load"
+load=$!
+until_true 180 "A first point of the load" grep -q '"devices":1,' "$logs/load.jsonl"
+kill -9 "$task_manager" && start_task_manager
+until_true 180 "A point after the task manager was killed" grep -q '"devices":10,' "$logs/load.jsonl"
+kill -9 "$control_plane"
+export FURROW_API=http://127.0.0.1:$control2
+until_true 90 "A domain by the second control plane" created spare
+until_true 180 "A point after a control plane was killed" grep -q '"devices":25,' "$logs/load.jsonl"
+task_at=$(curl -fs "http://127.0.0.1:$worker1/connectors/ngsi-source/status" | python3 -c 'import json,sys; print(json.load(sys.stdin)["tasks"][0]["worker_id"])')
+other=1
+[[ $task_at != *":$worker1" ]] || other=2
+killed=worker_$other && kill -9 "${!killed}" && start_worker "$other"
+wait "$load" || fail "The load failed: $logs/load.log"
+python3 - "$logs/load.jsonl" <<'CHECK' || fail "Not all that was sent arrived: $logs/load.log"
+import json, sys
+points = [json.loads(line) for line in open(sys.argv[1])]
+for point in points:
+    print("%4d devices  sent %d  delivered %d  again %d" % (point["point"]["devices"], point["sent"], point["delivered"], point["duplicated"]))
+sys.exit(0 if len(points) == 6 and all(point["delivered"] == point["sent"] for point in points) else 1)
+CHECK
+
 say "its replay"
 furrow mission stop mine >>"$logs/mission.log"
 furrow replay start mine --speed max --topic data.mine.replay.0a1b2c3d >"$logs/replay.log"
 timeout 120 "$archive/bin/furrow" replay watch mine.0a1b2c3d >>"$logs/replay.log" || fail "The replay did not end: $logs/replay.log"
 tail -n 1 "$logs/replay.log"
+
+say "metrics"
+pages=$run/metrics.txt
+for ((port = metrics; port < metrics + 10; port++)); do curl -fs "http://127.0.0.1:$port/metrics" || true; done >"$pages"
+for port in "$notify" "$health2" "$dashboard"; do curl -fs "http://127.0.0.1:$port/metrics" >>"$pages" || fail "Nothing on port $port has /metrics."; done
+cp "$pages" "$logs/metrics.txt"
+for metric in $(grep -ohE '\b(flink|furrow)_[A-Za-z_]+' "$archive/docker/grafana/dashboards/furrow.json" "$archive/docker/prometheus/alerts.yml" | sort -u); do
+    grep -q "^$metric[{ ]" "$pages" || fail "No page of metrics has $metric, which the dashboard of Grafana or an alert names: $logs/metrics.txt"
+done
 echo "deployed: passed"

@@ -158,7 +158,7 @@ class ComposeFileTest {
             });
         });
         dockerfile.stream().filter(line -> line.startsWith("FROM ")).forEach(line -> images.add(line.split(" ")[1]));
-        assertThat(images).isNotEmpty().allSatisfy(image -> assertThat(image).matches("[a-z/-]+:\\d+(\\.\\d+)+.*"));
+        assertThat(images).isNotEmpty().allSatisfy(image -> assertThat(image).matches("[a-z/-]+:v?\\d+(\\.\\d+)+.*"));
         dockerfile.stream()
                 .filter(line -> line.startsWith("COPY ") && line.contains(" docker/"))
                 .forEach(line -> assertThat(Path.of("..", line.replaceFirst(".* (docker/\\S+) .*", "$1")))

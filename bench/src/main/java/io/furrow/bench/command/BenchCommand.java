@@ -1,5 +1,6 @@
 package io.furrow.bench.command;
 
+import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -11,6 +12,7 @@ import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
+import picocli.CommandLine.Parameters;
 import picocli.CommandLine.Spec;
 
 import io.furrow.bench.load.LoadMeasurement;
@@ -42,6 +44,7 @@ import io.furrow.simulators.load.LoadPlan;
             MissionBench.class,
             WholeBench.class,
             EvaluateBench.class,
+            ComponentsBench.class,
             DashboardBench.class
         })
 public final class BenchCommand {
@@ -118,6 +121,24 @@ public final class BenchCommand {
                     .orElse(0);
             out.printf(Locale.ROOT, "median of the ratios: %.2f%n", ratio);
         }
+        return 0;
+    }
+
+    @Command(
+            name = "compare",
+            abbreviateSynopsis = true,
+            description =
+                    "Says which components became faster or slower between two files of './furrow bench components', and which differences are noise.")
+    int compare(
+            @Parameters(paramLabel = "BEFORE", description = "A file of './furrow bench components'.") Path before,
+            @Parameters(paramLabel = "NOW", description = "Another.") Path now,
+            @Option(
+                            names = {"-h", "--help"},
+                            usageHelp = true,
+                            description = "Show this text.")
+                    boolean wantsHelp)
+            throws IOException {
+        ComponentsBench.compare(spec.commandLine().getOut(), before, now);
         return 0;
     }
 

@@ -1,5 +1,6 @@
 package io.furrow.bench.command;
 
+import java.io.IOException;
 import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
@@ -92,7 +93,7 @@ final class EvaluateBench implements Callable<Integer> {
     public Integer call() throws Exception {
         PrintWriter out = spec.commandLine().getOut();
         Files.createDirectories(results.toAbsolutePath().getParent());
-        String commit = Checkout.here().name();
+        String commit = suite();
         long seconds = isShort ? SHORT_SECONDS : this.seconds;
         EvaluationResults known = EvaluationResults.in(results);
         Calibration machine = Calibration.measure();
@@ -103,7 +104,7 @@ final class EvaluateBench implements Callable<Integer> {
                         new Evaluation.Plan(sweeps, commit, seconds, !noKnee && !isShort, isShort, target), known, out)
                 .run();
         List<String> setting = new ArrayList<>(
-                List.of("Commit %s; each point %d s, after a warm-up of 20 s for each suite%s."
+                List.of("%s; each point %d s, after a warm-up of 20 s for each suite%s."
                         .formatted(
                                 commit, seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
         setting.addAll(target == null ? EMBEDDED : deployment.setting());
@@ -112,5 +113,12 @@ final class EvaluateBench implements Callable<Integer> {
         out.println("Report: " + report.resolve("report.html").toAbsolutePath());
         out.flush();
         return 0;
+    }
+
+    /** Its commit, of an archive its release. */
+    private String suite() throws IOException {
+        return Files.exists(Path.of(System.getProperty("furrow.home"), ".git"))
+                ? Checkout.here().name()
+                : spec.root().version()[0];
     }
 }

@@ -31,7 +31,7 @@ public final class EvaluationReport {
             "MB",
             "busiest part");
     private static final List<String> KNEE_HEADS =
-            List.of("sweep", "held", "messages/s", "p99 ms", "not held", "why", "busiest part there");
+            List.of("sweep", "held", "messages/s", "p99 ms", "not held", "why", "arrived there/s", "busiest part there");
     private static final double MEGABYTE = 1e6;
 
     private final EvaluationResults results;
@@ -127,6 +127,7 @@ public final class EvaluationReport {
                         held == null ? "" : Long.toString(held.endToEnd().p99()),
                         result.point().title(),
                         result.limit(),
+                        String.format(Locale.ROOT, "%.0f", result.arrivedPerSecond()),
                         result.busiest());
             }
             held = result;
@@ -137,6 +138,7 @@ public final class EvaluationReport {
                 rate(held),
                 Long.toString(held.endToEnd().p99()),
                 "not met",
+                "",
                 "",
                 "");
     }

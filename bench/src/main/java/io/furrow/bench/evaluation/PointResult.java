@@ -114,13 +114,27 @@ public record PointResult(
 
     /** The rate at which devices sent, of that of the plan. */
     private double attained() {
-        long last = seconds.stream()
+        // the first and the last second are only parts of one
+        return lasting / Math.max(lasting, (double) lastSecond());
+    }
+
+    /** In which something was sent. */
+    private long lastSecond() {
+        return seconds.stream()
                 .filter(second -> second.atDevice() > 0)
                 .mapToLong(LoadSecond::second)
                 .max()
                 .orElse(0);
-        // the first and the last second are only parts of one
-        return lasting / Math.max(lasting, (double) last);
+    }
+
+    /** Messages that came to the reader while devices sent. */
+    double arrivedPerSecond() {
+        long last = lastSecond();
+        double arrived = seconds.stream()
+                .filter(second -> second.second() > 0 && second.second() < last)
+                .mapToLong(LoadSecond::atReader)
+                .sum();
+        return arrived / Math.max(1, last - 1);
     }
 
     Delay endToEnd() {

@@ -34,7 +34,7 @@ public final class LoadMeasurement {
     private static final Map<String, String> FETCHING =
             Map.of("max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
     /** After the last message is sent, this long without an arrival means that the rest is lost. */
-    private static final Duration QUIET = Duration.ofSeconds(15);
+    private static final Duration QUIET = Duration.ofSeconds(60);
 
     /** This long without a record means that the provisioning has come through. */
     private static final Duration SETTLED = Duration.ofSeconds(2);

@@ -1,0 +1,62 @@
+package io.furrow.bench.component;
+
+import java.util.List;
+import java.util.function.ToDoubleFunction;
+
+import io.furrow.bench.component.Component.Rates;
+
+/**
+ * Whether a component became faster or slower, as a share of its peer, which was measured in the same minutes: machines and hours differ
+ * more than commits.
+ */
+public final class Comparison {
+    /** Of fewer turns a difference says nothing. */
+    private static final int MIN_TURNS = 3;
+    /** Smaller differences of the medians are noise, however well the turns agree. */
+    private static final double MIN_CHANGE = 0.05;
+
+    private final List<Rates> before;
+    private final List<Rates> now;
+
+    public Comparison(List<Rates> before, List<Rates> now) {
+        this.before = before;
+        this.now = now;
+    }
+
+    /** A figure's median. @return NaN of none */
+    public static double median(List<Rates> turns, ToDoubleFunction<Rates> figure) {
+        double[] sorted = turns.stream().mapToDouble(figure).sorted().toArray();
+        int middle = sorted.length / 2;
+        return sorted.length == 0
+                ? Double.NaN
+                : sorted.length % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+    }
+
+    /** The share now, of the share before. */
+    public double ratio() {
+        return median(now, Rates::share) / median(before, Rates::share);
+    }
+
+    /** In a word, and why. */
+    public String verdict() {
+        if (Math.min(before.size(), now.size()) < MIN_TURNS) {
+            return "too few turns (%d and %d, %d are needed)".formatted(before.size(), now.size(), MIN_TURNS);
+        }
+        if (Math.abs(ratio() - 1) < MIN_CHANGE) {
+            return "the same";
+        }
+        boolean apart = min(now) > max(before) || max(now) < min(before);
+        if (!apart) {
+            return "noise: turns overlap";
+        }
+        return ratio() > 1 ? "faster" : "slower";
+    }
+
+    private static double min(List<Rates> turns) {
+        return turns.stream().mapToDouble(Rates::share).min().orElseThrow();
+    }
+
+    private static double max(List<Rates> turns) {
+        return turns.stream().mapToDouble(Rates::share).max().orElseThrow();
+    }
+}
