@@ -101,11 +101,14 @@ class Replays extends HTMLElement {
         this.chosen.delete(mission);
       }
     }
-    for (const recording of recordings) {
-      const row = this.rows.get(recording.mission) ?? this.row(recording.mission);
+    recordings.forEach((recording, index) => {
+      const known = this.rows.get(recording.mission);
+      const row = known ?? this.row(recording.mission);
+      // rows that are there stay where they are, under whoever points at them
+      known || this.body.insertBefore(row.element, this.body.children[index] ?? null);
       this.fill(row);
       row.preview.update(recording.last);
-    }
+    });
     setText(this.recordedTitle.lastChild, recordings.length || '');
     this.table.hidden = recordings.length === 0;
     this.plan.element.hidden = recordings.length === 0;
