@@ -134,7 +134,6 @@ class Replays extends HTMLElement {
       h('td', null, check), h('td', null, h('div', null, cells.name), cells.domain), cells.when, cells.length, cells.devices, cells.events, h('td.preview-cell', null, preview.element));
     const row = { mission, element, check, cells, preview };
     this.rows.set(mission, row);
-    this.body.append(element);
     preview.draw();
     return row;
   }
