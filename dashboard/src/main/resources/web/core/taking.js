@@ -13,9 +13,10 @@ export const Taking = (Base) => class extends Base {
       return;
     }
     if (record.value === null && !record.cut) {
-      this.entities.delete(id);
-      this.all = true;
-      this.tell('entities', id);
+      if (this.entities.delete(id)) {
+        this.all = true;
+        this.tell('entities', id);
+      }
       return;
     }
     let entity = this.entities.get(id);
@@ -45,7 +46,9 @@ export const Taking = (Base) => class extends Base {
     records.forEach((record) => reports.has(record.key) ? reports.get(record.key).push(record) : reports.set(record.key, [record]));
     for (const [id, of] of reports) {
       const known = this.entities.get(id)?.time ?? -Infinity;
-      of.filter((each) => each.time > known).forEach((each) => this.takeEntity(each));
+      const newer = of.filter((each) => each.time > known);
+      const deleted = newer.findLastIndex((each) => each.value === null && !each.cut);
+      newer.slice(Math.max(0, deleted)).forEach((each) => this.takeEntity(each));
       const entity = this.entities.get(id);
       if (entity && known > -Infinity) {
         takePast(entity, of.filter((each) => each.time <= known));

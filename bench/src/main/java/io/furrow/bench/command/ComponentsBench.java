@@ -81,11 +81,11 @@ final class ComponentsBench implements Callable<Integer> {
     }
 
     /** In a process of its own, as heaps and compiled code of one would help or hinder the next. */
-    private static JsonNode output(Checkout here, Component component)
-            throws IOException, InterruptedException {
+    private static JsonNode output(Checkout here, Component component) throws IOException, InterruptedException {
         Path output = Files.createTempFile("furrow-component", ".json");
         try {
-            List<String> words = new ArrayList<>(List.of(here.home().resolve("furrow").toString(), "bench"));
+            List<String> words =
+                    new ArrayList<>(List.of(here.home().resolve("furrow").toString(), "bench"));
             words.addAll(component.words());
             words.addAll(List.of("--output", output.toString()));
             int status = new ProcessBuilder(words)

@@ -100,13 +100,10 @@ final class EvaluateBench implements Callable<Integer> {
         out.println(machine.sentence());
         out.flush();
         Target target = deployment.target();
-        new Evaluation(
-                        new Evaluation.Plan(sweeps, commit, seconds, !noKnee && !isShort, isShort, target), known, out)
+        new Evaluation(new Evaluation.Plan(sweeps, commit, seconds, !noKnee && !isShort, isShort, target), known, out)
                 .run();
-        List<String> setting = new ArrayList<>(
-                List.of("%s; each point %d s, after a warm-up of 20 s for each suite%s."
-                        .formatted(
-                                commit, seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
+        List<String> setting = new ArrayList<>(List.of("%s; each point %d s, after a warm-up of 20 s for each suite%s."
+                .formatted(commit, seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
         setting.addAll(target == null ? EMBEDDED : deployment.setting());
         setting.add(machine.sentence());
         new EvaluationReport(known, commit, seconds, setting).write(report);

@@ -177,8 +177,7 @@ public final class Evaluation {
                     .byRole()
                     .forEach((role, time) -> cores.put(role, time / nanos));
         }
-        return PointResult.of(
-                plan.commit, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
+        return PointResult.of(plan.commit, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
     }
 
     /** As Linux tells it. */

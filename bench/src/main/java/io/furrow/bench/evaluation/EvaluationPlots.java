@@ -122,7 +122,8 @@ final class EvaluationPlots {
                         .mapToDouble(each -> Math.max(1, each.endToEnd().p99()))
                         .toArray(),
                 1);
-        Map<Double, Double> theirs = new TreeMap<>(Thesis.delays(results.get(0).point().sweep()));
+        Map<Double, Double> theirs =
+                new TreeMap<>(Thesis.delays(results.get(0).point().sweep()));
         if (!theirs.isEmpty()) {
             XYSeries series = chart.addSeries("thesis", List.copyOf(theirs.keySet()), List.copyOf(theirs.values()));
             series.setMarker(SeriesMarkers.DIAMOND);

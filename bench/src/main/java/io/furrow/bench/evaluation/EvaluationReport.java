@@ -30,8 +30,8 @@ public final class EvaluationReport {
             "p99",
             "MB",
             "busiest part");
-    private static final List<String> KNEE_HEADS =
-            List.of("sweep", "held", "messages/s", "p99 ms", "not held", "why", "arrived there/s", "busiest part there");
+    private static final List<String> KNEE_HEADS = List.of(
+            "sweep", "held", "messages/s", "p99 ms", "not held", "why", "arrived there/s", "busiest part there");
     private static final double MEGABYTE = 1e6;
 
     private final EvaluationResults results;
@@ -71,7 +71,9 @@ public final class EvaluationReport {
         Path delay = images.resolve("evaluation-delay.png");
         EvaluationPlots.delay(sweeps, delay);
         pictures.put("Delay from device to reader", delay);
-        if (sweeps.stream().flatMap(List::stream).anyMatch(result -> !result.cores().isEmpty())) {
+        if (sweeps.stream()
+                .flatMap(List::stream)
+                .anyMatch(result -> !result.cores().isEmpty())) {
             Path cores = images.resolve("evaluation-cores.png");
             EvaluationPlots.cores(sweeps, cores);
             pictures.put("Processor time of the parts that take most", cores);
@@ -182,10 +184,7 @@ public final class EvaluationReport {
                 sentence -> page.append("<li>").append(escaped(sentence)).append("</li>\n"));
         page.append("</ul>\n<p>").append(escaped(Thesis.SENTENCE)).append("</p>\n");
         page.append("<h2>How far it holds</h2>\n");
-        table(
-                page,
-                KNEE_HEADS,
-                sweeps.stream().map(EvaluationReport::knee).toList());
+        table(page, KNEE_HEADS, sweeps.stream().map(EvaluationReport::knee).toList());
         for (List<PointResult> its : sweeps) {
             page.append("<h2>With ").append(its.get(0).point().sweep().title()).append("</h2>\n");
             table(page, HEADS, its.stream().map(EvaluationReport::cells).toList());

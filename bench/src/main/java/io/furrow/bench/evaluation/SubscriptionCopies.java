@@ -57,7 +57,8 @@ final class SubscriptionCopies implements AutoCloseable {
     }
 
     private List<ObjectNode> all() {
-        JsonNode all = rest.get(URI.create(subscriptions + "?limit=1000"), tenant).body();
+        JsonNode all =
+                rest.get(URI.create(subscriptions + "?limit=1000"), tenant).body();
         return StreamSupport.stream(all.spliterator(), false)
                 .map(ObjectNode.class::cast)
                 .toList();

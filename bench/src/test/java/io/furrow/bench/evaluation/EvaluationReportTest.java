@@ -103,7 +103,8 @@ class EvaluationReportTest {
                 .anyMatch(line -> line.startsWith("| 1 kB | 250 | 100 | 100 | 1.0000 | 0 |"))
                 .anyMatch(line -> line.startsWith("| 10 kB ⚠ | 250 | 100 | 99 | 0.9900 | 0 |"))
                 .anyMatch(line -> line.startsWith("| 50 kB ⚠ | 250 | 100 | 100 | 1.0000 | 1 |"))
-                .contains("| larger messages of 50 devices | 1 kB | 250 | 30 | 10 kB | 0.9900 delivered | 2 | Kafka broker (0.20 cores) |")
+                .contains(
+                        "| larger messages of 50 devices | 1 kB | 250 | 30 | 10 kB | 0.9900 delivered | 2 | Kafka broker (0.20 cores) |")
                 .contains("![Delay from device to reader](images/evaluation-delay.png)");
         assertThat(Files.readString(folder.resolve("report.html"))).contains("src=\"data:image/png;base64,iVBOR");
         for (String name : List.of("delivered", "delay", "cores", "payload-messages", "payload-hops")) {

@@ -148,20 +148,27 @@ public final class TopicHistory {
             if (Boolean.TRUE.equals(cutOff.put(partition, false))) {
                 since = Math.max(since, record.timestamp());
             }
-            if (record.value() == null || record.timestamp() < range.from() || record.timestamp() >= range.to()) {
+            if (record.timestamp() < range.from()
+                    || record.timestamp() >= range.to()
+                    || record.value() == null && range.newest() != null) {
                 return;
             }
             String id = id(record);
             ConsumerRecord<byte[], byte[]> older = kept.remove(id);
-            bytes -= older == null ? 0 : older.value().length;
+            bytes -= length(older);
             kept.put(id, record);
-            bytes += record.value().length;
+            bytes += length(record);
             while (kept.size() > range.limit() || bytes > limits.answered() && kept.size() > 1) {
                 ConsumerRecord<byte[], byte[]> oldest =
                         kept.remove(kept.keySet().iterator().next());
-                bytes -= oldest.value().length;
+                bytes -= length(oldest);
                 since = Math.max(since, oldest.timestamp() + 1);
             }
+        }
+
+        /** Of nothing, and of a deletion, 0. */
+        private static int length(ConsumerRecord<byte[], byte[]> record) {
+            return record == null || record.value() == null ? 0 : record.value().length;
         }
 
         private String id(ConsumerRecord<byte[], byte[]> record) {

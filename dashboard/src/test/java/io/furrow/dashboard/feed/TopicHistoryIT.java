@@ -101,7 +101,7 @@ class TopicHistoryIT {
         TopicHistory.Answer part = read(
                 new TopicHistory.Range("data.stretch", TIME + 3_000, TIME + 6_000, null, ALL),
                 TopicHistory.Limits.DEFAULT);
-        assertThat(numbers(part)).containsExactlyInAnyOrder(3, 4, 5, 35);
+        assertThat(numbers(part)).as("0 of the deletion").containsExactlyInAnyOrder(3, 4, 5, 35, 0);
         assertThat(part.since()).isEqualTo(TIME + 3_000);
 
         TopicHistory.Answer nothing = read(
@@ -122,6 +122,7 @@ class TopicHistoryIT {
         send("data.newest", 0, 5, "no JSON");
         send("data.newest", 0, 6, "{\"n\":6,\"encounter\":\"plain\"}");
         send("data.newest", 0, 7, "{\"n\":7,\"encounter\":\"plain\"}");
+        send("data.newest", 0, 8, null);
 
         TopicHistory.Answer answer = read(
                 new TopicHistory.Range("data.newest", TIME, TIME + 10, "encounter", ALL), TopicHistory.Limits.DEFAULT);

@@ -35,7 +35,7 @@ class CommandsIT {
 
     @AfterEach
     void forgetIt(PageSuite suite) throws Exception {
-        suite.produce("data.raw", ROBOT, null);
+        suite.forget(ROBOT);
     }
 
     @Test

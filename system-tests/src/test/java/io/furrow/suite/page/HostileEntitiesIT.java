@@ -44,7 +44,7 @@ class HostileEntitiesIT {
         farm.find("[id='topic-data.raw']").check();
         farm.go("Map");
         alive(farm);
-        suite.produce("data.raw", id, null);
+        suite.forget(id);
     }
 
     @Test
@@ -62,7 +62,7 @@ class HostileEntitiesIT {
                 .click();
         assertThat(card).containsText("more attributes are not shown");
         alive(farm);
-        suite.produce("data.raw", id, null);
+        suite.forget(id);
     }
 
     @Test
@@ -75,7 +75,7 @@ class HostileEntitiesIT {
         FarmPage farm = suite.open("");
         assertThat(farm.card(id)).containsText("Too large to show");
         alive(farm);
-        suite.produce("data.raw", id, null);
+        suite.forget(id);
     }
 
     @Test
@@ -96,7 +96,7 @@ class HostileEntitiesIT {
         }
         alive(farm);
         for (int number = 0; number < places.length; number++) {
-            suite.produce("data.raw", "urn:ngsi-ld:Thermometer:outside" + number, null);
+            suite.forget("urn:ngsi-ld:Thermometer:outside" + number);
         }
     }
 
@@ -120,8 +120,8 @@ class HostileEntitiesIT {
             suite.produce("data.raw", "odd", value.getBytes(StandardCharsets.UTF_8));
         }
         alive(farm);
-        suite.produce("data.raw", "odd", null);
-        suite.produce("data.raw", "__proto__", null);
+        suite.forget("odd");
+        suite.forget("__proto__");
     }
 
     /** Later records of others are shown, and nothing of what was written has run. */

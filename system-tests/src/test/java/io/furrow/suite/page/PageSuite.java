@@ -73,6 +73,12 @@ final class PageSuite implements AutoCloseable {
         }
     }
 
+    /** Deletes an entity that no context broker has: its record alone is no report that it was deleted there. */
+    void forget(String entity) throws Exception {
+        produce("data.raw", entity, null);
+        produce("data.latest", entity, null);
+    }
+
     /** An answer of the control plane's REST API. */
     JsonNode rest(String path) throws Exception {
         HttpRequest request =
