@@ -38,7 +38,10 @@ final class Pictures {
 
     private static void replay(PageSuite suite, Path folder) {
         FarmPage farm = suite.open("#/replays", Look.DESK_LIGHT);
-        farm.untilStore("store.recordings.get('weeding')?.last - store.recordings.get('weeding')?.first > 90000");
+        for (int millis = 30_000; millis <= 90_000; millis += 30_000) { // what is listed grows every half minute
+            farm.untilStore(
+                    "store.recordings.get('weeding')?.last - store.recordings.get('weeding')?.first > " + millis);
+        }
         farm.page().getByLabel("Choose weeding").check();
         farm.page().getByLabel("Speed").first().selectOption("2");
         farm.button("Start replay").click();
