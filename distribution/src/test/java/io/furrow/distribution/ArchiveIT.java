@@ -26,6 +26,9 @@ class ArchiveIT {
     private static final Path ARCHIVE = Path.of("target", "furrow-%s.tar.gz".formatted(VERSION));
 
     private static final Pattern LICENSED = Pattern.compile("\\([^():]+:([^:]+):(\\S+) - ");
+    /** To files of the archive, but not into pages. */
+    private static final Pattern LINK = Pattern.compile("]\\(((?!https?:)[^)#\\s]+)(?:#[^)]*)?\\)");
+
     private static final Pattern LISTED = Pattern.compile("\"pkg:maven/[^/]+/([^@]+)@([^?]+)\\?[^\"]*type=jar\"");
 
     @TempDir
@@ -104,6 +107,21 @@ class ArchiveIT {
         assertThat(home.resolve("docker/mosquitto/run")).isExecutable();
         assertThat(home.resolve("docker/flink/submit")).isExecutable();
         assertThat(home.resolve("systemd/furrow.service")).exists();
+    }
+
+    @Test
+    void hasWhatItsPagesLeadTo() throws IOException {
+        try (Stream<Path> files = Files.walk(home)) {
+            List<Path> pages =
+                    files.filter(file -> file.toString().endsWith(".md")).toList();
+            assertThat(pages).hasSizeGreaterThan(50);
+            for (Path page : pages) {
+                assertThat(LINK.matcher(Files.readString(page)).results().map(found -> found.group(1)))
+                        .as(page.toString())
+                        .filteredOn(link -> !link.contains("/src/"))
+                        .allSatisfy(link -> assertThat(page.resolveSibling(link)).exists());
+            }
+        }
     }
 
     @ParameterizedTest
