@@ -1,0 +1,83 @@
+package io.furrow.fiware;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.Map;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import java.util.stream.Stream;
+
+import org.junit.jupiter.api.DynamicTest;
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.TestFactory;
+import org.testcontainers.DockerClientFactory;
+import org.testcontainers.containers.GenericContainer;
+import org.testcontainers.containers.Network;
+import org.testcontainers.containers.wait.strategy.Wait;
+
+import io.furrow.fiware.RecordedExchange.Answer;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.junit.jupiter.api.Assumptions.assumeTrue;
+
+/** Orion and the IoT Agent, in the images of {@code docker/compose.yaml}, answer what was recorded. */
+@Tag("containers")
+class RealFiwareIT {
+    private static final Path COMPOSE = Path.of("..", "docker", "compose.yaml");
+    private static final int BROKER = 1026;
+    private static final int AGENT = 4041;
+
+    @TestFactory
+    Stream<DynamicTest> answerAsRecorded() throws Exception {
+        assumeTrue(
+                DockerClientFactory.instance().isDockerAvailable(),
+                "NOT RUN: there is no container engine; what Orion and the IoT Agent answer was not compared with what is recorded");
+        try (Network network = Network.newNetwork();
+                GenericContainer<?> mongo = container("mongo", network)
+                        .waitingFor(Wait.forLogMessage(".*Waiting for connections.*", 1));
+                GenericContainer<?> orion = container("fiware/orion", network)
+                        .withEnv(Map.of(
+                                "ORION_MONGO_URI", "mongodb://mongo:27017", "ORION_MULTI_SERVICE", "TRUE"))
+                        .withExposedPorts(BROKER)
+                        .waitingFor(Wait.forHttp("/version"));
+                GenericContainer<?> agent = container("fiware/iotagent-json", network)
+                        .withEnv(Map.of(
+                                "IOTA_CB_HOST", "orion",
+                                "IOTA_CB_PORT", Integer.toString(BROKER),
+                                "IOTA_CB_NGSI_VERSION", "v2",
+                                "IOTA_NORTH_PORT", Integer.toString(AGENT),
+                                "IOTA_PROVIDER_URL", "http://agent:4041",
+                                "IOTA_REGISTRY_TYPE", "memory",
+                                "IOTA_DEFAULT_RESOURCE", "/iot/json"))
+                        .withExposedPorts(AGENT)
+                        .waitingFor(Wait.forHttp("/iot/about"))) {
+            mongo.start();
+            orion.start();
+            agent.start();
+            Map<RecordedExchange, Answer> answers = new ExchangeClient(
+                            at(orion, BROKER), at(agent, AGENT), URI.create("http://orion:" + BROKER))
+                    .askAll();
+            return answers.entrySet().stream()
+                    .map(asked -> DynamicTest.dynamicTest(
+                            asked.getKey().toString(),
+                            () -> assertThat(asked.getKey().differences(asked.getValue()))
+                                    .as("answered %s, recorded %s", asked.getValue(), asked.getKey().json())
+                                    .isEmpty()));
+        }
+    }
+
+    private static GenericContainer<?> container(String image, Network network) throws IOException {
+        Matcher pinned = Pattern.compile("image: (%s:\\S+)".formatted(Pattern.quote(image)))
+                .matcher(Files.readString(COMPOSE));
+        assertThat(pinned.find()).as(image).isTrue();
+        return new GenericContainer<>(pinned.group(1))
+                .withNetwork(network)
+                .withNetworkAliases(image.replaceFirst(".*/", ""));
+    }
+
+    private static URI at(GenericContainer<?> container, int port) {
+        return URI.create("http://%s:%d".formatted(container.getHost(), container.getMappedPort(port)));
+    }
+}
