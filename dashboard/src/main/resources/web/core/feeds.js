@@ -1,7 +1,7 @@
 /** Brings topics into the store: what is live, or what a replay plays. */
 import { api } from './api.js';
 import { resource } from './resource.js';
-import { store } from './store.js';
+import { endOf, store } from './store.js';
 import { streams } from './stream.js';
 
 const LISTS = {
@@ -153,7 +153,7 @@ class Feeds {
     store.setProgress({
       state: status?.state ?? 'starting', reason: status?.reason, over: OVER.has(status?.state),
       speed: replay?.speed ?? mode.speed, range: replay?.range ?? null, group: replay?.group ?? mode.group, wanted: replay?.wanted,
-      position: progress.position ?? mode.position, from: progress.from ?? mode.from, to: progress.to ?? mode.to,
+      position: progress.position ?? mode.position, from: progress.from ?? mode.from, to: endOf(progress) ?? mode.to,
       at: status?.time ?? Date.now(), progress, waiting: progress.waiting,
     });
   }
