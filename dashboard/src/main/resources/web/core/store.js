@@ -213,7 +213,7 @@ class Store extends Taking(Object) {
 
 /** Where a replay ends, as far as that is known: a mission that is recorded meanwhile goes on. @returns {number|undefined} */
 export function endOf({ position, to }) {
-  return to === undefined ? undefined : Math.max(to, position ?? 0);
+  return to > 0 ? Math.max(to, position ?? 0) : to;
 }
 
 export const store = new Store();
