@@ -37,8 +37,8 @@ final class EvaluateBench implements Callable<Integer> {
     private static final List<String> EMBEDDED = List.of(
             "Context broker, IoT Agent, MQTT broker and MongoDB are the embedded stand-ins; Kafka, Connect and Flink are real; sender,"
                     + " suite and reader share one JVM and its processors.",
-            "The stand-in of the context broker, like Orion, sends each notification once, those of an entity one after the other; of more than"
-                    + " 20,000 that wait it drops the rest, which is what a delivered share below 1 beyond the knee means here.",
+            "The stand-in of the context broker, like Orion, sends each notification once, those of an entity one after the other; what"
+                    + " exceeds 20,000 that wait it drops.",
             "At-least-once delivery, checkpoints each 10 s; the reader reads what is committed.");
 
     @Spec
