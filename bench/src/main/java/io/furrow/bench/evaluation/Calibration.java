@@ -35,6 +35,7 @@ public record Calibration(double producer, double server, double bridge) {
     private static final int BYTES = 1_000;
     private static final int CONNECTIONS = 16;
     private static final int ENTITIES = 100;
+    private static final long MEGABYTE = 1 << 20;
 
     /** Takes some 20 seconds. */
     public static Calibration measure() throws Exception {
@@ -94,12 +95,13 @@ public record Calibration(double producer, double server, double bridge) {
     public String sentence() {
         return String.format(
                 Locale.ROOT,
-                "Machine: %d processors, %s %s, Java %s; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"
+                "Machine: %d processors, %s %s, Java %s with a heap of %,d MB at most; in the same minutes a bare producer writes %,.0f records of 1 kB a second, a bare"
                         + " HTTP server answers %,.0f requests a second, a bare bridge from HTTP to Kafka %,.0f.",
                 Runtime.getRuntime().availableProcessors(),
                 System.getProperty("os.name"),
                 System.getProperty("os.arch"),
                 System.getProperty("java.version"),
+                Runtime.getRuntime().maxMemory() / MEGABYTE,
                 producer,
                 server,
                 bridge);
