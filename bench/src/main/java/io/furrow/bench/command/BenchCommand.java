@@ -8,6 +8,7 @@ import java.time.Duration;
 import java.util.List;
 import java.util.Locale;
 
+import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
@@ -20,6 +21,8 @@ import io.furrow.bench.load.LoadReport;
 import io.furrow.bench.mongo.MongoMeasurement;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.EmbeddedMongo;
+import io.furrow.flink.job.Delivery;
+import io.furrow.flink.job.JobCommandLine;
 import io.furrow.launcher.Furrow;
 import io.furrow.launcher.Progress;
 import io.furrow.launcher.suite.RunDirectory;
@@ -60,7 +63,13 @@ public final class BenchCommand {
 
     public static void main(String... args) {
         System.setProperty("java.awt.headless", "true");
-        System.exit(Furrow.commandLine().addSubcommand(new BenchCommand()).execute(args));
+        System.exit(commandLine().execute(args));
+    }
+
+    static CommandLine commandLine() {
+        return Furrow.commandLine()
+                .addSubcommand(new BenchCommand())
+                .registerConverter(Delivery.class, JobCommandLine::delivery);
     }
 
     @Command(

@@ -21,6 +21,7 @@ import io.furrow.bench.component.Component;
 import io.furrow.bench.component.Component.Rates;
 import io.furrow.bench.component.ComponentResults;
 import io.furrow.bench.whole.Checkout;
+import io.furrow.cli.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -95,7 +96,8 @@ final class ComponentsBench implements Callable<Integer> {
                     .start()
                     .waitFor();
             if (status != 0) {
-                throw new IOException("%s ended with %d; run it to see why".formatted(String.join(" ", words), status));
+                throw new CommandException(
+                        "%s ended with %d; run it to see why".formatted(String.join(" ", words), status));
             }
             return NgsiJson.mapper().readTree(output.toFile());
         } finally {
@@ -156,7 +158,7 @@ final class ComponentsBench implements Callable<Integer> {
 
     private static ComponentResults existing(Path file) throws IOException {
         if (!Files.isReadable(file)) {
-            throw new IOException(file + " cannot be read; './furrow bench components --results FILE' makes one");
+            throw new CommandException(file + " cannot be read; './furrow bench components --results FILE' makes one");
         }
         return ComponentResults.in(file);
     }

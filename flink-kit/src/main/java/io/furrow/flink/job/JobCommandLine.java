@@ -71,7 +71,7 @@ public final class JobCommandLine {
                 });
     }
 
-    private static Delivery delivery(String text) {
+    public static Delivery delivery(String text) {
         return switch (text.toLowerCase(Locale.ROOT)) {
             case "at-least-once" -> Delivery.AT_LEAST_ONCE;
             case "exactly-once" -> Delivery.EXACTLY_ONCE;
