@@ -50,6 +50,7 @@ class MissionsIT {
         assertThat(detail.locator("table").last()).containsText("mission start");
         assertThat(detail.locator("table").last()).containsText("mission stop");
         farm.page().getByText("Who commanded what").first().click();
+        assertThat(detail).hasCount(0);
         assertThat(farm.find("#missions-panel tbody")).containsText("again");
     }
 
