@@ -4,19 +4,11 @@ import java.io.IOException;
 import java.io.UncheckedIOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
-import java.util.concurrent.locks.Lock;
-import java.util.concurrent.locks.ReadWriteLock;
-import java.util.concurrent.locks.ReentrantReadWriteLock;
-import java.util.function.Supplier;
 
 import de.bwaldvogel.mongo.MongoBackend;
 import de.bwaldvogel.mongo.MongoServer;
 import de.bwaldvogel.mongo.ServerVersion;
-import de.bwaldvogel.mongo.backend.h2.H2Backend;
 import de.bwaldvogel.mongo.backend.memory.MemoryBackend;
-import de.bwaldvogel.mongo.bson.Document;
-import de.bwaldvogel.mongo.wire.message.MongoMessage;
-import org.h2.mvstore.MVStore;
 
 /**
  * A server in this JVM that speaks MongoDB's protocol, on 127.0.0.1, with its documents in one file unless said. What it has acknowledged
@@ -25,8 +17,6 @@ import org.h2.mvstore.MVStore;
  */
 public final class EmbeddedMongo implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
-    /** Of documents as they are stored; on the heap they are three times as large. */
-    private static final int CACHE_MEGABYTES = 16;
 
     private final MongoServer server;
     private final int port;
@@ -59,13 +49,7 @@ public final class EmbeddedMongo implements AutoCloseable {
         } catch (IOException e) {
             throw new UncheckedIOException("cannot make MongoDB's directory " + directory, e);
         }
-        MVStore store = new MVStore.Builder()
-                .fileName(directory.resolve("mongo.mv").toString())
-                .cacheSize(CACHE_MEGABYTES)
-                .autoCommitDisabled()
-                .autoCommitBufferSize(0)
-                .open();
-        return serve(new CommittingBackend(store), bound);
+        return serve(MongoFile.open(directory.resolve("mongo.mv")), bound);
     }
 
     private static EmbeddedMongo serve(MongoBackend backend, int port) {
@@ -82,39 +66,5 @@ public final class EmbeddedMongo implements AutoCloseable {
     @Override
     public void close() {
         server.shutdownNow();
-    }
-
-    /**
-     * Writes to its file before it answers, and while no other request is half done: a document and its entry in the index are
-     * two changes, of which a sudden end may not leave one.
-     */
-    private static final class CommittingBackend extends H2Backend {
-        private final ReadWriteLock whole = new ReentrantReadWriteLock(true);
-
-        CommittingBackend(MVStore store) {
-            super(store);
-            version(ServerVersion.MONGO_5_0);
-        }
-
-        @Override
-        public Document handleMessage(MongoMessage message) {
-            Document answer = locked(whole.readLock(), () -> super.handleMessage(message));
-            if (getMvStore().hasUnsavedChanges()) {
-                locked(whole.writeLock(), () -> {
-                    commit();
-                    return null;
-                });
-            }
-            return answer;
-        }
-
-        private static <T> T locked(Lock lock, Supplier<T> action) {
-            lock.lock();
-            try {
-                return action.get();
-            } finally {
-                lock.unlock();
-            }
-        }
     }
 }

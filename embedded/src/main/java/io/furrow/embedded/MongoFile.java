@@ -1,0 +1,120 @@
+package io.furrow.embedded;
+
+import java.nio.file.Path;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.concurrent.locks.Lock;
+import java.util.concurrent.locks.ReadWriteLock;
+import java.util.concurrent.locks.ReentrantReadWriteLock;
+import java.util.function.Supplier;
+
+import de.bwaldvogel.mongo.MongoCollection;
+import de.bwaldvogel.mongo.MongoDatabase;
+import de.bwaldvogel.mongo.ServerVersion;
+import de.bwaldvogel.mongo.backend.CollectionOptions;
+import de.bwaldvogel.mongo.backend.Index;
+import de.bwaldvogel.mongo.backend.IndexKey;
+import de.bwaldvogel.mongo.backend.KeyValue;
+import de.bwaldvogel.mongo.backend.h2.H2Backend;
+import de.bwaldvogel.mongo.backend.h2.H2Database;
+import de.bwaldvogel.mongo.bson.Document;
+import de.bwaldvogel.mongo.wire.message.MongoMessage;
+import org.h2.mvstore.MVMap;
+import org.h2.mvstore.MVStore;
+
+/**
+ * Documents in one file, as BSON. It writes before it answers, and while no other request is half done: a document and its entry in
+ * the index are two changes, of which a sudden end may not leave one.
+ */
+final class MongoFile extends H2Backend {
+    /** Of what was read or written last, as it lies on the heap. */
+    private static final int CACHE_MEGABYTES = 48;
+    /** Of the file. In those of version 0 documents and keys are Java objects, keys in the order of their bytes. */
+    private static final int VERSION = 1;
+
+    private static final String INDEX = "._index_";
+
+    private final ReadWriteLock whole = new ReentrantReadWriteLock(true);
+
+    private MongoFile(MVStore store) {
+        super(store);
+        version(ServerVersion.MONGO_5_0);
+    }
+
+    /** Goes on with a file that an earlier release left. */
+    static MongoFile open(Path file) {
+        MVStore store = new MVStore.Builder()
+                .fileName(file.toString())
+                .cacheSize(CACHE_MEGABYTES)
+                .autoCommitDisabled()
+                .autoCommitBufferSize(0)
+                .open();
+        if (store.getStoreVersion() < VERSION) {
+            store.getMapNames().stream().filter(name -> name.contains(INDEX)).forEach(name -> sortAnew(store, name));
+            store.setStoreVersion(VERSION);
+            store.commit();
+        }
+        return new MongoFile(store);
+    }
+
+    private static void sortAnew(MVStore store, String index) {
+        MVMap<KeyValue, Object> old = store.openMap(index);
+        Map<KeyValue, Object> entries = new HashMap<>(old);
+        store.removeMap(old);
+        store.openMap(index, indexMap()).putAll(entries);
+    }
+
+    private static MVMap.Builder<KeyValue, Object> indexMap() {
+        return new MVMap.Builder<KeyValue, Object>().keyType(new IndexKeyType());
+    }
+
+    @Override
+    protected MongoDatabase openOrCreateDatabase(String name) {
+        return new Database(name);
+    }
+
+    @Override
+    public Document handleMessage(MongoMessage message) {
+        Document answer = locked(whole.readLock(), () -> super.handleMessage(message));
+        if (getMvStore().hasUnsavedChanges()) {
+            locked(whole.writeLock(), () -> {
+                commit();
+                return null;
+            });
+        }
+        return answer;
+    }
+
+    private static <T> T locked(Lock lock, Supplier<T> action) {
+        lock.lock();
+        try {
+            return action.get();
+        } finally {
+            lock.unlock();
+        }
+    }
+
+    /** Opens each map with its own types; the one it derives from then finds it open. */
+    private final class Database extends H2Database {
+        Database(String name) {
+            super(name, getMvStore(), getCursorRegistry());
+        }
+
+        @Override
+        protected MongoCollection<Object> openOrCreateCollection(String collection, CollectionOptions options) {
+            getMvStore()
+                    .openMap(
+                            "databases." + getFullCollectionNamespace(collection),
+                            new MVMap.Builder<Object, Document>().valueType(new DocumentType()));
+            return super.openOrCreateCollection(collection, options);
+        }
+
+        @Override
+        protected Index<Object> openOrCreateUniqueIndex(
+                String collection, String index, List<IndexKey> keys, boolean sparse) {
+            getMvStore().openMap(getFullCollectionNamespace(collection) + INDEX + index, indexMap());
+            return super.openOrCreateUniqueIndex(collection, index, keys, sparse);
+        }
+    }
+}
