@@ -65,7 +65,7 @@ class SourceRuntimeTest {
 
     @Test
     void endsWhenNoTaskComesInTimeAndLeavesItsJournal() throws Exception {
-        Duration timeout = Duration.ofMillis(300);
+        Duration timeout = Duration.ofSeconds(2); // within it the notification must be taken
         SourceRuntime running = open(timeout);
         running.detach();
         source.take("left", 1);
