@@ -1,7 +1,9 @@
 package io.furrow.embedded;
 
 import java.nio.ByteBuffer;
+import java.util.Collection;
 
+import de.bwaldvogel.mongo.bson.BinData;
 import de.bwaldvogel.mongo.bson.Document;
 import de.bwaldvogel.mongo.wire.bson.BsonDecoder;
 import de.bwaldvogel.mongo.wire.bson.BsonEncoder;
@@ -14,12 +16,14 @@ import org.h2.mvstore.type.ObjectDataType;
 /** Documents as BSON behind a byte that no other type begins with. Those that earlier releases wrote as Java objects are read, too. */
 final class DocumentType extends BasicDataType<Document> {
     private static final byte BSON = 127;
-    /** Of a document on the heap, by its bytes in the file. */
-    private static final int HEAP_FACTOR = 3;
+    private static final int FIRST_BYTES = 1024;
+    /** Of a map, of a member of one, and of a value, about; on the heap of a 64-bit JVM. */
+    private static final int DOCUMENT_MEMORY = 120;
+
+    private static final int MEMBER_MEMORY = 40;
+    private static final int VALUE_MEMORY = 24;
 
     private final ObjectDataType javaObjects = new ObjectDataType();
-    /** Bytes of a document in the file, the last ones counting most. Of no single one, which would have to be encoded for it. */
-    private int averageBytes = 1024;
 
     @Override
     public Document[] createStorage(int size) {
@@ -28,14 +32,32 @@ final class DocumentType extends BasicDataType<Document> {
 
     @Override
     public int getMemory(Document document) {
-        return HEAP_FACTOR * averageBytes;
+        return memory(document);
+    }
+
+    private static int memory(Object value) {
+        int memory = VALUE_MEMORY;
+        if (value instanceof Document document) {
+            memory = DOCUMENT_MEMORY;
+            for (Object member : document.values()) {
+                memory += MEMBER_MEMORY + memory(member);
+            }
+        } else if (value instanceof Collection<?> list) {
+            for (Object element : list) {
+                memory += memory(element);
+            }
+        } else if (value instanceof String text) {
+            memory += VALUE_MEMORY + text.length();
+        } else if (value instanceof BinData bytes) {
+            memory += bytes.getData().length;
+        }
+        return memory;
     }
 
     @Override
     public void write(WriteBuffer out, Document document) {
-        ByteBuf bson = Unpooled.buffer(averageBytes);
+        ByteBuf bson = Unpooled.buffer(FIRST_BYTES);
         BsonEncoder.encodeDocument(document, bson);
-        count(bson.readableBytes());
         out.put(BSON).put(bson.nioBuffer());
     }
 
@@ -47,12 +69,7 @@ final class DocumentType extends BasicDataType<Document> {
         }
         ByteBuf bson = Unpooled.wrappedBuffer(in.position(start + 1));
         Document document = BsonDecoder.decodeBson(bson);
-        count(bson.readerIndex());
         in.position(start + 1 + bson.readerIndex());
         return document;
-    }
-
-    private void count(int bytes) {
-        averageBytes += (bytes - averageBytes) / 16;
     }
 }
