@@ -60,7 +60,7 @@ done
 here() {
     sed -e "s|kafka:9092|127.0.0.1:$kafka|g; s|://:9092|://127.0.0.1:$kafka|g; s|kafka:9093|127.0.0.1:$controller|g; s|://:9093|://127.0.0.1:$controller|g" \
         -e "s|mosquitto:1883|127.0.0.1:$mqtt|g; s|orion:1026|127.0.0.1:$orion|g; s|iot-agent:4041|127.0.0.1:$agent|g" \
-        -e "s|mongodb://.*@mongo:27017[^ ]*|mongodb://127.0.0.1:$mongo|g; s|hdfs://namenode:8020|file://$run/hdfs|g" \
+        -e "s|hdfs://namenode:8020|file://$run/hdfs|g" \
         -e "s|control-plane:8085|127.0.0.1:$control|g; s|jobmanager:8081|${rest:-127.0.0.1}|g; s|http://http|http|g" \
         -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:$retries/{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
         -e "s|9249-9250|$metrics-$((metrics + 9))|g" \
@@ -88,9 +88,10 @@ say "Mosquitto, Kafka, stand-ins"
 MQTT_PASSWORD=$(sed -n 's/^MQTT_PASSWORD=//p' "$run/.env") && export MQTT_PASSWORD
 sed -n 's/^FARM_SECRET=//p' "$run/.env" >"$run/secrets/farm-secret"
 sed -n 's/^API_TOKENS="\(.*\)"/\1/p' "$run/.env" >"$run/secrets/api-tokens"
+echo "mongodb://127.0.0.1:$mongo" >"$run/secrets/mongo-uri"
 chmod 600 "$run"/secrets/*
 here <"$archive/docker/mosquitto/mosquitto.conf" | sed "s|listener 1883|listener $mqtt 127.0.0.1\nuser $(id -un)|" >"$run/mosquitto.conf"
-PATH=$PATH:/usr/sbin start mosquitto "$archive/docker/mosquitto/run" "$run/mosquitto.conf" "$run/accounts"
+XDG_CONFIG_HOME=$run PATH=$PATH:/usr/sbin start mosquitto "$archive/docker/mosquitto/run" "$run/mosquitto.conf" "$run/accounts"
 
 words kafka environment
 # As the image of Kafka does.
