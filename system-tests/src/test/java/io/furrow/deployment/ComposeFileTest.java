@@ -25,6 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
 import io.furrow.analytics.AnalyticsJobs;
+import io.furrow.containers.PinnedService;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.ingest.IngestJobs;
@@ -72,6 +73,22 @@ class ComposeFileTest {
                 (service, words) -> assertThat(last(Furrow.commandLine(), words).isUsageHelpRequested())
                         .as(service)
                         .isFalse());
+    }
+
+    @Test
+    void isReadByTestsOfItsImagesAsByCompose() throws IOException {
+        for (String name : List.of("mongo", "orion", "mosquitto", "iot-agent", "kafka")) {
+            assertThat(PinnedService.of(name).image())
+                    .isEqualTo(compose.services().get(name).path("image").asText());
+        }
+        Map<String, String> kafka = new HashMap<>();
+        compose.services()
+                .get("kafka")
+                .path("environment")
+                .properties()
+                .forEach(variable ->
+                        kafka.put(variable.getKey(), variable.getValue().asText()));
+        assertThat(PinnedService.of("kafka").environment()).isEqualTo(kafka).isNotEmpty();
     }
 
     @Test
