@@ -2,11 +2,7 @@ package io.furrow.fiware;
 
 import java.io.IOException;
 import java.net.URI;
-import java.nio.file.Files;
-import java.nio.file.Path;
 import java.util.Map;
-import java.util.regex.Matcher;
-import java.util.regex.Pattern;
 import java.util.stream.Stream;
 
 import org.junit.jupiter.api.DynamicTest;
@@ -17,6 +13,7 @@ import org.testcontainers.containers.GenericContainer;
 import org.testcontainers.containers.Network;
 import org.testcontainers.containers.wait.strategy.Wait;
 
+import io.furrow.containers.PinnedService;
 import io.furrow.fiware.RecordedExchange.Answer;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -25,7 +22,6 @@ import static org.junit.jupiter.api.Assumptions.abort;
 /** Orion and the IoT Agent, in the images of {@code docker/compose.yaml}, answer what was recorded. */
 @Tag("containers")
 class RealFiwareIT {
-    private static final Path COMPOSE = Path.of("..", "docker", "compose.yaml");
     private static final String NO_ENGINE =
             "there is no container engine; what Orion and the IoT Agent answer was not compared with what is recorded";
     private static final int BROKER = 1026;
@@ -40,17 +36,17 @@ class RealFiwareIT {
         try (Network network = Network.newNetwork();
                 GenericContainer<?> mongo =
                         container("mongo", network).waitingFor(Wait.forLogMessage(".*Waiting for connections.*", 1));
-                GenericContainer<?> orion = container("fiware/orion", network)
+                GenericContainer<?> orion = container("orion", network)
                         .withEnv(Map.of("ORION_MONGO_URI", "mongodb://mongo:27017", "ORION_MULTI_SERVICE", "TRUE"))
                         .withExposedPorts(BROKER)
                         .waitingFor(Wait.forHttp("/version"));
-                GenericContainer<?> agent = container("fiware/iotagent-json", network)
+                GenericContainer<?> agent = container("iot-agent", network)
                         .withEnv(Map.of(
                                 "IOTA_CB_HOST", "orion",
                                 "IOTA_CB_PORT", Integer.toString(BROKER),
                                 "IOTA_CB_NGSI_VERSION", "v2",
                                 "IOTA_NORTH_PORT", Integer.toString(AGENT),
-                                "IOTA_PROVIDER_URL", "http://agent:4041",
+                                "IOTA_PROVIDER_URL", "http://iot-agent:4041",
                                 "IOTA_REGISTRY_TYPE", "memory",
                                 "IOTA_DEFAULT_RESOURCE", "/iot/json"))
                         .withExposedPorts(AGENT)
@@ -72,13 +68,10 @@ class RealFiwareIT {
         }
     }
 
-    private static GenericContainer<?> container(String image, Network network) throws IOException {
-        Matcher pinned = Pattern.compile("image: (%s:\\S+)".formatted(Pattern.quote(image)))
-                .matcher(Files.readString(COMPOSE));
-        assertThat(pinned.find()).as(image).isTrue();
-        return new GenericContainer<>(pinned.group(1))
+    private static GenericContainer<?> container(String service, Network network) throws IOException {
+        return new GenericContainer<>(PinnedService.of(service).image())
                 .withNetwork(network)
-                .withNetworkAliases(image.replaceFirst(".*/", ""));
+                .withNetworkAliases(service);
     }
 
     private static URI at(GenericContainer<?> container, int port) {

@@ -18,38 +18,54 @@ import io.furrow.provisioner.account.MosquittoPassword;
 
 import static org.awaitility.Awaitility.await;
 
-/** A real Mosquitto, as Debian packs it, with the agent as its only user and an empty section of ours in its files. */
+/** A real Mosquitto, as Debian packs it or another that reads the same files, with the agent as its only user and an empty section of ours in its files. */
 final class Mosquitto implements AutoCloseable {
     static final FarmSecret.Login AGENT = new FarmSecret.Login("agent", "plough");
     static final Duration TIMEOUT = Duration.ofSeconds(60);
 
     private final Path directory;
-    private final int port = FreePort.orFree(0);
-    private final Process process;
+    private final int port;
+    private final String reload;
+    private final Runnable stop;
+
+    /** Another one, which serves. */
+    Mosquitto(Path directory, int port, String reload, Runnable stop) {
+        this.directory = directory;
+        this.port = port;
+        this.reload = reload;
+        this.stop = stop;
+    }
 
     Mosquitto(Path directory) throws IOException {
         this.directory = directory;
-        Files.write(passwords(), List.of(MosquittoPassword.line(AGENT)));
-        Files.write(rules(), List.of("user agent", "topic readwrite #"));
+        this.port = FreePort.orFree(0);
+        writeAgent(directory);
         Path settings = Files.writeString(directory.resolve("mosquitto.conf"), """
-                listener %d 127.0.0.1
-                password_file %s
-                acl_file %s
-                allow_anonymous false
-                set_tcp_nodelay true
-                user %s
-                """.formatted(
+            listener %d 127.0.0.1
+            password_file %s
+            acl_file %s
+            allow_anonymous false
+            set_tcp_nodelay true
+            user %s
+            """.formatted(
                         port, passwords(), rules(), System.getProperty("user.name")));
-        process = new ProcessBuilder(program(), "-c", settings.toString())
+        Process process = new ProcessBuilder(program(), "-c", settings.toString())
                 .redirectErrorStream(true)
                 .redirectOutput(directory.resolve("log").toFile())
                 .start();
+        reload = "kill -HUP " + process.pid();
+        stop = () -> stop(process);
         await().atMost(TIMEOUT).until(this::isListening);
+    }
+
+    static void writeAgent(Path directory) throws IOException {
+        Files.write(directory.resolve("passwords"), List.of(MosquittoPassword.line(AGENT)));
+        Files.write(directory.resolve("rules"), List.of("user agent", "topic readwrite #"));
     }
 
     /** Its files, which it reads again after each change. */
     MosquittoFiles files() {
-        return new MosquittoFiles(passwords(), rules(), "kill -HUP " + process.pid());
+        return new MosquittoFiles(passwords(), rules(), reload);
     }
 
     Path passwords() {
@@ -74,6 +90,10 @@ final class Mosquitto implements AutoCloseable {
 
     @Override
     public void close() {
+        stop.run();
+    }
+
+    private static void stop(Process process) {
         process.destroy();
         try {
             if (!process.waitFor(10, TimeUnit.SECONDS)) {

@@ -46,10 +46,14 @@ class MosquittoIT {
 
     @BeforeEach
     void startWithTheAgentAsItsOnlyUser() throws Exception {
-        broker = new Mosquitto(directory);
+        broker = start(directory);
         files = broker.files();
         agent = broker.connect(AGENT, "agent").subscribe("#");
         files.replace(ACCOUNTS);
+    }
+
+    Mosquitto start(Path folder) throws Exception {
+        return new Mosquitto(folder);
     }
 
     @AfterEach

@@ -18,6 +18,7 @@ import picocli.CommandLine.Option;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.TopicOptions;
 import io.furrow.mission.PageLimits;
+import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
 import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.replay.ReplayPlan;
@@ -46,7 +47,8 @@ public final class ReplayOptions extends JobOptions {
             names = "--mongo",
             paramLabel = "URI",
             required = true,
-            description = "MongoDB that holds the missions, for instance mongodb://127.0.0.1:27017.")
+            description = "MongoDB that holds the missions, for instance mongodb://127.0.0.1:27017. "
+                    + "@FILE reads the URI, and so its password, from a file.")
     private String mongo;
 
     @Option(
@@ -182,7 +184,7 @@ public final class ReplayOptions extends JobOptions {
         } catch (IllegalArgumentException e) {
             throw refused(
                     "--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
-                            .formatted(e.getMessage()),
+                            .formatted(MongoAccess.fault(mongo, e)),
                     e);
         }
     }

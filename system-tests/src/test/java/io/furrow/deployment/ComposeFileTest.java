@@ -15,6 +15,8 @@ import java.util.TreeSet;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.ObjectMapper;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import com.mongodb.ConnectionString;
+import com.mongodb.MongoCredential;
 import com.networknt.schema.JsonSchemaFactory;
 import com.networknt.schema.SpecVersion.VersionFlag;
 import org.apache.kafka.connect.runtime.distributed.DistributedConfig;
@@ -23,6 +25,7 @@ import org.junit.jupiter.api.io.TempDir;
 import picocli.CommandLine;
 
 import io.furrow.analytics.AnalyticsJobs;
+import io.furrow.containers.PinnedService;
 import io.furrow.flink.job.JobCommandLine;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.ingest.IngestJobs;
@@ -73,6 +76,22 @@ class ComposeFileTest {
     }
 
     @Test
+    void isReadByTestsOfItsImagesAsByCompose() throws IOException {
+        for (String name : List.of("mongo", "orion", "mosquitto", "iot-agent", "kafka")) {
+            assertThat(PinnedService.of(name).image())
+                    .isEqualTo(compose.services().get(name).path("image").asText());
+        }
+        Map<String, String> kafka = new HashMap<>();
+        compose.services()
+                .get("kafka")
+                .path("environment")
+                .properties()
+                .forEach(variable ->
+                        kafka.put(variable.getKey(), variable.getValue().asText()));
+        assertThat(PinnedService.of("kafka").environment()).isEqualTo(kafka).isNotEmpty();
+    }
+
+    @Test
     void submitsEachJobWithOptionsThatItHas() {
         Map<String, String> submitted = new HashMap<>();
         compose.commands("furrow-flink:local").forEach((service, words) -> {
@@ -102,6 +121,30 @@ class ComposeFileTest {
         Set<String> made = new TreeSet<>();
         Files.readAllLines(file).forEach(line -> made.add(line.substring(0, line.indexOf('='))));
         assertThat(compose.variables()).isEqualTo(made);
+    }
+
+    @Test
+    void keepsSecretsInFilesAndOutOfTheWordsOfProcesses() {
+        compose.services().forEach((name, service) -> {
+            Set<String> mounted = new TreeSet<>();
+            service.path("secrets").forEach(secret -> mounted.add("/run/secrets/" + secret.asText()));
+            service.path("configs")
+                    .forEach(config -> mounted.add(config.path("target").asText()));
+            for (String part : List.of("/command", "/entrypoint", "/healthcheck/test")) {
+                service.at(part).forEach(word -> {
+                    assertThat(word.asText()).as(name).doesNotContainPattern("\\$.*(PASSWORD|SECRET|TOKEN)");
+                    if (word.asText().contains("/run/secrets/")) {
+                        assertThat(mounted).as(name).contains(word.asText().replaceFirst("^@", ""));
+                    }
+                });
+            }
+        });
+        assertThat(new ConnectionString(compose.root()
+                                .at("/configs/mongo-uri/content")
+                                .asText()
+                                .replace("${MONGO_PASSWORD}", "0a1b"))
+                        .getCredential())
+                .isEqualTo(MongoCredential.createCredential("furrow", "admin", "0a1b".toCharArray()));
     }
 
     @Test

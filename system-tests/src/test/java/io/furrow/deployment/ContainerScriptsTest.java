@@ -34,10 +34,10 @@ class ContainerScriptsTest {
         checkpoints = directory.resolve("checkpoints");
         Path flink = Files.createDirectories(directory.resolve("flink/bin")).resolve("flink");
         Files.writeString(flink, """
-                #!/bin/sh
-                [ "$1" = list ] || { echo "$@"; exit; }
-                echo '25.11.2026 12:00:00 : 0123456789abcdef0123456789abcdef : collision (RUNNING)'
-                """);
+            #!/bin/sh
+            [ "$1" = list ] || { echo "$@"; exit; }
+            echo '25.11.2026 12:00:00 : 0123456789abcdef0123456789abcdef : collision (RUNNING)'
+            """);
         Files.setPosixFilePermissions(flink, PosixFilePermissions.fromString("rwxr-xr-x"));
     }
 
@@ -81,6 +81,7 @@ class ContainerScriptsTest {
         try {
             await().until(() -> publishes(port, "iot-agent", "plough"));
             assertThat(publishes(port, "iot-agent", "wrong")).isFalse();
+            assertThat(start(probe(port)).waitFor()).isZero();
             assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(accounts.resolve("passwords"))))
                     .isEqualTo("rw-------");
 
@@ -96,6 +97,19 @@ class ContainerScriptsTest {
             assertThat(broker.waitFor(1, TimeUnit.MINUTES)).isTrue();
             assertThat(all).allSatisfy(process -> await().until(() -> !process.isAlive()));
         }
+    }
+
+    /** What the compose file asks again and again, of this broker. */
+    private static List<String> probe(int port) throws IOException {
+        List<String> words = new ArrayList<>();
+        ComposeFile.read()
+                .services()
+                .get("mosquitto")
+                .at("/healthcheck/test")
+                .forEach(word -> words.add(word.asText()));
+        assertThat(words.remove(0)).isEqualTo("CMD");
+        words.addAll(List.of("-h", "127.0.0.1", "-p", Integer.toString(port)));
+        return words;
     }
 
     private Path completed(String checkpoint, int secondsAgo) throws IOException {
@@ -150,6 +164,10 @@ class ContainerScriptsTest {
         List<String> command =
                 new ArrayList<>(List.of(ComposeFile.FOLDER.resolve(script).toString()));
         command.addAll(List.of(words));
+        return start(command);
+    }
+
+    private Process start(List<String> command) throws IOException {
         ProcessBuilder builder = new ProcessBuilder(command)
                 .redirectErrorStream(true)
                 .redirectOutput(directory.resolve("out").toFile());
@@ -157,6 +175,7 @@ class ContainerScriptsTest {
         builder.environment().put("FLINK_HOME", directory.resolve("flink").toString());
         builder.environment().put("CHECKPOINTS", checkpoints.toString());
         builder.environment().put("MQTT_PASSWORD", "plough");
+        builder.environment().put("XDG_CONFIG_HOME", directory.toString());
         return builder.start();
     }
 }

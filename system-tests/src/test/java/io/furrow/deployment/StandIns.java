@@ -1,5 +1,6 @@
 package io.furrow.deployment;
 
+import java.io.IOException;
 import java.net.URI;
 import java.nio.file.Path;
 import java.util.List;
@@ -21,17 +22,18 @@ public final class StandIns {
     private StandIns() {}
 
     /**
-     * Arguments: folder; ports of context broker, IoT Agent and MongoDB; URI of the MQTT broker, the agent's user and password
-     * there; Kafka, on which {@code data.raw} is made. Ends when it is killed.
+     * Arguments: folder; ports of context broker, IoT Agent, MongoDB and {@link NotificationRetries}; URI of the MQTT broker, the
+     * agent's user and password there; Kafka, on which {@code data.raw} is made. Ends when it is killed.
      */
-    public static void main(String... args) throws InterruptedException, ExecutionException {
-        try (Admin admin = Admin.create(Map.of("bootstrap.servers", args[7]))) {
+    public static void main(String... args) throws IOException, InterruptedException, ExecutionException {
+        try (Admin admin = Admin.create(Map.of("bootstrap.servers", args[8]))) {
             NewTopic raw = new NewTopic(Topics.RAW, Optional.empty(), Optional.empty());
             admin.createTopics(List.of(raw)).all().get();
         }
         EmbeddedMongo.start(Path.of(args[0]), Integer.parseInt(args[3]));
+        NotificationRetries.start(Integer.parseInt(args[4]));
         FiwareStandIn.start(new FiwareSettings(
-                Integer.parseInt(args[1]), Integer.parseInt(args[2]), URI.create(args[4]), args[5], args[6]));
+                Integer.parseInt(args[1]), Integer.parseInt(args[2]), URI.create(args[5]), args[6], args[7]));
         new CountDownLatch(1).await();
     }
 }

@@ -11,6 +11,7 @@ import org.apache.flink.core.fs.Path;
 
 import io.furrow.ingest.image.store.ImageUsage;
 import io.furrow.ingest.mission.StoredMissions;
+import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** What is stored at this moment, asked where it is stored. */
@@ -44,7 +45,9 @@ public final class StoredAssets {
             return lines;
         } catch (MongoException | IllegalArgumentException e) {
             throw new IOException(
-                    "MongoDB at %s: %s. Check that it runs, and --mongo.".formatted(uri, e.getMessage()), e);
+                    "MongoDB at %s: %s. Check that it runs, and --mongo."
+                            .formatted(new MongoAccess(uri, null), e.getMessage()),
+                    e);
         }
     }
 

@@ -59,7 +59,8 @@ public final class CatalogCommand implements Callable<Integer> {
     @Option(
             names = "--mongo",
             paramLabel = "URI",
-            description = "Also list the missions in this MongoDB, for instance mongodb://127.0.0.1:27017.")
+            description = "Also list the missions in this MongoDB, for instance mongodb://127.0.0.1:27017. "
+                    + "@FILE reads the URI, and so its password, from a file.")
     private String mongo;
 
     @Option(

@@ -25,6 +25,7 @@ import io.furrow.ingest.mission.MissionArchive;
 import io.furrow.ingest.mission.MissionFiles;
 import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.mission.export.Exported;
+import io.furrow.mission.mongo.MongoAccess;
 
 /** {@code ./furrow mission}. */
 @Command(
@@ -49,7 +50,8 @@ public final class MissionCommand extends MissionControl {
                 names = "--mongo",
                 paramLabel = "URI",
                 defaultValue = "mongodb://127.0.0.1:27017",
-                description = "MongoDB. Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
+                description = "MongoDB; @FILE reads the URI, and so its password, from a file. "
+                        + "Default: that of a suite on this machine, ${DEFAULT-VALUE}.")
         private String mongo;
 
         @Mixin
@@ -167,10 +169,11 @@ public final class MissionCommand extends MissionControl {
         } catch (IllegalArgumentException e) {
             throw new ParameterException(
                     kept.spec.commandLine(),
-                    "%s. Check --mongo %s and the file's name.".formatted(e.getMessage(), kept.mongo),
+                    "%s. Check --mongo and the file's name.".formatted(MongoAccess.fault(kept.mongo, e)),
                     e);
         } catch (MongoException e) {
-            return failed("MongoDB at %s: %s. Check that it runs, and --mongo.".formatted(kept.mongo, e.getMessage()));
+            return failed("MongoDB at %s: %s. Check that it runs, and --mongo."
+                    .formatted(new MongoAccess(kept.mongo, null), e.getMessage()));
         } catch (UncheckedIOException e) {
             return failed(e.getCause().getMessage());
         } catch (IOException e) {

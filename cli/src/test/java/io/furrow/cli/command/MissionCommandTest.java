@@ -86,7 +86,7 @@ class MissionCommandTest {
 
         assertThat(run("stored")).isNotZero();
 
-        assertThat(err.toString()).contains("MongoDB at", "Check that it runs, and --mongo.");
+        assertThat(err.toString()).contains("MongoDB at 127.0.0.1:", "Check that it runs, and --mongo.");
     }
 
     private int run(String... args) {

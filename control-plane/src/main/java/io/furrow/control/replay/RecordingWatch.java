@@ -18,6 +18,7 @@ import io.furrow.kafka.CommittedReader;
 import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
 import io.furrow.mission.mongo.MissionCatalog;
+import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.control.mission.RecordedMission;
 import io.furrow.model.topic.Topics;
 
@@ -53,7 +54,7 @@ public final class RecordingWatch implements AutoCloseable {
         } catch (IllegalArgumentException e) {
             throw new IOException(
                     "--mongo is no connection string of MongoDB (%s). Name one such as mongodb://127.0.0.1:27017."
-                            .formatted(e.getMessage()),
+                            .formatted(MongoAccess.fault(settings.mongo(), e)),
                     e);
         }
         RecordingWatch watch = new RecordingWatch(client, settings, clock);

@@ -34,24 +34,32 @@ import io.furrow.flink.job.TestJob;
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
+/** On the embedded broker, or on another by {@code -Dfurrow.test.kafka=HOST:PORT}, which creates topics by itself. */
 @Timeout(180)
 class KafkaConnectorsIT {
     @TempDir
     static Path directory;
 
-    private static EmbeddedKafka kafka;
+    private static EmbeddedKafka embedded;
+    private static String bootstrapServers;
 
     /** A record without what two copies may differ in. */
     private record Copied(String key, String value, long timestamp, Map<String, String> headers) {}
 
     @BeforeAll
     static void start() {
-        kafka = EmbeddedKafka.start(directory);
+        bootstrapServers = System.getProperty("furrow.test.kafka");
+        if (bootstrapServers == null) {
+            embedded = EmbeddedKafka.start(directory);
+            bootstrapServers = embedded.bootstrapServers();
+        }
     }
 
     @AfterAll
     static void stop() {
-        kafka.close();
+        if (embedded != null) {
+            embedded.close();
+        }
     }
 
     @ParameterizedTest
@@ -94,7 +102,7 @@ class KafkaConnectorsIT {
         int rounds = 8;
         JobClient job = submit("counted", "copy", "--name", "few", "--input", "numbers", "--delivery", "exactly-once");
         try (KafkaConsumer<byte[], byte[]> consumer = committedOf("counted");
-                Admin admin = Admin.create(Map.of("bootstrap.servers", kafka.bootstrapServers()))) {
+                Admin admin = Admin.create(Map.of("bootstrap.servers", bootstrapServers))) {
             for (int round = 0; round < rounds; round++) {
                 write("numbers", List.of(new Copied("n", Integer.toString(round), round, Map.of())));
                 await().atMost(Duration.ofSeconds(90))
@@ -118,7 +126,7 @@ class KafkaConnectorsIT {
     void abortWhatAnAttemptBeforeLeftOpen() throws Exception {
         String left = "furrow-again:topics:-0-0";
         try (KafkaProducer<byte[], byte[]> lost = new KafkaProducer<>(
-                Map.of("bootstrap.servers", kafka.bootstrapServers(), "transactional.id", left),
+                Map.of("bootstrap.servers", bootstrapServers, "transactional.id", left),
                 new ByteArraySerializer(),
                 new ByteArraySerializer())) {
             lost.initTransactions();
@@ -167,7 +175,7 @@ class KafkaConnectorsIT {
     private static JobClient submit(String topic, String... arguments) throws Exception {
         List<StreamExecutionEnvironment> environments = new ArrayList<>();
         List<String> all = new ArrayList<>(List.of(arguments));
-        all.addAll(List.of("--bootstrap-servers", kafka.bootstrapServers()));
+        all.addAll(List.of("--bootstrap-servers", bootstrapServers));
         all.addAll(List.of("--parallelism", "1", "--checkpoint-interval", "300ms"));
         TestJob.Outcome outcome =
                 TestJob.run(options -> environments.add(copying(options, topic)), all.toArray(String[]::new));
@@ -187,8 +195,10 @@ class KafkaConnectorsIT {
     }
 
     private static void write(String topic, List<Copied> records) {
+        Map<String, Object> settings =
+                Map.of("bootstrap.servers", bootstrapServers, "max.in.flight.requests.per.connection", 1);
         try (KafkaProducer<byte[], byte[]> producer =
-                new KafkaProducer<>(kafka.producerSettings(), new ByteArraySerializer(), new ByteArraySerializer())) {
+                new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer())) {
             for (Copied each : records) {
                 var record = new ProducerRecord<>(topic, null, each.timestamp(), utf8(each.key()), utf8(each.value()));
                 each.headers().forEach((name, text) -> record.headers().add(name, utf8(text)));
@@ -199,7 +209,7 @@ class KafkaConnectorsIT {
 
     private static KafkaConsumer<byte[], byte[]> committedOf(String topic) {
         Map<String, Object> settings = Map.of(
-                "bootstrap.servers", kafka.bootstrapServers(),
+                "bootstrap.servers", bootstrapServers,
                 "group.id", "reader-" + topic,
                 "auto.offset.reset", "earliest",
                 "metadata.max.age.ms", "500",

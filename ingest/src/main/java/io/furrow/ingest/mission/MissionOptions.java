@@ -29,7 +29,8 @@ public final class MissionOptions {
             paramLabel = "URI",
             description =
                     "Keep every event of a mission in this MongoDB, for instance mongodb://127.0.0.1:27017: database "
-                            + "persistence, collection mission_<mission>. Default: missions are not kept.")
+                            + "persistence, collection mission_<mission>. "
+                            + "@FILE reads the URI, and so its password, from a file. Default: missions are not kept.")
     private String mongo;
 
     @Option(
@@ -67,7 +68,7 @@ public final class MissionOptions {
             new ConnectionString(mongo);
         } catch (IllegalArgumentException e) {
             throw refused("--mongo is no address of MongoDB (%s); write for instance mongodb://127.0.0.1:27017"
-                    .formatted(e.getMessage()));
+                    .formatted(MongoAccess.fault(mongo, e)));
         }
         return new MongoAccess(mongo, new MongoAccess.Waits(timeout, refusalTimeout));
     }

@@ -1,8 +1,12 @@
 package io.furrow.ingest.mission;
 
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.time.Duration;
 
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
@@ -18,6 +22,9 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class MissionOptionsTest {
+    @TempDir
+    Path directory;
+
     @Test
     void keepMissionsOnlyWhereAMongoIsNamed() {
         assertThat(parsed().isOn()).isFalse();
@@ -67,6 +74,25 @@ class MissionOptionsTest {
                 .isInstanceOf(ParameterException.class)
                 .hasMessageContaining("--mongo")
                 .hasMessageContaining("mongodb://127.0.0.1:27017");
+    }
+
+    @Test
+    void readTheAddressFromAFileSoThatNoPasswordIsOnTheCommandLine() throws IOException {
+        Path file = Files.writeString(
+                directory.resolve("mongo-uri"), "mongodb://furrow:p%23w@mongo:27017/?authSource=admin\n");
+
+        assertThat(parsed("--mongo", "@" + file).access().uri())
+                .isEqualTo("mongodb://furrow:p%23w@mongo:27017/?authSource=admin");
+    }
+
+    @Test
+    void nameTheFileThatCannotBeRead() {
+        Path missing = directory.resolve("missing");
+
+        assertThatThrownBy(() -> parsed("--mongo", "@" + missing).access())
+                .isInstanceOf(ParameterException.class)
+                .hasMessageContaining("--mongo")
+                .hasMessageContaining(missing + " cannot be read");
     }
 
     private static MissionOptions parsed(String... args) {

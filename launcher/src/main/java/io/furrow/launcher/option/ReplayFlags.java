@@ -14,7 +14,8 @@ public final class ReplayFlags {
             paramLabel = "URI",
             description =
                     "MongoDB of the stored missions, for instance mongodb://127.0.0.1:27017: replays of missions that are not there are "
-                            + "refused, and markers are kept there. Default: none, any replay is handed on, and there are no markers.")
+                            + "refused, and markers are kept there. "
+                            + "@FILE reads the URI, and so its password, from a file. Default: none, any replay is handed on, and there are no markers.")
     private String mongo;
 
     @Option(

@@ -110,7 +110,8 @@ public final class SuiteOptions {
     @Option(
             names = "--mongo",
             paramLabel = "URI",
-            description = "Keep missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server.")
+            description = "Keep missions in this MongoDB, for instance mongodb://127.0.0.1:27018, and start no server. "
+                    + "@FILE reads the URI, and so its password, from a file.")
     String mongo;
 
     @Option(

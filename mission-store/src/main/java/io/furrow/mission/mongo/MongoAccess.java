@@ -61,6 +61,15 @@ public record MongoAccess(String uri, Waits waits) implements Serializable {
         return MongoClients.create(settings.build());
     }
 
+    /**
+     * Says what is wrong with a URI, without it: it may hold a password.
+     *
+     * @param uri of an option; one that still begins with {@code @} is a file that could not be read
+     */
+    public static String fault(String uri, IllegalArgumentException refusal) {
+        return uri.startsWith("@") ? uri.substring(1) + " cannot be read" : refusal.getMessage();
+    }
+
     /** Holds no password. */
     @Override
     public String toString() {
