@@ -106,7 +106,7 @@ final class EvaluateBench implements Callable<Integer> {
                 .run();
         List<String> setting = new ArrayList<>(List.of("%s; each point %d s, after a warm-up of 20 s for each suite%s."
                 .formatted(commit, seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
-        setting.addAll(target == null ? EMBEDDED : deployment.setting());
+        setting.addAll(target == null ? EMBEDDED : deployment.setting(target.devices()));
         setting.add(machine.sentence());
         new EvaluationReport(known, commit, seconds, setting).write(report);
         out.println("Report: " + report.resolve("report.html").toAbsolutePath());
