@@ -30,8 +30,8 @@ import io.furrow.model.ngsi.NgsiJson;
         name = "components",
         abbreviateSynopsis = true,
         description =
-                "Runs the benches of all components, each beside its peer, in short forms and in turns, and prints one table. A turn takes some 4"
-                        + " minutes; one that was interrupted goes on where it was. './furrow bench compare' compares two of its files.")
+                "Runs the benches of all components, each beside its peers, in short forms and in turns, and prints one table. One that was"
+                        + " interrupted goes on where it was. './furrow bench compare' compares two of its files.")
 final class ComponentsBench implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
