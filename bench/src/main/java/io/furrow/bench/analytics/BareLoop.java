@@ -87,6 +87,12 @@ final class BareLoop {
                         .add(update));
     }
 
+    /** Pairs that are close after all positions until now. */
+    int close() {
+        apply();
+        return close.size();
+    }
+
     private void apply() {
         instant.forEach((cell, updates) ->
                 cells.computeIfAbsent(cell, id -> Cell.empty()).apply(updates, matching, this::see));

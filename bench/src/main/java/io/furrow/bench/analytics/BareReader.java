@@ -28,7 +28,7 @@ final class BareReader {
         BareLoop loop = new BareLoop(devices);
         EntityReader reader = new EntityReader(Set.of());
         try (var consumer = new KafkaConsumer<>(properties, new ByteArrayDeserializer(), new ByteArrayDeserializer())) {
-            List<TopicPartition> partitions = IntStream.range(0, FleetTopic.PARTITIONS)
+            List<TopicPartition> partitions = IntStream.range(0, topic.partitions())
                     .mapToObj(partition -> new TopicPartition(topic.name(), partition))
                     .toList();
             consumer.assign(partitions);

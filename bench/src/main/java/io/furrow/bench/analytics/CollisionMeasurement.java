@@ -64,6 +64,9 @@ public final class CollisionMeasurement {
                 (after.records - before.records) / updates,
                 bytes / plan.devices(),
                 bare.perSecond,
+                RedisGeo.isInstalled()
+                        ? RedisGeo.measure(plan.devices(), plan.measured().dividedBy(4))
+                        : null,
                 bare.compared,
                 bare.different);
     }

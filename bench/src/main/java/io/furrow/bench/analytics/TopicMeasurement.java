@@ -50,8 +50,8 @@ public final class TopicMeasurement {
     private record Reading(long nanos, long cpuNanos, long event) {}
 
     /** Updates per second of a topic that was filled before. */
-    public void updates(int devices, int parallelism, long records, Figures figures) throws Exception {
-        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, cluster.kafka())) {
+    public void updates(int devices, int parallelism, int partitions, long records, Figures figures) throws Exception {
+        try (FleetTopic topic = FleetTopic.create("data.fleet-" + runs++, partitions, cluster.kafka())) {
             topic.fill(devices, records);
             progress.accept("%,d records of %,d devices written".formatted(records, devices));
             double bare = BareReader.perSecond(topic, devices);
@@ -66,6 +66,8 @@ public final class TopicMeasurement {
                         devices,
                         "cores",
                         parallelism,
+                        "partitions",
+                        partitions,
                         "updates/s",
                         updates / (to.nanos - from.nanos) * 1e9,
                         "cpu us",

@@ -192,8 +192,11 @@ final class AnalyticsBench implements Callable<Integer> {
                 new Figures("Collisions from NGSI entities in a topic: reading, three stages, topic of results");
         for (int parallelism : cores) {
             for (int each : devices) {
-                report.tell("from Kafka: " + each + " devices on " + parallelism);
-                measurement.updates(each, parallelism, load.records, figures);
+                for (int partitions : load.partitions) {
+                    report.tell(
+                            "from Kafka: " + each + " devices on " + parallelism + ", " + partitions + " partitions");
+                    measurement.updates(each, parallelism, partitions, load.records, figures);
+                }
             }
         }
         report.add("kafka", figures);

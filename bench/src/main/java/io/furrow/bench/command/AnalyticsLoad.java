@@ -14,6 +14,15 @@ final class AnalyticsLoad {
     long records;
 
     @Option(
+            names = "--partitions",
+            paramLabel = "N,…",
+            split = ",",
+            hideParamSyntax = true,
+            defaultValue = "4",
+            description = "Partitions of each topic of KAFKA. Default: ${DEFAULT-VALUE}.")
+    List<Integer> partitions;
+
+    @Option(
             names = "--held-devices",
             paramLabel = "N",
             defaultValue = "100000",

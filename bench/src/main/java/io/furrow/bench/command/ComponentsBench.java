@@ -30,8 +30,8 @@ import io.furrow.model.ngsi.NgsiJson;
         name = "components",
         abbreviateSynopsis = true,
         description =
-                "Runs the benches of all components, each beside its peer, in short forms and in turns, and prints one table. A turn takes some 5"
-                        + " minutes; one that was interrupted goes on where it was. './furrow bench compare' compares two of its files.")
+                "Runs the benches of all components, each beside its peers, in short forms and in turns, and prints one table. One that was"
+                        + " interrupted goes on where it was. './furrow bench compare' compares two of its files.")
 final class ComponentsBench implements Callable<Integer> {
     @Spec
     private CommandSpec spec;
@@ -118,6 +118,16 @@ final class ComponentsBench implements Callable<Integer> {
                         Comparison.median(its, Rates::peers),
                         Comparison.median(its, Rates::share),
                         component.peer());
+                component
+                        .others(its)
+                        .forEach((peer, median) -> out.printf(
+                                Locale.ROOT,
+                                "%-38s %12s %,12.0f %8.2f  %s%n",
+                                "",
+                                "",
+                                median,
+                                Comparison.median(its, Rates::ours) / median,
+                                median.isNaN() ? peer + ": not measured, see bench/README.md" : peer));
             }
         }
         out.flush();
@@ -129,10 +139,20 @@ final class ComponentsBench implements Callable<Integer> {
         ComponentResults next = existing(now);
         out.printf(
                 Locale.ROOT,
-                "%-38s %12s %12s %8s %8s %7s%n",
-                "share of the peer beside it",
+                "%-38s %12s %12s %12s %12s %8s %8s %7s%n%-38s %12s %12s %12s %12s %8s %8s %7s%n",
+                "",
                 base.commit(),
                 next.commit(),
+                "its peer",
+                "its peer",
+                "share",
+                "share",
+                "",
+                "a second; medians",
+                "before",
+                "now",
+                "before",
+                "now",
                 "before",
                 "now",
                 "ratio");
@@ -143,10 +163,12 @@ final class ComponentsBench implements Callable<Integer> {
                 Comparison comparison = new Comparison(former, latter);
                 out.printf(
                         Locale.ROOT,
-                        "%-38s %,12.0f %,12.0f %8.2f %8.2f %7.2f  %s%n",
+                        "%-38s %,12.0f %,12.0f %,12.0f %,12.0f %8.2f %8.2f %7.2f  %s%n",
                         component.title(),
                         Comparison.median(former, Rates::ours),
                         Comparison.median(latter, Rates::ours),
+                        Comparison.median(former, Rates::peers),
+                        Comparison.median(latter, Rates::peers),
                         Comparison.median(former, Rates::share),
                         Comparison.median(latter, Rates::share),
                         comparison.ratio(),

@@ -85,7 +85,7 @@ final class EvaluateBench implements Callable<Integer> {
             paramLabel = "FILE",
             defaultValue = "target/evaluation/results.jsonl",
             description =
-                    "Grows with each point; what it already holds of this commit is not measured again. Default: ${DEFAULT-VALUE}.")
+                    "Grows with each point; what it already holds of this commit, with the same heap, is not measured again. Default: ${DEFAULT-VALUE}.")
     private Path results;
 
     @Mixin
@@ -95,20 +95,20 @@ final class EvaluateBench implements Callable<Integer> {
     public Integer call() throws Exception {
         PrintWriter out = spec.commandLine().getOut();
         Files.createDirectories(results.toAbsolutePath().getParent());
-        String commit = suite();
         long seconds = isShort ? SHORT_SECONDS : this.seconds;
         EvaluationResults known = EvaluationResults.in(results);
         Calibration machine = Calibration.measure();
         out.println(machine.sentence());
         out.flush();
         Target target = deployment.target();
-        new Evaluation(new Evaluation.Plan(sweeps, commit, seconds, !noKnee && !isShort, isShort, target), known, out)
-                .run();
+        EvaluationResults.Run run =
+                new EvaluationResults.Run(suite(), target == null ? Calibration.maxHeap() : 0, seconds);
+        new Evaluation(new Evaluation.Plan(sweeps, run, !noKnee && !isShort, isShort, target), known, out).run();
         List<String> setting = new ArrayList<>(List.of("%s; each point %d s, after a warm-up of 20 s for each suite%s."
-                .formatted(commit, seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
-        setting.addAll(target == null ? EMBEDDED : deployment.setting());
+                .formatted(run.commit(), seconds, isShort ? "" : "; points beyond those of the thesis at most 20 s")));
+        setting.addAll(target == null ? EMBEDDED : deployment.setting(target.devices()));
         setting.add(machine.sentence());
-        new EvaluationReport(known, commit, seconds, setting).write(report);
+        new EvaluationReport(known, run, setting).write(report);
         out.println("Report: " + report.resolve("report.html").toAbsolutePath());
         out.flush();
         return 0;

@@ -55,6 +55,13 @@ final class IngestBench implements Callable<Integer> {
     private int records;
 
     @Option(
+            names = "--partitions",
+            paramLabel = "N",
+            defaultValue = "4",
+            description = "Partitions of the input topic. Default: ${DEFAULT-VALUE}.")
+    private int partitions;
+
+    @Option(
             names = "--devices",
             paramLabel = "N",
             defaultValue = "1000",
@@ -125,7 +132,14 @@ final class IngestBench implements Callable<Integer> {
         PrintWriter out = spec.commandLine().getOut();
         Progress progress = new Progress(out);
         IngestPlan plan = new IngestPlan(
-                records, devices, missions, payload, turns, parallelism, Duration.ofMillis(checkpointMillis));
+                records,
+                partitions,
+                devices,
+                missions,
+                payload,
+                turns,
+                parallelism,
+                Duration.ofMillis(checkpointMillis));
         try (RunDirectory directory = RunDirectory.open(null)) {
             LogFile.writeTo(directory.resolve("furrow.log"));
             try (Closeables parts = directory.closingFirst(new Closeables())) {

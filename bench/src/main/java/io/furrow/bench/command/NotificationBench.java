@@ -38,7 +38,8 @@ import io.furrow.model.topic.Topics;
             "Presses the NGSI source with notifications as Orion sends them and counts those that were acknowledged and are"
                     + " in Kafka.",
             "Kafka, the Connect worker, the senders and the reader that checks run in this one process. Beside each run the"
-                    + " same load goes to an HTTP server that only answers, and a producer writes the same records, so that"
+                    + " same load goes to an HTTP server that only answers and to one that forwards to Kafka, and a producer"
+                    + " writes the same records, so that"
                     + " figures of different machines can be compared by their shares.",
             "Exit code 0 means that no acknowledged notification is missing."
         })
@@ -108,7 +109,8 @@ final class NotificationBench implements Callable<Integer> {
             names = "--calibration",
             paramLabel = "S",
             defaultValue = "5",
-            description = "Seconds for the bare server and for the bare producer, each run. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "Seconds for each of bare server, bare bridge and bare producer, each run. Default: ${DEFAULT-VALUE}.")
     private int calibration;
 
     @Option(names = "--exactly-once", description = "Let Connect write in transactions.")

@@ -1,23 +1,25 @@
 package io.furrow.bench.component;
 
+import java.util.LinkedHashMap;
 import java.util.List;
+import java.util.Map;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** A component with a bench of its own, in a form of some half a minute, and the peer that is measured beside it. */
+/** A component with a bench of its own, in a form of some half a minute, and the peers that are measured beside it. */
 public enum Component {
     SOURCE(
             "NGSI source: notifications in Kafka",
-            List.of("notifications", "--runs", "1", "--seconds", "10", "--warmup", "10", "--calibration", "5"),
+            List.of("notifications", "--runs", "1", "--seconds", "8", "--warmup", "8", "--calibration", "3"),
             "/median/inKafkaPerSecond",
-            "bare producer",
-            "/median/bareProducerPerSecond"),
+            new Peer("bare producer", "/median/bareProducerPerSecond"),
+            new Peer("bare bridge from HTTP to Kafka", "/median/bareBridgePerSecond"),
+            new Peer("bare HTTP server", "/median/bareServerPerSecond")),
     SINK(
             "NGSI sink: updates",
             List.of("sink", "--runs", "1"),
             "/0/medianUpdatesPerSecond",
-            "bare HTTP server",
-            "/0/runs/0/bareServerEntitiesPerSecond"),
+            new Peer("bare HTTP server", "/0/runs/0/bareServerEntitiesPerSecond")),
     INGEST(
             "ingest: records",
             List.of(
@@ -31,8 +33,7 @@ public enum Component {
                     "--jobs",
                     "COPY_TWICE,INGEST"),
             "/runs/1/recordsPerSecond",
-            "job that copies",
-            "/runs/0/recordsPerSecond"),
+            new Peer("job that copies", "/runs/0/recordsPerSecond")),
     COLLISION(
             "collision: positions",
             List.of(
@@ -48,28 +49,32 @@ public enum Component {
                     "--seconds",
                     "10"),
             "/memory/0/updates~1s",
-            "bare loop",
-            "/memory/0/bare loop"),
+            new Peer("bare loop", "/memory/0/bare loop"),
+            new Peer("Redis GEO", "/memory/0/Redis GEO")),
     REPLAY(
             "replay at max: events",
-            List.of("replay", "--max", "--events", "100000", "--turns", "1"),
+            List.of("replay", "--max", "--events", "30000", "--turns", "1"),
             "/0/0/events~1s",
-            "bare cursor",
-            "/0/2/events~1s");
+            new Peer("bare cursor, the same queries", "/0/1/events~1s"),
+            new Peer("bare cursor, one query", "/0/2/events~1s"));
 
     private final String title;
     private final List<String> words;
     private final String figure;
-    private final String peer;
-    private final String peerFigure;
+    private final Peer peer;
+    private final List<Peer> others;
 
-    Component(String title, List<String> words, String figure, String peer, String peerFigure) {
+    /** @param others peers beside it; one that is not installed has no figure */
+    Component(String title, List<String> words, String figure, Peer peer, Peer... others) {
         this.title = title;
         this.words = words;
         this.figure = figure;
         this.peer = peer;
-        this.peerFigure = peerFigure;
+        this.others = List.of(others);
     }
+
+    /** What is measured beside a component. */
+    private record Peer(String name, String figure) {}
 
     /** What is counted, a second. */
     public String title() {
@@ -77,7 +82,19 @@ public enum Component {
     }
 
     public String peer() {
-        return peer;
+        return peer.name;
+    }
+
+    /** Medians of the further peers by name; NaN of one that no turn has, such as one that is not installed. */
+    public Map<String, Double> others(List<Rates> turns) {
+        Map<String, Double> medians = new LinkedHashMap<>();
+        for (Peer other : others) {
+            List<Rates> its = turns.stream()
+                    .filter(turn -> turn.others().containsKey(other.name))
+                    .toList();
+            medians.put(other.name, Comparison.median(its, turn -> turn.others().get(other.name)));
+        }
+        return medians;
     }
 
     /** Of {@code ./furrow bench}. */
@@ -87,7 +104,11 @@ public enum Component {
 
     /** @param output what the bench wrote with {@code --output} */
     public Rates rates(JsonNode output) {
-        return new Rates(number(output, figure), number(output, peerFigure));
+        Map<String, Double> further = new LinkedHashMap<>();
+        others.stream()
+                .filter(other -> output.at(other.figure).isNumber())
+                .forEach(other -> further.put(other.name, number(output, other.figure)));
+        return new Rates(number(output, figure), number(output, peer.figure), further);
     }
 
     private double number(JsonNode output, String pointer) {
@@ -99,8 +120,17 @@ public enum Component {
         return found.doubleValue();
     }
 
-    /** A second, of the component and of its peer in the same minute. */
-    public record Rates(double ours, double peers) {
+    /**
+     * A second, of the component and of its peers in the same minute.
+     *
+     * @param peers of the peer that shares are of
+     * @param others by name, of the further peers
+     */
+    public record Rates(double ours, double peers, Map<String, Double> others) {
+        public Rates {
+            others = others == null ? Map.of() : others;
+        }
+
         public double share() {
             return ours / peers;
         }

@@ -1,5 +1,6 @@
 package io.furrow.bench.evaluation;
 
+import java.lang.management.ManagementFactory;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -9,11 +10,10 @@ import java.util.Optional;
 import java.util.Properties;
 import java.util.SplittableRandom;
 
+import com.sun.management.HotSpotDiagnosticMXBean;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
-import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.common.header.internals.RecordHeaders;
 import org.apache.kafka.common.record.TimestampType;
-import org.apache.kafka.common.serialization.ByteArraySerializer;
 
 import io.furrow.bench.http.BareServer;
 import io.furrow.bench.http.HttpLoad;
@@ -33,7 +33,7 @@ import io.furrow.launcher.suite.RunDirectory;
 public record Calibration(double producer, double server, double bridge) {
     private static final Duration LASTING = Duration.ofSeconds(3);
     private static final int BYTES = 1_000;
-    private static final int CONNECTIONS = 16;
+    private static final int CONNECTIONS = 64;
     private static final int ENTITIES = 100;
     private static final long MEGABYTE = 1 << 20;
 
@@ -76,9 +76,7 @@ public record Calibration(double producer, double server, double bridge) {
     }
 
     private static double bridging(Properties client) {
-        try (KafkaProducer<byte[], byte[]> producer =
-                        new KafkaProducer<>(client, new ByteArraySerializer(), new ByteArraySerializer());
-                BareServer server = BareServer.start(producer, "calibration-bridge")) {
+        try (BareServer server = BareServer.bridge(client, "calibration-bridge")) {
             return answered(server);
         }
     }
@@ -91,6 +89,14 @@ public record Calibration(double producer, double server, double bridge) {
         return load.answered() * 1e9 / load.nanos();
     }
 
+    /** Of this JVM, MB, as it was started; what {@link Runtime#maxMemory} returns changes by the collector's arrangements. */
+    public static long maxHeap() {
+        return Long.parseLong(ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean.class)
+                        .getVMOption("MaxHeapSize")
+                        .getValue())
+                / MEGABYTE;
+    }
+
     /** For the head of a report. */
     public String sentence() {
         return String.format(
@@ -101,7 +107,7 @@ public record Calibration(double producer, double server, double bridge) {
                 System.getProperty("os.name"),
                 System.getProperty("os.arch"),
                 System.getProperty("java.version"),
-                Runtime.getRuntime().maxMemory() / MEGABYTE,
+                maxHeap(),
                 producer,
                 server,
                 bridge);

@@ -48,14 +48,11 @@ public final class Evaluation {
     /**
      * What is measured, and how.
      *
-     * @param commit of the suite
-     * @param seconds of each point
      * @param knee whether it is looked for
      * @param oneSuite for all sweeps, else each has one of its own
      * @param target null for suites in this JVM, with stand-ins for context broker and IoT Agent
      */
-    public record Plan(
-            List<Sweep> sweeps, String commit, long seconds, boolean knee, boolean oneSuite, Target target) {}
+    public record Plan(List<Sweep> sweeps, EvaluationResults.Run run, boolean knee, boolean oneSuite, Target target) {}
 
     public Evaluation(Plan plan, EvaluationResults results, PrintWriter out) {
         this.plan = plan;
@@ -105,14 +102,14 @@ public final class Evaluation {
                 seconds += sweep.points().stream()
                                 .filter(point -> !isMeasured(point))
                                 .count()
-                        * (plan.seconds + SECONDS_A_POINT);
+                        * (plan.run.seconds() + SECONDS_A_POINT);
             }
         }
         return (seconds + 59) / 60;
     }
 
     private boolean isMeasured(Point point) {
-        return results.of(plan.commit, plan.seconds, point) != null;
+        return results.of(plan.run, point) != null;
     }
 
     /** The first point that is not measured; null if there is none any more. */
@@ -124,7 +121,7 @@ public final class Evaluation {
         }
         Point last = sweep.points().get(sweep.points().size() - 1);
         while (plan.knee && last != null) {
-            PointResult result = results.of(plan.commit, plan.seconds, last);
+            PointResult result = results.of(plan.run, last);
             if (result == null) {
                 return last;
             }
@@ -150,7 +147,7 @@ public final class Evaluation {
     }
 
     private PointResult measure(Target target, LoadMeasurement measurement, Point point) throws Exception {
-        LoadPlan load = point.plan(Duration.ofSeconds(seconds(point, plan.seconds)), DOMAIN);
+        LoadPlan load = point.plan(Duration.ofSeconds(seconds(point, plan.run.seconds())), DOMAIN);
         LongAdder notified = new LongAdder();
         ThreadTimes before = ThreadTimes.of(ProcessHandle.current().pid());
         long from = System.nanoTime();
@@ -177,7 +174,7 @@ public final class Evaluation {
                     .byRole()
                     .forEach((role, time) -> cores.put(role, time / nanos));
         }
-        return PointResult.of(plan.commit, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
+        return PointResult.of(plan.run, point, report, notified.sum(), cores, target.isOurs() ? residentBytes() : 0);
     }
 
     /** As Linux tells it. */

@@ -1,27 +1,28 @@
 package io.furrow.bench.evaluation;
 
 import java.io.IOException;
-import java.nio.charset.StandardCharsets;
-import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardOpenOption;
-import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
 
-import com.fasterxml.jackson.databind.ObjectMapper;
-
 import io.furrow.bench.evaluation.Sweep.Point;
+import io.furrow.bench.results.JsonLines;
 
-/** Results by point, in a file of JSON lines that grows: an evaluation that was interrupted goes on where it was. */
+/** Results by point, in a file. */
 public final class EvaluationResults {
-    private static final ObjectMapper JSON = new ObjectMapper();
+    private final JsonLines<PointResult> results;
 
-    private final Path file;
-    private final List<PointResult> results = new ArrayList<>();
+    /**
+     * What results of one evaluation have in common: those of another heap are not comparable.
+     *
+     * @param commit of the suite
+     * @param heap of its process at most, MB; 0 where that is not known
+     * @param seconds of the points of a sweep; further ones are measured for less
+     */
+    public record Run(String commit, long heap, long seconds) {}
 
-    private EvaluationResults(Path file) {
-        this.file = file;
+    private EvaluationResults(JsonLines<PointResult> results) {
+        this.results = results;
     }
 
     /**
@@ -30,42 +31,27 @@ public final class EvaluationResults {
      * @throws IOException if it holds something else
      */
     public static EvaluationResults in(Path file) throws IOException {
-        EvaluationResults all = new EvaluationResults(file);
-        if (Files.exists(file)) {
-            for (String line : Files.readAllLines(file)) {
-                try {
-                    all.results.add(JSON.readValue(line, PointResult.class));
-                } catch (IOException e) {
-                    throw new IOException(file + " is no file of results; name another with --results", e);
-                }
-            }
-        }
-        return all;
+        return new EvaluationResults(JsonLines.in(file, PointResult.class, "evaluate"));
     }
 
     void add(PointResult result) throws IOException {
-        Files.writeString(
-                file,
-                JSON.writeValueAsString(result) + "\n",
-                StandardCharsets.UTF_8,
-                StandardOpenOption.CREATE,
-                StandardOpenOption.APPEND);
         results.add(result);
     }
 
-    /** Those of one commit, by load; {@code seconds} of the points of the sweep, further ones are measured for less. */
-    List<PointResult> of(String commit, long seconds, Sweep sweep) {
-        return results.stream()
-                .filter(result -> result.commit().equals(commit)
+    /** Those of one run, by load. */
+    List<PointResult> of(Run run, Sweep sweep) {
+        return results.all().stream()
+                .filter(result -> result.commit().equals(run.commit)
+                        && result.heap() == run.heap
                         && result.point().sweep() == sweep
-                        && result.lasting() == Evaluation.seconds(result.point(), seconds))
+                        && result.lasting() == Evaluation.seconds(result.point(), run.seconds))
                 .sorted(Comparator.comparingDouble(result -> result.point().abscissa()))
                 .toList();
     }
 
     /** @return null if it is not measured */
-    PointResult of(String commit, long seconds, Point point) {
-        return of(commit, seconds, point.sweep()).stream()
+    PointResult of(Run run, Point point) {
+        return of(run, point.sweep()).stream()
                 .filter(result -> result.point().equals(point))
                 .findFirst()
                 .orElse(null);

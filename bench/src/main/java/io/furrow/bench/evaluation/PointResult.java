@@ -21,6 +21,7 @@ import io.furrow.bench.whole.ThreadTimes;
  * What became of one load; a line of the file of results.
  *
  * @param commit of the suite
+ * @param heap of its process at most, MB; 0 of one that is another process
  * @param sent messages that the MQTT broker acknowledged
  * @param notified records of these messages on {@code data.raw}, copies included
  * @param delivered distinct events at the mission's topic
@@ -32,6 +33,7 @@ import io.furrow.bench.whole.ThreadTimes;
  */
 public record PointResult(
         String commit,
+        long heap,
         Point point,
         long lasting,
         long sent,
@@ -71,11 +73,17 @@ public record PointResult(
     }
 
     static PointResult of(
-            String commit, Point point, LoadReport load, long notified, Map<String, Double> cores, long memoryBytes) {
+            EvaluationResults.Run run,
+            Point point,
+            LoadReport load,
+            long notified,
+            Map<String, Double> cores,
+            long memoryBytes) {
         Map<Hop, Delay> delays = new EnumMap<>(Hop.class);
         load.delays().forEach((hop, millis) -> delays.put(hop, Delay.of(millis)));
         return new PointResult(
-                commit,
+                run.commit(),
+                run.heap(),
                 point,
                 load.plan().duration().toSeconds(),
                 load.sent(),

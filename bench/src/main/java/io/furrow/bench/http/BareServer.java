@@ -1,10 +1,16 @@
 package io.furrow.bench.http;
 
+import java.io.Closeable;
+import java.io.IOException;
+import java.io.UncheckedIOException;
 import java.net.InetSocketAddress;
 import java.nio.ByteBuffer;
+import java.util.Properties;
 
+import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.Producer;
 import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
 import org.eclipse.jetty.io.Content;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
@@ -25,11 +31,14 @@ import org.eclipse.jetty.util.thread.QueuedThreadPool;
  */
 public final class BareServer implements AutoCloseable {
     private static final int THREADS = 16;
+    private static final String LINGER_MS = "1";
 
     private final Server server;
     private final ServerConnector connector;
+    private final Closeable behind;
 
-    private BareServer(Handler handler) {
+    private BareServer(Handler handler, Closeable behind) {
+        this.behind = behind;
         QueuedThreadPool threads = new QueuedThreadPool(THREADS, 4);
         threads.setName("bare-server");
         threads.setDaemon(true);
@@ -45,16 +54,26 @@ public final class BareServer implements AutoCloseable {
 
     /** On a free port. */
     public static BareServer start() {
-        return start(new Answering());
+        return start(new Answering(), () -> {});
     }
 
-    /** A bridge to a topic. */
-    public static BareServer start(Producer<byte[], byte[]> producer, String topic) {
-        return start(new Bridging(producer, topic));
+    /**
+     * A bridge to a topic. Its producer sends what has come when an earlier request is on its way, since each sender waits for its
+     * answer: with the default {@code linger.ms} of 5 they would only wait longer.
+     */
+    public static BareServer bridge(Properties kafka, String topic) {
+        Properties settings = new Properties();
+        settings.putAll(kafka);
+        settings.setProperty("acks", "all");
+        settings.setProperty("linger.ms", LINGER_MS);
+        settings.setProperty("max.in.flight.requests.per.connection", "5");
+        Producer<byte[], byte[]> producer =
+                new KafkaProducer<>(settings, new ByteArraySerializer(), new ByteArraySerializer());
+        return start(new Bridging(producer, topic), producer);
     }
 
-    private static BareServer start(Handler handler) {
-        BareServer bare = new BareServer(handler);
+    private static BareServer start(Handler handler, Closeable behind) {
+        BareServer bare = new BareServer(handler, behind);
         LifeCycle.start(bare.server);
         return bare;
     }
@@ -66,6 +85,11 @@ public final class BareServer implements AutoCloseable {
     @Override
     public void close() {
         LifeCycle.stop(server);
+        try {
+            behind.close();
+        } catch (IOException e) {
+            throw new UncheckedIOException(e);
+        }
     }
 
     private static final class Answering extends Handler.Abstract.NonBlocking {

@@ -87,7 +87,7 @@ public final class IngestMeasurement {
     private void fill() throws InterruptedException, ExecutionException, UnreadableException {
         progress.accept("%,d records of %,d bytes to %s".formatted(plan.records(), plan.bytes(), Topics.RAW));
         try (Admin admin = Admin.create(kafka)) {
-            admin.createTopics(List.of(new NewTopic(Topics.RAW, PARTITIONS, REPLICAS)))
+            admin.createTopics(List.of(new NewTopic(Topics.RAW, plan.partitions(), REPLICAS)))
                     .all()
                     .get();
         }
@@ -115,6 +115,9 @@ public final class IngestMeasurement {
                     throughput.add(written.readable());
                 }
                 long missing = expected - written.counted(expected, TIMEOUT);
+                long stateBytes = turn == 0 || peer != Peer.INGEST
+                        ? 0
+                        : Checkpoints.bytesOfNext(checkpoints.resolve(name), TIMEOUT);
                 Throughput.Pace pace = throughput.pace();
                 return new IngestRun(
                         peer,
@@ -122,6 +125,7 @@ public final class IngestMeasurement {
                         turn,
                         pace.perSecond() / peer.writes(),
                         pace.processorMicrosEach() * peer.writes(),
+                        stateBytes,
                         missing);
             } finally {
                 job.cancel();

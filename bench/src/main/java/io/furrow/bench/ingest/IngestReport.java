@@ -12,7 +12,7 @@ import io.furrow.flink.job.Delivery;
 
 /** The runs of a measurement, their medians, and the medians of their ratios to the runs of the same turn that only copy. */
 public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
-    private static final String ROW = "%-13s  %-34s %10s %14s %13s %10s %14s %8s%n";
+    private static final String ROW = "%-13s  %-34s %10s %14s %13s %10s %14s %15s %8s%n";
 
     /** Records per second. */
     public double median(Delivery delivery, Peer peer) {
@@ -58,9 +58,10 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
     public void print(PrintWriter out) {
         out.printf(
                 Locale.ROOT,
-                "%n%,d records of %,d bytes about %,d devices on %d missions, parallelism %d, a checkpoint every %d ms%n",
+                "%n%,d records of %,d bytes on %d partitions about %,d devices on %d missions, parallelism %d, a checkpoint every %d ms%n",
                 plan.records(),
                 plan.bytes(),
+                plan.partitions(),
                 plan.devices(),
                 plan.missions(),
                 plan.parallelism(),
@@ -74,6 +75,7 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
                 "of one topic",
                 "µs each",
                 "of two topics",
+                "state, B/device",
                 "missing");
         runs.stream()
                 .map(IngestRun::delivery)
@@ -90,6 +92,7 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
                                 "%.2f".formatted(ratio(delivery, peer, Peer.COPY_ONCE)),
                                 "%.1f".formatted(median(delivery, peer, IngestRun::processorMicros)),
                                 "%.2f".formatted(processorRatio(delivery, peer, Peer.COPY_TWICE)),
+                                "%,.0f".formatted(median(delivery, peer, IngestRun::stateBytes) / plan.devices()),
                                 runs.stream()
                                         .filter(run -> run.delivery() == delivery && run.peer() == peer)
                                         .mapToLong(IngestRun::missing)
@@ -101,6 +104,7 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
     public ObjectNode json() {
         ObjectNode json = JsonNodeFactory.instance.objectNode();
         json.put("records", plan.records())
+                .put("partitions", plan.partitions())
                 .put("bytes", plan.bytes())
                 .put("devices", plan.devices())
                 .put("missions", plan.missions())
@@ -114,6 +118,7 @@ public record IngestReport(IngestPlan plan, List<IngestRun> runs) {
                     .put("turn", run.turn())
                     .put("recordsPerSecond", run.recordsPerSecond())
                     .put("processorMicros", run.processorMicros())
+                    .put("stateBytes", run.stateBytes())
                     .put("missing", run.missing());
         }
         return json;

@@ -8,7 +8,14 @@ import io.furrow.flink.job.Delivery;
  * @param turn from 1 on; the runs of one turn are compared
  * @param recordsPerSecond read, by when what becomes of them could be read
  * @param processorMicros that each of them took of this JVM, brokers included
+ * @param stateBytes of a checkpoint when all was read; 0 of a job without state
  * @param missing records that are not on the topics of domain and missions; negative where some are there more than once
  */
 public record IngestRun(
-        Peer peer, Delivery delivery, int turn, double recordsPerSecond, double processorMicros, long missing) {}
+        Peer peer,
+        Delivery delivery,
+        int turn,
+        double recordsPerSecond,
+        double processorMicros,
+        long stateBytes,
+        long missing) {}

@@ -24,7 +24,7 @@ import io.furrow.bench.http.HttpLoadResult;
 
 /**
  * Presses an NGSI source with numbered notifications and reads its topic. Senders, source, broker and reader share the
- * processors; each run is followed by the same load on a {@link BareServer} and by a {@link BareProducer}.
+ * processors; each run is followed by the same load on two {@link BareServer}s, one with Kafka behind it, and by a {@link BareProducer}.
  */
 public final class NotificationMeasurement implements AutoCloseable {
     /** In large pieces, because the reader shares the processors. */
@@ -77,7 +77,7 @@ public final class NotificationMeasurement implements AutoCloseable {
     /**
      * One run, and its calibration.
      *
-     * @param calibration how long the bare server and the bare producer are each measured
+     * @param calibration how long the bare server, the bare bridge and the bare producer are each measured
      */
     public NotificationRun run(String name, HttpLoadPlan plan, Duration calibration) throws InterruptedException {
         firstNumber += NUMBERS_PER_RUN;
@@ -92,9 +92,10 @@ public final class NotificationMeasurement implements AutoCloseable {
             TimeUnit.MILLISECONDS.sleep(REPEATS_ON_THEIR_WAY.toMillis());
             double inKafka = load.answered() * 1e9 / Math.max(load.nanos(), check.lastNanos() - start);
             HttpLoadResult bare = bareServer(name, plan.lasting(calibration));
+            HttpLoadResult bridge = bareBridge(name, plan.lasting(calibration));
             double producer = bareProducer(name, check.samples(), calibration);
             return new NotificationRun(
-                    load, inKafka, check.missing(load.acknowledged()), check.repeats(), cpu, bare, producer);
+                    load, inKafka, check.missing(load.acknowledged()), check.repeats(), cpu, bare, bridge, producer);
         }
     }
 
@@ -134,6 +135,12 @@ public final class NotificationMeasurement implements AutoCloseable {
     private HttpLoadResult bareServer(String name, HttpLoadPlan plan) throws InterruptedException {
         try (BareServer server = BareServer.start()) {
             return send(name + ", bare server", server.address(), plan, null);
+        }
+    }
+
+    private HttpLoadResult bareBridge(String name, HttpLoadPlan plan) throws InterruptedException {
+        try (BareServer server = BareServer.bridge(kafka, BARE_TOPIC)) {
+            return send(name + ", bare bridge", server.address(), plan, null);
         }
     }
 

@@ -18,8 +18,9 @@ import io.furrow.bench.http.HttpLoadPlan;
  * @param journal where the journal was, and on what kind of file system
  */
 public record NotificationReport(HttpLoadPlan plan, String journal, List<NotificationRun> runs) {
-    private static final String LINE = "%-7s %9.0f %9.0f %8.1f %8.1f %8.1f %8s %8s %8s %9.0f %9.0f %7.2f %7.2f%n";
-    private static final String HEAD = "%-7s %9s %9s %8s %8s %8s %8s %8s %8s %9s %9s %7s %7s%n";
+    private static final String LINE =
+            "%-7s %9.0f %9.0f %8.1f %8.1f %8.1f %8s %8s %8s %9.0f %9.0f %9.0f %7.2f %7.2f %7.2f%n";
+    private static final String HEAD = "%-7s %9s %9s %8s %8s %8s %8s %8s %8s %9s %9s %9s %7s %7s %7s%n";
 
     /** The median of one figure; of an even number of runs the upper one. */
     public double median(ToDoubleFunction<NotificationRun> figure) {
@@ -48,10 +49,27 @@ public record NotificationReport(HttpLoadPlan plan, String journal, List<Notific
                 "failed",
                 "bare",
                 "bare",
+                "bare",
+                "share",
                 "share",
                 "share");
         out.printf(
-                HEAD, "run", "per s", "per s", "ms", "ms", "ms", "", "", "", "server/s", "prod./s", "server", "prod.");
+                HEAD,
+                "run",
+                "per s",
+                "per s",
+                "ms",
+                "ms",
+                "ms",
+                "",
+                "",
+                "",
+                "server/s",
+                "bridge/s",
+                "prod./s",
+                "server",
+                "bridge",
+                "prod.");
         for (int i = 0; i < runs.size(); i++) {
             NotificationRun run = runs.get(i);
             line(
@@ -99,8 +117,10 @@ public record NotificationReport(HttpLoadPlan plan, String journal, List<Notific
                 repeats,
                 failed,
                 of.get(run -> run.bareServer().perSecond()),
+                of.get(run -> run.bareBridge().perSecond()),
                 of.get(NotificationRun::producerPerSecond),
                 of.get(NotificationRun::ofBareServer),
+                of.get(NotificationRun::ofBareBridge),
                 of.get(NotificationRun::ofProducer));
     }
 
@@ -148,8 +168,10 @@ public record NotificationReport(HttpLoadPlan plan, String journal, List<Notific
         json.put("maxMillis", of.get(run -> run.load().millis(100)));
         json.put("bareServerPerSecond", of.get(run -> run.bareServer().perSecond()));
         json.put("bareServerP99Millis", of.get(run -> run.bareServer().millis(99)));
+        json.put("bareBridgePerSecond", of.get(run -> run.bareBridge().perSecond()));
         json.put("bareProducerPerSecond", of.get(NotificationRun::producerPerSecond));
         json.put("shareOfBareServer", of.get(NotificationRun::ofBareServer));
+        json.put("shareOfBareBridge", of.get(NotificationRun::ofBareBridge));
         json.put("shareOfBareProducer", of.get(NotificationRun::ofProducer));
         ObjectNode cpu = json.putObject("cpuMicrosPerNotification");
         parts().forEach(part -> cpu.put(part, of.get(run -> run.cpuMicros(part))));

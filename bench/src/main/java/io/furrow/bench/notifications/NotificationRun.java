@@ -13,6 +13,7 @@ import io.furrow.bench.http.HttpLoadResult;
  * @param repeats records of a notification that was in the topic already
  * @param cpuNanos processor time by part
  * @param bareServer the same load on a server that only answers
+ * @param bareBridge the same load on a server that answers when Kafka has it
  * @param producerPerSecond records like these by a bare producer
  */
 public record NotificationRun(
@@ -22,6 +23,7 @@ public record NotificationRun(
         long repeats,
         Map<String, Long> cpuNanos,
         HttpLoadResult bareServer,
+        HttpLoadResult bareBridge,
         double producerPerSecond) {
     /** Notifications per second that were acknowledged and in Kafka. */
     public double perSecond() {
@@ -30,6 +32,10 @@ public record NotificationRun(
 
     public double ofBareServer() {
         return perSecond() / bareServer.perSecond();
+    }
+
+    public double ofBareBridge() {
+        return perSecond() / bareBridge.perSecond();
     }
 
     public double ofProducer() {

@@ -3,6 +3,7 @@ package io.furrow.bench.component;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 import java.util.stream.DoubleStream;
 
 import com.fasterxml.jackson.databind.ObjectMapper;
@@ -29,7 +30,7 @@ class ComparisonTest {
 
     @Test
     void comparesWithThePeerOfTheSameMinutes() {
-        List<Rates> slowHour = List.of(new Rates(25, 50), new Rates(26, 52), new Rates(24, 48));
+        List<Rates> slowHour = List.of(rates(25, 50), rates(26, 52), rates(24, 48));
 
         Comparison comparison = new Comparison(turns(50, 52, 48), slowHour);
 
@@ -41,13 +42,13 @@ class ComparisonTest {
     void hasTheTurnsOfTheCommitThatWasMeasuredLast() throws Exception {
         Path file = folder.resolve("results.jsonl");
         ComponentResults results = ComponentResults.in(file);
-        results.add("old", 1, Component.SINK, new Rates(1, 2));
-        results.add("new", 1, Component.SINK, new Rates(3, 4));
+        results.add("old", 1, Component.SINK, rates(1, 2));
+        results.add("new", 1, Component.SINK, new Rates(3, 4, Map.of("another", 5.0)));
 
         ComponentResults known = ComponentResults.in(file);
 
         assertThat(known.commit()).isEqualTo("new");
-        assertThat(known.of(Component.SINK)).containsExactly(new Rates(3, 4));
+        assertThat(known.of(Component.SINK)).containsExactly(new Rates(3, 4, Map.of("another", 5.0)));
         assertThat(known.has("old", 1, Component.SINK)).isTrue();
         assertThat(known.has("old", 2, Component.SINK)).isFalse();
         Files.writeString(file, "hello\n");
@@ -58,8 +59,12 @@ class ComparisonTest {
     void findsTheFiguresOfABench() throws Exception {
         String output = "{\"memory\":[{\"devices\":10000,\"updates/s\":900.5,\"bare loop\":1801.0}]}";
 
-        assertThat(Component.COLLISION.rates(new ObjectMapper().readTree(output)))
-                .isEqualTo(new Rates(900.5, 1801));
+        Rates alone = Component.COLLISION.rates(new ObjectMapper().readTree(output));
+        assertThat(alone).isEqualTo(rates(900.5, 1801));
+        assertThat(Component.COLLISION.others(List.of(alone))).isEqualTo(Map.of("Redis GEO", Double.NaN));
+        Rates both =
+                Component.COLLISION.rates(new ObjectMapper().readTree(output.replace("}]", ",\"Redis GEO\":99.0}]")));
+        assertThat(Component.COLLISION.others(List.of(both))).isEqualTo(Map.of("Redis GEO", 99.0));
         assertThatThrownBy(() -> Component.SINK.rates(new ObjectMapper().readTree("[]")))
                 .hasMessageContaining("the bench sink has no figure");
     }
@@ -68,8 +73,12 @@ class ComparisonTest {
         return new Comparison(before, now).verdict();
     }
 
+    private static Rates rates(double ours, double peers) {
+        return new Rates(ours, peers, Map.of());
+    }
+
     /** Beside a peer of 100. */
     private static List<Rates> turns(double... ours) {
-        return DoubleStream.of(ours).mapToObj(each -> new Rates(each, 100)).toList();
+        return DoubleStream.of(ours).mapToObj(each -> rates(each, 100)).toList();
     }
 }

@@ -19,7 +19,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class EvaluationReportTest {
-    private static final String COMMIT = "0123abc";
+    private static final EvaluationResults.Run RUN = new EvaluationResults.Run("0123abc", 1024, 60);
 
     @TempDir
     private Path folder;
@@ -76,10 +76,14 @@ class EvaluationReportTest {
 
         EvaluationResults known = EvaluationResults.in(file);
 
-        assertThat(known.of("another", 60, point)).isNull();
-        assertThat(known.of(COMMIT, 4, point)).isNull();
-        assertThat(known.of(COMMIT, 60, point)).isEqualTo(result(point, 100, 0));
-        assertThat(known.of(COMMIT, 60, Sweep.PERIOD)).containsExactly(result(point, 100, 0));
+        assertThat(known.of(new EvaluationResults.Run("another", 1024, 60), point))
+                .isNull();
+        assertThat(known.of(new EvaluationResults.Run(RUN.commit(), 4096, 60), point))
+                .isNull();
+        assertThat(known.of(new EvaluationResults.Run(RUN.commit(), 1024, 4), point))
+                .isNull();
+        assertThat(known.of(RUN, point)).isEqualTo(result(point, 100, 0));
+        assertThat(known.of(RUN, Sweep.PERIOD)).containsExactly(result(point, 100, 0));
     }
 
     @Test
@@ -96,7 +100,7 @@ class EvaluationReportTest {
         known.add(result(Sweep.PAYLOAD.points().get(1), 99, 0));
         known.add(result(Sweep.PAYLOAD.points().get(2), 100, 1));
 
-        new EvaluationReport(known, COMMIT, 60, List.of("a machine")).write(folder);
+        new EvaluationReport(known, RUN, List.of("a machine")).write(folder);
 
         assertThat(Files.readAllLines(folder.resolve("evaluation.md")))
                 .contains("- a machine")
@@ -106,7 +110,10 @@ class EvaluationReportTest {
                 .contains(
                         "| larger messages of 50 devices | 1 kB | 250 | 30 | 10 kB | 0.9900 delivered | 2 | Kafka broker (0.20 cores) |")
                 .contains("![Delay from device to reader](images/evaluation-delay.png)");
-        assertThat(Files.readString(folder.resolve("report.html"))).contains("src=\"data:image/png;base64,iVBOR");
+        assertThat(Files.readString(folder.resolve("report.html")))
+                .contains("src=\"data:image/png;base64,iVBOR")
+                .contains("<td>larger messages of 50 devices</td><td>1 kB</td>")
+                .contains("<tr><td>10 kB ⚠</td><td>250</td>");
         for (String name : List.of("delivered", "delay", "cores", "payload-messages", "payload-hops")) {
             int[] pixels = pixels(folder.resolve("images").resolve("evaluation-" + name + ".png"));
             assertThat(Arrays.stream(pixels).distinct().count()).as(name).isGreaterThan(10);
@@ -135,7 +142,8 @@ class EvaluationReportTest {
                 new LoadSecond(3, 0, 10, 10, 10, List.of()),
                 new LoadSecond(last, 1, 1, 1, 1, List.of(1.0, 2.0, 3.0)));
         return new PointResult(
-                COMMIT,
+                RUN.commit(),
+                RUN.heap(),
                 point,
                 60,
                 100,

@@ -10,7 +10,7 @@ import io.furrow.flink.job.Delivery;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class IngestReportTest {
-    private static final IngestPlan PLAN = new IngestPlan(1000, 10, 2, 1000, 3, 2, Duration.ofSeconds(5));
+    private static final IngestPlan PLAN = new IngestPlan(1000, 4, 10, 2, 1000, 3, 2, Duration.ofSeconds(5));
 
     @Test
     void comparesTheRunsOfOneTurn() {
@@ -40,6 +40,6 @@ class IngestReportTest {
     }
 
     private static IngestRun run(Peer peer, int turn, double perSecond, long missing) {
-        return new IngestRun(peer, Delivery.AT_LEAST_ONCE, turn, perSecond, 1e6 / perSecond, missing);
+        return new IngestRun(peer, Delivery.AT_LEAST_ONCE, turn, perSecond, 1e6 / perSecond, 0, missing);
     }
 }

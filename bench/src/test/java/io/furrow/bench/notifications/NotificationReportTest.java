@@ -40,6 +40,7 @@ class NotificationReportTest {
         NotificationRun run = run(1000, 0);
 
         assertThat(run.ofBareServer()).isEqualTo(0.1, within(1e-6));
+        assertThat(run.ofBareBridge()).isEqualTo(0.25, within(1e-6));
         assertThat(run.ofProducer()).isEqualTo(0.02, within(1e-6));
         assertThat(run.cpuMicros("listener")).isEqualTo(50, within(1e-6));
     }
@@ -48,7 +49,7 @@ class NotificationReportTest {
     void countsNoMoreThanWhatIsInKafkaToo() {
         HttpLoadResult load = load(1000);
 
-        assertThat(new NotificationRun(load, 400, 0, 0, Map.of(), load, 1).perSecond())
+        assertThat(new NotificationRun(load, 400, 0, 0, Map.of(), load, load, 1).perSecond())
                 .isEqualTo(400);
     }
 
@@ -70,7 +71,7 @@ class NotificationReportTest {
     /** One second of this many notifications, and 50 ms of a listener's processor time. */
     private static NotificationRun run(int count, long missing) {
         return new NotificationRun(
-                load(count), count, missing, 0, Map.of("listener", 50_000_000L), load(10_000), 50_000);
+                load(count), count, missing, 0, Map.of("listener", 50_000_000L), load(10_000), load(4_000), 50_000);
     }
 
     private static HttpLoadResult load(int count) {

@@ -3,7 +3,6 @@ package io.furrow.launcher.command;
 import java.io.IOException;
 import java.io.InputStream;
 import java.io.PrintWriter;
-import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -21,7 +20,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.cli.CommandException;
 import io.furrow.cli.option.HelpOption;
-import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.option.FiwareOptions;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.fleet.FleetAccess;
@@ -47,34 +46,8 @@ public final class ScenarioCommand implements Callable<Integer> {
     @Parameters(paramLabel = "FILE", description = "The scenario, JSON.")
     private Path file;
 
-    @Option(
-            names = "--orion",
-            paramLabel = "URL",
-            defaultValue = "http://127.0.0.1:1026",
-            description = "Context broker, to which robots report. Default: ${DEFAULT-VALUE}.")
-    private URI orion;
-
-    @Option(
-            names = "--iot-agent",
-            paramLabel = "URL",
-            defaultValue = "http://127.0.0.1:4041",
-            description = "IoT Agent, which receives all other devices. Default: ${DEFAULT-VALUE}.")
-    private URI iotAgent;
-
-    @Option(
-            names = "--iot-agent-resource",
-            paramLabel = "PATH",
-            defaultValue = FleetSettings.DEFAULT_RESOURCE,
-            description =
-                    "Default resource of the IoT Agent (IOTA_DEFAULT_RESOURCE), \"\" where it is empty. Default: ${DEFAULT-VALUE}.")
-    private String iotAgentResource;
-
-    @Option(
-            names = "--mqtt",
-            paramLabel = "URI",
-            defaultValue = "tcp://127.0.0.1:1883",
-            description = "MQTT broker: tcp://host:port, or ssl://host:port with TLS. Default: ${DEFAULT-VALUE}.")
-    private URI mqtt;
+    @Mixin
+    private FiwareOptions fiware;
 
     @Option(
             names = "--mqtt-trusted",
@@ -83,32 +56,12 @@ public final class ScenarioCommand implements Callable<Integer> {
     private Path trusted;
 
     @Option(
-            names = "--mqtt-user",
-            paramLabel = "NAME",
-            defaultValue = Suite.MQTT_USER,
-            description = "User at the MQTT broker. Default: ${DEFAULT-VALUE}.")
-    private String user;
-
-    @Option(
-            names = "--mqtt-password-file",
-            paramLabel = "FILE",
-            description = "File whose first line is the user's password. Default: the password of ./furrow up.")
-    private Path passwordFile;
-
-    @Option(
             names = "--qos",
             paramLabel = "N",
             defaultValue = "1",
             description =
                     "QoS of measures: 0, what is measured while the connection is broken is lost; or 1. Default: 1.")
     private int qos;
-
-    @Option(
-            names = "--fiware-service",
-            paramLabel = "NAME",
-            defaultValue = "farm",
-            description = "Tenant. Default: ${DEFAULT-VALUE}.")
-    private String service;
 
     @Option(
             names = "--for",
@@ -173,14 +126,10 @@ public final class ScenarioCommand implements Callable<Integer> {
     }
 
     private FleetAccess access() throws IOException {
-        String password = passwordFile == null
-                ? Suite.MQTT_PASSWORD
-                : Files.readString(passwordFile).lines().findFirst().orElse("").strip();
-        FleetSettings fiware = new FleetSettings(orion, iotAgent, mqtt, user, password, service, "/")
-                .withIotAgentResource(iotAgentResource);
+        FleetSettings settings = fiware.settings();
         return new FleetAccess(
-                fiware,
-                new MqttAccess(mqtt, trusted, qos),
-                FleetAccess.Logins.all(new MqttAccess.Login(user, password)));
+                settings,
+                new MqttAccess(settings.mqtt(), trusted, qos),
+                FleetAccess.Logins.all(new MqttAccess.Login(settings.mqttUser(), settings.mqttPassword())));
     }
 }

@@ -91,6 +91,13 @@ public final class Fleet {
                 time);
     }
 
+    /** A device that is so many meters from where fleets are. */
+    public static PositionFix at(String id, double east, double north, long time) {
+        double latitude = LATITUDE + north / METERS_PER_DEGREE;
+        double degreeEast = METERS_PER_DEGREE * Math.cos(Math.toRadians(latitude));
+        return fix(SCOPE + id, id, latitude, LONGITUDE + east / degreeEast, time);
+    }
+
     private static DeviceInfo reporter(String identity, String id) {
         return DeviceInfo.of(new Device(TOPIC, identity), id, "Robot", "", "");
     }

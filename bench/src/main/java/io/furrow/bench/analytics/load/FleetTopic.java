@@ -24,6 +24,7 @@ public final class FleetTopic implements AutoCloseable {
     private static final String OVERFLOWS = ".overflows";
 
     private final String name;
+    private final int partitions;
     private final Properties kafka;
     private final KafkaProducer<byte[], byte[]> producer;
     private final AtomicReference<Exception> failed = new AtomicReference<>();
@@ -37,8 +38,9 @@ public final class FleetTopic implements AutoCloseable {
         void tick(long tick, Consumer<PositionFix> out);
     }
 
-    private FleetTopic(String name, Properties kafka) {
+    private FleetTopic(String name, int partitions, Properties kafka) {
         this.name = name;
+        this.partitions = partitions;
         this.kafka = kafka;
         Properties properties = new Properties();
         properties.putAll(kafka);
@@ -65,11 +67,16 @@ public final class FleetTopic implements AutoCloseable {
                     .all()
                     .get();
         }
-        return new FleetTopic(name, kafka);
+        return new FleetTopic(name, partitions, kafka);
     }
 
     public String name() {
         return name;
+    }
+
+    /** Into which the fleet reports. */
+    public int partitions() {
+        return partitions;
     }
 
     public String results() {

@@ -1,0 +1,72 @@
+package io.furrow.launcher.option;
+
+import java.io.IOException;
+import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
+
+import picocli.CommandLine.Option;
+
+import io.furrow.launcher.suite.Suite;
+import io.furrow.simulators.device.FleetSettings;
+
+/** The servers to which devices report, by default those of {@code ./furrow up} on this machine. */
+public final class FiwareOptions {
+    @Option(
+            names = "--orion",
+            paramLabel = "URL",
+            defaultValue = "http://127.0.0.1:1026",
+            description = "Context broker, to which robots report. Default: ${DEFAULT-VALUE}.")
+    private URI orion;
+
+    @Option(
+            names = "--iot-agent",
+            paramLabel = "URL",
+            defaultValue = "http://127.0.0.1:4041",
+            description = "IoT Agent, which receives all other devices. Default: ${DEFAULT-VALUE}.")
+    private URI iotAgent;
+
+    @Option(
+            names = "--iot-agent-resource",
+            paramLabel = "PATH",
+            defaultValue = FleetSettings.DEFAULT_RESOURCE,
+            description =
+                    "Default resource of the IoT Agent (IOTA_DEFAULT_RESOURCE), \"\" where it is empty. Default: ${DEFAULT-VALUE}.")
+    private String iotAgentResource;
+
+    @Option(
+            names = "--mqtt",
+            paramLabel = "URI",
+            defaultValue = "tcp://127.0.0.1:1883",
+            description = "MQTT broker: tcp://host:port, or ssl://host:port with TLS. Default: ${DEFAULT-VALUE}.")
+    private URI mqtt;
+
+    @Option(
+            names = "--mqtt-user",
+            paramLabel = "NAME",
+            defaultValue = Suite.MQTT_USER,
+            description = "User at the MQTT broker. Default: ${DEFAULT-VALUE}.")
+    private String user;
+
+    @Option(
+            names = "--mqtt-password-file",
+            paramLabel = "FILE",
+            description = "File whose first line is the user's password. Default: the password of ./furrow up.")
+    private Path passwordFile;
+
+    @Option(
+            names = "--fiware-service",
+            paramLabel = "NAME",
+            defaultValue = "farm",
+            description = "Tenant. Default: ${DEFAULT-VALUE}.")
+    private String service;
+
+    /** @throws IOException if the file of the password cannot be read */
+    public FleetSettings settings() throws IOException {
+        String password = passwordFile == null
+                ? Suite.MQTT_PASSWORD
+                : Files.readString(passwordFile).lines().findFirst().orElse("").strip();
+        return new FleetSettings(orion, iotAgent, mqtt, user, password, service, "/")
+                .withIotAgentResource(iotAgentResource);
+    }
+}
