@@ -37,7 +37,13 @@ class EmbeddedMongoTest {
     @Test
     void givesBackEachKindOfValueAndIdAfterARestart() {
         List<Object> ids = List.of(
-                "an event", 7, 7_000_000_000L, 0.5, new ObjectId(), new Document("domain", "farm").append("number", 1), true);
+                "an event",
+                7,
+                7_000_000_000L,
+                0.5,
+                new ObjectId(),
+                new Document("domain", "farm").append("number", 1),
+                true);
         List<Document> documents = new ArrayList<>();
         ids.forEach(id -> documents.add(ofEachKind(id)));
 
@@ -45,8 +51,7 @@ class EmbeddedMongoTest {
 
         with(farm -> {
             assertThat(farm.find()).containsExactlyInAnyOrderElementsOf(documents);
-            ids.forEach(id -> assertThat(farm.find(Filters.eq(id)).first())
-                    .isEqualTo(ofEachKind(id)));
+            ids.forEach(id -> assertThat(farm.find(Filters.eq(id)).first()).isEqualTo(ofEachKind(id)));
         });
     }
 
@@ -61,7 +66,8 @@ class EmbeddedMongoTest {
 
         with(farm -> {
             IntStream.range(0, MANY)
-                    .forEach(number -> assertThat(farm.find(Filters.eq(id(number))).first())
+                    .forEach(number -> assertThat(
+                                    farm.find(Filters.eq(id(number))).first())
                             .isEqualTo(event(number, "old")));
             IntStream.range(0, MANY)
                     .filter(number -> number % 3 == 0)
@@ -73,7 +79,8 @@ class EmbeddedMongoTest {
         with(farm -> {
             assertThat(farm.countDocuments()).isEqualTo(2 * MANY);
             IntStream.range(0, 2 * MANY)
-                    .forEach(number -> assertThat(farm.find(Filters.eq(id(number))).first())
+                    .forEach(number -> assertThat(
+                                    farm.find(Filters.eq(id(number))).first())
                             .isEqualTo(event(number, number < MANY && number % 3 > 0 ? "old" : "new")));
         });
     }

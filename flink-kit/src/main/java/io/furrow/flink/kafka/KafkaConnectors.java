@@ -134,7 +134,7 @@ public final class KafkaConnectors {
         Properties properties = options.kafkaProperties();
         options.producerDefaults().forEach(properties::putIfAbsent);
         properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
-        properties.putIfAbsent("batch.size", "131072");
+        properties.putIfAbsent("batch.size", "262144");
         properties.putIfAbsent("compression.type", "lz4");
         properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
         // A mission's topic may have been created just now. Were two requests under way, the broker could refuse the
