@@ -18,9 +18,9 @@ import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
 
 /**
- * Passes what is posted to {@code /<port>/…} on to that port, again and again until it is answered. A context broker sends each
- * notification once; behind this, one that is not in Kafka in the end was acknowledged. It gets an answer before it would count a failure,
- * of which too many end a subscription.
+ * Passes what is posted to {@code /<port>/…} on to that port, again and again until it is acknowledged: a 2xx; other answers are printed.
+ * A context broker sends each notification once; behind this, one that is not in Kafka in the end was acknowledged. It gets an answer
+ * before it would count a failure, of which too many end a subscription.
  */
 final class NotificationRetries {
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
@@ -57,17 +57,20 @@ final class NotificationRetries {
             PASSED_ON.forEach(name -> exchange.getRequestHeaders()
                     .getOrDefault(name, List.of())
                     .forEach(value -> request.header(name, value)));
-            int status = CompletableFuture.supplyAsync(() -> untilAnswered(request.build()), THREADS)
+            int status = CompletableFuture.supplyAsync(() -> untilAcknowledged(request.build()), THREADS)
                     .completeOnTimeout(NOT_YET, HOLD_SECONDS, TimeUnit.SECONDS)
                     .join();
             exchange.sendResponseHeaders(status, -1);
         }
     }
 
-    private static int untilAnswered(HttpRequest request) {
+    private static int untilAcknowledged(HttpRequest request) {
         try {
             int status = send(request);
-            while (status == 0) {
+            while (status / 100 != 2) {
+                if (status != 0) {
+                    System.out.println("answered " + status + ", sent again");
+                }
                 TimeUnit.MILLISECONDS.sleep(BACKOFF_MS);
                 status = send(request);
             }

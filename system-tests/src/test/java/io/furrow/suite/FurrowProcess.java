@@ -35,7 +35,7 @@ final class FurrowProcess implements AutoCloseable {
                 .forEach(command::add);
         command.addAll(List.of(
                 "-Xmx1g",
-                "-XX:MaxDirectMemorySize=384m",
+                "-XX:MaxDirectMemorySize=1g",
                 "-Djava.io.tmpdir=" + temporary,
                 "-Dfurrow.plugins=" + System.getProperty("furrow.plugins"),
                 "-cp",
