@@ -10,6 +10,7 @@ import java.util.stream.Collectors;
 
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.launcher.suite.Suite;
@@ -17,6 +18,7 @@ import io.furrow.launcher.suite.Suite;
 import static org.assertj.core.api.Assertions.assertThat;
 
 /** What a page of a foreign host could make a browser send, to every HTTP port that this JVM has, also ones that nobody listed here. */
+@Tag("full")
 class HttpAccessIT {
     private static final String BOUNDARY = "frontier";
     /** Paths that change something, or show something, on one of the servers. */

@@ -8,6 +8,7 @@ import java.util.List;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.launcher.suite.Suite;
@@ -17,6 +18,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** The thermometer of the README, with the clients that a user would take. */
+@Tag("full")
 class RealClientsIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String ENTITY = "urn:ngsi-ld:Thermometer:mine";

@@ -2,6 +2,10 @@ package io.furrow.bench.command;
 
 import java.io.IOException;
 import java.io.PrintWriter;
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -18,6 +22,8 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.bench.load.LoadMeasurement;
 import io.furrow.bench.load.LoadReport;
+import io.furrow.bench.load.OverloadMeasurement;
+import io.furrow.bench.load.OverloadReport;
 import io.furrow.bench.mongo.MongoMeasurement;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.embedded.EmbeddedMongo;
@@ -28,6 +34,7 @@ import io.furrow.launcher.Progress;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.simulators.load.LoadPlan;
 
 /** {@code ./furrow bench}. */
@@ -223,5 +230,63 @@ public final class BenchCommand {
             }
             return report.delivered() == report.sent() ? 0 : 1;
         }
+    }
+
+    @Command(
+            name = "overload",
+            abbreviateSynopsis = true,
+            description =
+                    "Sends the embedded suite a rate, half of it, twice as much and half of it again, and prints what arrived, and how"
+                            + " what waited drained. Exit code 1 where a message is missing.")
+    int overload(
+            @Option(
+                            names = "--rate",
+                            paramLabel = "N",
+                            defaultValue = "1250",
+                            description =
+                                    "Messages of 1 kB a second, a multiple of 5: the highest at which p99 stays below 1 s."
+                                            + " Default: ${DEFAULT-VALUE}.")
+                    int rate,
+            @Option(
+                            names = "--seconds",
+                            paramLabel = "S",
+                            defaultValue = "20",
+                            description = "Of each rate. Default: ${DEFAULT-VALUE}.")
+                    long seconds,
+            @Option(
+                            names = "--bursts",
+                            description = "Twice the rate comes as four times the rate in every other second.")
+                    boolean bursts,
+            @Option(
+                            names = {"-h", "--help"},
+                            usageHelp = true,
+                            description = "Show this text.")
+                    boolean wantsHelp)
+            throws Exception {
+        PrintWriter out = spec.commandLine().getOut();
+        try (RunDirectory directory = RunDirectory.open(null);
+                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+            OverloadReport report = new OverloadMeasurement(
+                            suite.devices(),
+                            suite.kafka().clientProperties(),
+                            () -> pending(suite.listener()),
+                            new OverloadMeasurement.Plan(rate, Duration.ofSeconds(seconds), bursts),
+                            line -> {
+                                out.println("  " + line);
+                                out.flush();
+                            })
+                    .run();
+            report.print(out);
+            return report.delivered() == report.sent() ? 0 : 1;
+        }
+    }
+
+    private static long pending(URI listener) throws Exception {
+        HttpRequest request =
+                HttpRequest.newBuilder(listener.resolve("/health")).build();
+        byte[] answer = HttpClient.newHttpClient()
+                .send(request, HttpResponse.BodyHandlers.ofByteArray())
+                .body();
+        return NgsiJson.read(answer).required("pending").asLong();
     }
 }

@@ -31,8 +31,7 @@ import io.furrow.simulators.load.LoadPlan;
  * the suite says otherwise; sender, suite and reader share the machine and its clock.
  */
 public final class LoadMeasurement {
-    private static final Map<String, String> FETCHING =
-            Map.of("max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
+    static final Map<String, String> FETCHING = Map.of("max.partition.fetch.bytes", Integer.toString(8 * 1024 * 1024));
     /** After the last message is sent, this long without an arrival means that the rest is lost. */
     private static final Duration QUIET = Duration.ofSeconds(60);
 
@@ -56,10 +55,7 @@ public final class LoadMeasurement {
 
     /** @throws IOException if the load could not be sent */
     public LoadReport run(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
-        String topic = Topics.realtime(plan.domain(), plan.mission());
-        makeTopic(topic);
-        LoadFleet.provision(devices, plan);
-        awaitQuiet(topic);
+        String topic = prepare(plan);
         Arrivals arrivals = new Arrivals();
         try (TopicReader reader = new TopicReader(kafka, topic, FETCHING, arrivals::add)) {
             reader.start();
@@ -74,6 +70,15 @@ public final class LoadMeasurement {
                     delays(arrivals),
                     arrivals.seconds());
         }
+    }
+
+    /** Makes the mission's topic and its devices, and returns the topic once nothing more is told of their making. */
+    String prepare(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
+        String topic = Topics.realtime(plan.domain(), plan.mission());
+        makeTopic(topic);
+        LoadFleet.provision(devices, plan);
+        awaitQuiet(topic);
+        return topic;
     }
 
     private long send(LoadPlan plan, Arrivals arrivals) throws IOException, InterruptedException {

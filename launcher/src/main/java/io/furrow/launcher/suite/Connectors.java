@@ -24,6 +24,8 @@ public final class Connectors {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     /** Records that come within this time are one batch for all that read them: a fraction of the requests and wake-ups. */
     private static final String LINGER_MS = "25";
+    /** A worker's producer has one request under way; with Kafka's 16 kB it holds a single large record of each partition. */
+    private static final String BATCH_BYTES = "262144";
 
     private static final Duration POLL_INTERVAL = Duration.ofMillis(100);
 
@@ -53,6 +55,8 @@ public final class Connectors {
                 Map.of(
                         "producer.override.linger.ms",
                         LINGER_MS,
+                        "producer.override.batch.size",
+                        BATCH_BYTES,
                         "connector.class",
                         "io.furrow.connect.source.NgsiSourceConnector",
                         "tasks.max",

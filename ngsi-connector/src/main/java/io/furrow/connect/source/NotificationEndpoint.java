@@ -125,7 +125,8 @@ public final class NotificationEndpoint implements AutoCloseable {
                                 Optional.empty(),
                                 HEALTH_CONNECTIONS,
                                 listening.idleTimeout(),
-                                listening.requestTimeout()),
+                                listening.requestTimeout(),
+                                false),
                         NotificationServer.threads(),
                         guarded(config, ledger, new PageHandler(pages(config, ledger))),
                         ledger,
@@ -152,7 +153,8 @@ public final class NotificationEndpoint implements AutoCloseable {
                 tls(config.tls(), ledger),
                 listening.maxConnections(),
                 listening.idleTimeout(),
-                listening.requestTimeout());
+                listening.requestTimeout(),
+                config.overload().resets());
     }
 
     private static Optional<SslContextFactory.Server> tls(TlsOptions options, Ledger ledger) {

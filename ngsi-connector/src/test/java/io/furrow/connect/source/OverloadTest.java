@@ -3,6 +3,7 @@ package io.furrow.connect.source;
 import java.io.IOException;
 import java.io.OutputStream;
 import java.net.Socket;
+import java.net.SocketException;
 import java.net.http.HttpRequest.BodyPublishers;
 import java.net.http.HttpResponse;
 import java.nio.charset.StandardCharsets;
@@ -96,6 +97,48 @@ class OverloadTest {
             rig.intake.answer = Optional.of(CompletableFuture.failedFuture(new RecordLog.ClosedException()));
 
             assertThat(rig.post(ENTITY).join().statusCode()).isEqualTo(503);
+        }
+    }
+
+    @Test
+    void resetsAConnectionThatSendsWhileTheSourceStops() throws Exception {
+        ReceptionRig rig = new ReceptionRig();
+        try (Socket kept = new Socket("127.0.0.1", rig.port())) {
+            kept.setSoTimeout((int) ReceptionRig.TIMEOUT.toMillis());
+            // One request without an answer keeps the server from its end.
+            rig.intake.answer = Optional.of(new CompletableFuture<>());
+            CompletableFuture<HttpResponse<String>> pending = rig.post(ENTITY);
+            await().until(() -> rig.intake.taken.size() == 1);
+            int port = rig.port();
+            kept.getOutputStream().write("POST / HTTP/1.1\r\nHost: localhost\r\nX: ".getBytes());
+
+            CompletableFuture<Void> stopped = CompletableFuture.runAsync(rig::close);
+            await().pollInterval(Duration.ofMillis(1)).until(() -> {
+                kept.getOutputStream().write('x'); // one that says nothing is closed at once
+                return !accepts(port);
+            });
+            kept.getOutputStream().write("\r\nContent-Length: 10\r\n\r\n{\"id\":\"a\"}".getBytes());
+
+            assertThat(isAnswered(kept)).isFalse();
+            assertThat(rig.intake.taken).hasSize(1);
+            assertThat(stopped).succeedsWithin(ReceptionRig.TIMEOUT);
+            assertThat(pending).failsWithin(ReceptionRig.TIMEOUT);
+        }
+    }
+
+    private static boolean isAnswered(Socket socket) throws IOException {
+        try {
+            return socket.getInputStream().read() >= 0;
+        } catch (SocketException e) {
+            return false; // reset
+        }
+    }
+
+    private static boolean accepts(int port) {
+        try (Socket probe = new Socket("127.0.0.1", port)) {
+            return probe.isConnected();
+        } catch (IOException e) {
+            return false;
         }
     }
 

@@ -155,7 +155,7 @@ public final class NotificationHandler extends Handler.Abstract.NonBlocking {
     }
 
     /** Resets the connection: the sender sees a failure, and no half-open connection remains. */
-    private static void reset(Request request, Callback callback) {
+    static void reset(Request request, Callback callback) {
         EndPoint endPoint = request.getConnectionMetaData().getConnection().getEndPoint();
         Object transport = endPoint.getTransport();
         while (transport instanceof EndPoint inner) {

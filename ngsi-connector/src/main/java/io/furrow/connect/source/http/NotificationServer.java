@@ -8,15 +8,20 @@ import java.time.Duration;
 import java.util.Optional;
 import java.util.concurrent.TimeUnit;
 
+import org.eclipse.jetty.http.HttpStatus;
 import org.eclipse.jetty.http.HttpVersion;
 import org.eclipse.jetty.server.Handler;
 import org.eclipse.jetty.server.HttpConfiguration;
 import org.eclipse.jetty.server.HttpConnectionFactory;
 import org.eclipse.jetty.server.NetworkConnectionLimit;
+import org.eclipse.jetty.server.Request;
+import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.server.Server;
 import org.eclipse.jetty.server.ServerConnector;
 import org.eclipse.jetty.server.SslConnectionFactory;
+import org.eclipse.jetty.server.handler.ErrorHandler;
 import org.eclipse.jetty.server.handler.GracefulHandler;
+import org.eclipse.jetty.util.Callback;
 import org.eclipse.jetty.util.component.LifeCycle;
 import org.eclipse.jetty.util.ssl.SslContextFactory;
 import org.eclipse.jetty.util.thread.QueuedThreadPool;
@@ -46,13 +51,28 @@ public final class NotificationServer implements AutoCloseable {
      * @param maxConnections maximum concurrent connections
      * @param idle after which an idle connection is closed
      * @param request the longest time from the first byte of a request to its answer
+     * @param resets whether the connection of a request that comes while the server stops is reset rather than
+     *     answered 503
      */
     public record Settings(
             InetSocketAddress address,
             Optional<SslContextFactory.Server> tls,
             int maxConnections,
             Duration idle,
-            Duration request) {}
+            Duration request,
+            boolean resets) {}
+
+    /** The graceful handler answers 503 while the server stops, which Orion would take for success. */
+    private static final class ResettingErrorHandler extends ErrorHandler {
+        @Override
+        public boolean handle(Request request, Response response, Callback callback) throws Exception {
+            if (response.getStatus() == HttpStatus.SERVICE_UNAVAILABLE_503) {
+                NotificationHandler.reset(request, callback);
+                return true;
+            }
+            return super.handle(request, response, callback);
+        }
+    }
 
     private final Server server;
     private final ServerConnector connector;
@@ -65,6 +85,9 @@ public final class NotificationServer implements AutoCloseable {
         server = new Server(threads);
         server.setStopTimeout(STOP_WITHIN.toMillis());
         server.setHandler(new GracefulHandler(slowSenders.watching(handler)));
+        if (settings.resets()) {
+            server.setErrorHandler(new ResettingErrorHandler());
+        }
         HttpConfiguration http = new HttpConfiguration();
         http.setSendServerVersion(false);
         http.setSendDateHeader(false);

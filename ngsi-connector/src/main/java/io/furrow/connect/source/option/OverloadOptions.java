@@ -28,7 +28,8 @@ public record OverloadOptions(AbstractConfig config) {
                 ANSWER,
                 List.of(RESET, UNAVAILABLE),
                 "Answer",
-                "Answer to a notification that is not durable in time: reset resets the connection, which Orion counts"
+                "Answer to a notification that is not durable in time, or that comes while the source stops: reset"
+                        + " resets the connection, which Orion counts"
                         + " in the subscription's failsCounter, so that the gap is visible and can be repaired; 503"
                         + " with Retry-After is for senders that retry. Orion treats any status as success, even 503.");
         group.number(
