@@ -92,6 +92,18 @@ check_help() {
     done
 }
 
+# A wrong option is answered with a sentence.
+check_refusals() {
+    for name in ingest normalize presence temperature collision; do
+        ! "$FLINK_HOME/bin/flink" run -d "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.refusal" 2>&1 ||
+            fail "flink run of $name with a wrong option ends with 0."
+        grep -q "Unknown option: '--no-such-option'" "$logs/$name.refusal" && grep -q "^See: .* $name --help" "$logs/$name.refusal" &&
+            ! grep -q $'^\tat ' "$logs/$name.refusal" || fail "flink run of $name with a wrong option: $logs/$name.refusal"
+        ! "$java" -jar "$(jar_of "$name")" "$name" --no-such-option >"$logs/$name.refusal" 2>&1 && ! grep -q $'^\tat ' "$logs/$name.refusal" ||
+            fail "$name with a wrong option, without Flink: $logs/$name.refusal"
+    done
+}
+
 # run_job INSTANCE PARALLELISM FLINK-OPTIONS…: appends its id to ids.
 run_job() {
     local instance=$1 name=${1%%-*} subtasks=$2 own_options=(--name "$1")
@@ -127,6 +139,8 @@ build_soaks system-tests
 check_help
 say "--help of all jobs works without Flink"
 provide_flink
+check_refusals
+say "a wrong option is refused with a sentence by all jobs"
 start_kafka
 say "Kafka at $bootstrap"
 task_slots=14 task_manager_memory=3072m start_flink

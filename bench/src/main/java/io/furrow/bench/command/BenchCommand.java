@@ -197,6 +197,14 @@ public final class BenchCommand {
                                     "Seconds before it that are not counted: a quarter, half and all of the load. "
                                             + "Default: ${DEFAULT-VALUE}.")
                     long warmup,
+            @Option(
+                            names = "--skip",
+                            paramLabel = "S",
+                            defaultValue = "0",
+                            description =
+                                    "Of --seconds, those whose delays do not count; with --warmup 0 a cold start. "
+                                            + "Default: ${DEFAULT-VALUE}.")
+                    long skip,
             @Option(names = "--csv", paramLabel = "FILE", description = "Also write the figures here.") Path csv,
             @Option(
                             names = {"-h", "--help"},
@@ -223,7 +231,8 @@ public final class BenchCommand {
                         "warmup-" + share));
             }
             LoadReport report = measurement.run(
-                    new LoadPlan(devices, between, payload, Duration.ofSeconds(seconds), DOMAIN, "load"));
+                    new LoadPlan(devices, between, payload, Duration.ofSeconds(seconds), DOMAIN, "load"),
+                    Duration.ofSeconds(skip));
             report.print(out);
             if (csv != null) {
                 Files.writeString(csv, report.csv());

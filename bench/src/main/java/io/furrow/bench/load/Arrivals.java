@@ -24,10 +24,13 @@ final class Arrivals {
     private final Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
     private final Timeline timeline = new Timeline();
     private final Map<String, Long> newest = new HashMap<>();
+    private final long notBefore;
     private long repeats;
     private long reordered;
 
-    Arrivals() {
+    /** @param notBefore what was sent earlier counts, but its delays do not, epoch ms */
+    Arrivals(long notBefore) {
+        this.notBefore = notBefore;
         for (Hop hop : Hop.values()) {
             delays.put(hop, new Histogram(MAX_MS, DIGITS));
         }
@@ -51,11 +54,13 @@ final class Arrivals {
         long device = stamp(headers, HeaderNames.TS_DEVICE);
         long source = stamp(headers, HeaderNames.TS_SOURCE);
         long ingest = stamp(headers, HeaderNames.TS_INGEST);
-        record(Hop.DEVICE_TO_SOURCE, source - device);
-        record(Hop.SOURCE_TO_INGEST, ingest - source);
-        record(Hop.INGEST_TO_READER, now - ingest);
-        record(Hop.SOURCE_TO_READER, now - source);
-        record(Hop.END_TO_END, now - device);
+        if (device >= notBefore) {
+            record(Hop.DEVICE_TO_SOURCE, source - device);
+            record(Hop.SOURCE_TO_INGEST, ingest - source);
+            record(Hop.INGEST_TO_READER, now - ingest);
+            record(Hop.SOURCE_TO_READER, now - source);
+            record(Hop.END_TO_END, now - device);
+        }
         timeline.add(device, source, ingest, now);
         if (newest.merge(entity, device, Math::max) > device) {
             reordered++;

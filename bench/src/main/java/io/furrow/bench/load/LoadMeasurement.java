@@ -55,8 +55,17 @@ public final class LoadMeasurement {
 
     /** @throws IOException if the load could not be sent */
     public LoadReport run(LoadPlan plan) throws IOException, InterruptedException, ExecutionException {
+        return run(plan, Duration.ZERO);
+    }
+
+    /**
+     * @param skipped from the first message on, whose delays do not count
+     * @throws IOException if the load could not be sent
+     */
+    public LoadReport run(LoadPlan plan, Duration skipped)
+            throws IOException, InterruptedException, ExecutionException {
         String topic = prepare(plan);
-        Arrivals arrivals = new Arrivals();
+        Arrivals arrivals = new Arrivals(System.currentTimeMillis() + skipped.toMillis());
         try (TopicReader reader = new TopicReader(kafka, topic, FETCHING, arrivals::add)) {
             reader.start();
             long sent = send(plan, arrivals);

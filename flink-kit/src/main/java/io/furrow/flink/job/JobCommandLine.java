@@ -3,6 +3,7 @@ package io.furrow.flink.job;
 import java.time.Duration;
 import java.util.Locale;
 
+import org.apache.flink.client.program.ProgramParametrizationException;
 import picocli.CommandLine;
 import picocli.CommandLine.ExecutionException;
 import picocli.CommandLine.ParameterException;
@@ -22,8 +23,24 @@ public final class JobCommandLine {
     public static void run(Object root, JobStarter starter, String... args) {
         int exitCode = starting(root, starter).execute(args);
         if (exitCode != 0) {
-            // No System.exit: main also runs inside a job manager that serves others.
-            throw new JobNotStarted();
+            fail(exitCode);
+        }
+    }
+
+    /** {@code main} also runs inside a job manager that serves others: the JVM is only ended where Flink is not. */
+    private static void fail(int exitCode) {
+        try {
+            throw NotStarted.exception();
+        } catch (NoClassDefFoundError e) {
+            System.exit(exitCode);
+        }
+    }
+
+    /** Apart, since it cannot be loaded without Flink. */
+    private static final class NotStarted {
+        /** The reason has been printed; of this exception {@code flink run} prints the message alone. */
+        static RuntimeException exception() {
+            return new ProgramParametrizationException("The job was not started.");
         }
     }
 
@@ -97,14 +114,5 @@ public final class JobCommandLine {
         line.getErr().println(refused.getMessage());
         line.getErr().println("See: " + line.getCommandSpec().qualifiedName() + " --help");
         return line.getCommandSpec().exitCodeOnInvalidInput();
-    }
-
-    /** The reason has been printed; a stack trace would only hide it. */
-    private static final class JobNotStarted extends RuntimeException {
-        private static final long serialVersionUID = 1L;
-
-        JobNotStarted() {
-            super("the job was not started", null, false, false);
-        }
     }
 }
