@@ -24,9 +24,11 @@ final class Arrivals {
     private final Map<Hop, Histogram> delays = new EnumMap<>(Hop.class);
     private final Timeline timeline = new Timeline();
     private final Map<String, Long> newest = new HashMap<>();
+    private final Map<String, Long> newestAtSource = new HashMap<>();
     private final long notBefore;
     private long repeats;
     private long reordered;
+    private long reorderedAfterSource;
 
     /** @param notBefore what was sent earlier counts, but its delays do not, epoch ms */
     Arrivals(long notBefore) {
@@ -65,6 +67,9 @@ final class Arrivals {
         if (newest.merge(entity, device, Math::max) > device) {
             reordered++;
         }
+        if (newestAtSource.merge(entity, source, Math::max) > source) {
+            reorderedAfterSource++;
+        }
     }
 
     synchronized long distinct() {
@@ -78,6 +83,11 @@ final class Arrivals {
     /** Events that came after one of the same entity that was sent later. */
     synchronized long reordered() {
         return reordered;
+    }
+
+    /** Events that came after one of the same entity that the source had later. */
+    synchronized long reorderedAfterSource() {
+        return reorderedAfterSource;
     }
 
     synchronized List<LoadSecond> seconds() {

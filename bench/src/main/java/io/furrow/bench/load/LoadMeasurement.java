@@ -76,6 +76,7 @@ public final class LoadMeasurement {
                     arrivals.distinct(),
                     arrivals.repeats(),
                     arrivals.reordered(),
+                    arrivals.reorderedAfterSource(),
                     delays(arrivals),
                     arrivals.seconds());
         }

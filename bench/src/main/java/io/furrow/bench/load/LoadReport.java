@@ -16,6 +16,7 @@ import io.furrow.simulators.load.LoadPlan;
  * @param delivered distinct events at the mission's topic
  * @param repeats arrivals of events that had arrived before
  * @param reordered events that came after one of the same entity that was sent later
+ * @param reorderedAfterSource events that came after one of the same entity that the source had later
  * @param delays milliseconds, of first arrivals
  * @param seconds the load over time
  */
@@ -25,6 +26,7 @@ public record LoadReport(
         long delivered,
         long repeats,
         long reordered,
+        long reorderedAfterSource,
         Map<Hop, Histogram> delays,
         List<LoadSecond> seconds) {
     private static final double[] PERCENTILES = {50, 95, 99, 100};
@@ -51,12 +53,13 @@ public record LoadReport(
                 plan.duration().toSeconds());
         out.printf(
                 Locale.ROOT,
-                "sent %d   delivered %d   ratio %.4f   repeats %d   reordered %d%n",
+                "sent %d   delivered %d   ratio %.4f   repeats %d   reordered %d, after the source %d%n",
                 sent,
                 delivered,
                 deliveredRatio(),
                 repeats,
-                reordered);
+                reordered,
+                reorderedAfterSource);
         out.printf("%-18s %8s %8s %8s %8s%n", "delay in ms", "p50", "p95", "p99", "max");
         for (Hop hop : Hop.values()) {
             out.printf("%-18s", hop.title());

@@ -118,11 +118,11 @@ public final class Status implements AutoCloseable {
         lines.add(String.format("%-52s %10s %12s", "topic", "per second", "total"));
         now.forEach((topic, total) -> lines.add(
                 String.format(Locale.ROOT, "%-52s %10.1f %12d", topic, perSecond.getOrDefault(topic, 0.0), total)));
-        lines.add("lag  "
-                + lags.entrySet().stream()
-                        .map(job -> job.getKey() + " "
-                                + (job.getValue().isPresent() ? job.getValue().getAsLong() + " records" : "…"))
-                        .collect(Collectors.joining("   ")));
+        String known = lags.entrySet().stream()
+                .filter(job -> job.getValue().isPresent()) // one that has read nothing yet has none
+                .map(job -> job.getKey() + " " + job.getValue().getAsLong() + " records")
+                .collect(Collectors.joining("   "));
+        lines.add("lag  " + (known.isEmpty() ? "not known yet" : known));
         lines.addAll(notices.get());
         if (inPlace) {
             lines.add("");

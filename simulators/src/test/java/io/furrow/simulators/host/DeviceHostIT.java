@@ -25,6 +25,7 @@ import static org.assertj.core.api.Assertions.assertThat;
 import static org.awaitility.Awaitility.await;
 
 /** A host against a real Kafka and MQTT broker; each test has a mission of its own. */
+@Tag("full")
 class DeviceHostIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final String YARD = "{\"path\": [[-3.48, 40.31]]}";
@@ -79,7 +80,6 @@ class DeviceHostIT {
                         .hasSizeGreaterThan(3));
     }
 
-    @Tag("full")
     @Test
     void beginsAnewAfterAFailureThatNobodyForesaw() throws Exception {
         String device = run("anew", 1);
@@ -97,7 +97,6 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
-    @Tag("full")
     @Test
     void stopsWhatIsNoLongerWantedAndForgetsWhatIsDeleted() throws Exception {
         String stopped = run("end", 1);
@@ -120,7 +119,6 @@ class DeviceHostIT {
         bench.delete(goesOn);
     }
 
-    @Tag("full")
     @Test
     void goesOnAfterARestartAndTakesBackWhatIsGone() throws Exception {
         String device = run("again", 1);
@@ -142,7 +140,6 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
-    @Tag("full")
     @Test
     void saysWhichSettingIsWrongAndTriesAgainWhenTheFieldComes() throws Exception {
         String device = entity("Thermometer", "field", 1);
@@ -164,7 +161,6 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
-    @Tag("full")
     @Test
     void carriesADeviceOnARobotThatComesLater() throws Exception {
         String robot = entity("Robot", "carry", 1);
@@ -193,7 +189,6 @@ class DeviceHostIT {
         bench.delete(robot);
     }
 
-    @Tag("full")
     @Test
     void restartsADeviceAndSaysWhenItIsBack() throws Exception {
         String device = run("restart", 1);
@@ -214,7 +209,6 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
-    @Tag("full")
     @Test
     void connectsAgainWithTheNewCredentialsOfADevice() throws Exception {
         String device = run("stolen", 1);
@@ -232,7 +226,6 @@ class DeviceHostIT {
         bench.delete(device);
     }
 
-    @Tag("full")
     @Test
     void takesUpASecretThatIsRotatedWhileItsDevicesGoOn() throws Exception {
         String device = run("rotated", 1);
