@@ -18,9 +18,9 @@ final class DocumentType extends BasicDataType<Document> {
     private static final byte BSON = 127;
     private static final int FIRST_BYTES = 1024;
     /** Of a map, of a member of one, and of a value, about; on the heap of a 64-bit JVM. */
-    private static final int DOCUMENT_MEMORY = 120;
+    private static final int DOCUMENT_MEMORY = 160;
 
-    private static final int MEMBER_MEMORY = 40;
+    private static final int MEMBER_MEMORY = 96;
     private static final int VALUE_MEMORY = 24;
 
     private final ObjectDataType javaObjects = new ObjectDataType();
@@ -28,6 +28,12 @@ final class DocumentType extends BasicDataType<Document> {
     @Override
     public Document[] createStorage(int size) {
         return new Document[size];
+    }
+
+    /** Of a sample the cache would hold many times its size where documents of a mission differ from those before it. */
+    @Override
+    public boolean isMemoryEstimationAllowed() {
+        return false;
     }
 
     @Override

@@ -95,7 +95,7 @@ final class MongoFile extends H2Backend {
         }
     }
 
-    /** Opens each map with its own types; the one it derives from then finds it open. */
+    /** Opens each map with its own types; of an index, the one it derives from then finds it open. */
     private final class Database extends H2Database {
         Database(String name) {
             super(name, getMvStore(), getCursorRegistry());
@@ -103,11 +103,11 @@ final class MongoFile extends H2Backend {
 
         @Override
         protected MongoCollection<Object> openOrCreateCollection(String collection, CollectionOptions options) {
-            getMvStore()
-                    .openMap(
-                            "databases." + getFullCollectionNamespace(collection),
-                            new MVMap.Builder<Object, Document>().valueType(new DocumentType()));
-            return super.openOrCreateCollection(collection, options);
+            String name = getFullCollectionNamespace(collection);
+            MVMap<Object, Document> documents = getMvStore()
+                    .openMap("databases." + name, new MVMap.Builder<Object, Document>().valueType(new DocumentType()));
+            MVMap<String, Object> meta = getMvStore().openMap("meta." + name);
+            return new LimitedSortCollection(this, collection, options, documents, meta, getCursorRegistry());
         }
 
         @Override

@@ -14,12 +14,15 @@ import com.mongodb.client.MongoClients;
 import com.mongodb.client.MongoCollection;
 import com.mongodb.client.model.Filters;
 import com.mongodb.client.model.ReplaceOptions;
+import com.mongodb.client.model.Sorts;
 import de.bwaldvogel.mongo.MongoServer;
 import de.bwaldvogel.mongo.backend.h2.H2Backend;
 import org.bson.Document;
 import org.bson.types.Binary;
 import org.bson.types.ObjectId;
+import org.h2.mvstore.MVMap;
 import org.h2.mvstore.MVStore;
+import org.h2.mvstore.Page;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 
@@ -83,6 +86,56 @@ class EmbeddedMongoTest {
                                     farm.find(Filters.eq(id(number))).first())
                             .isEqualTo(event(number, number < MANY && number % 3 > 0 ? "old" : "new")));
         });
+    }
+
+    @Test
+    void sortsWhatAQueryWithALimitReturns() {
+        with(farm -> {
+            IntStream.range(0, MANY)
+                    .map(number -> number * 7 % MANY)
+                    .forEach(number -> farm.insertOne(new Document("_id", "e" + number)
+                            .append("number", number)
+                            .append("half", number / 2)));
+
+            assertThat(numbers(farm.find().sort(Sorts.ascending("number")).limit(3)))
+                    .containsExactly(0, 1, 2);
+            assertThat(numbers(farm.find(Filters.lt("number", 200))
+                            .sort(Sorts.descending("half", "number"))
+                            .skip(2)
+                            .limit(3)))
+                    .containsExactly(197, 196, 195);
+            assertThat(numbers(farm.find().sort(Sorts.descending("number")).limit(2 * MANY)))
+                    .hasSize(MANY)
+                    .startsWith(MANY - 1);
+            assertThat(farm.find().sort(Sorts.descending("number")).first().getInteger("number"))
+                    .isEqualTo(MANY - 1);
+        });
+    }
+
+    private static List<Integer> numbers(Iterable<Document> found) {
+        List<Integer> numbers = new ArrayList<>();
+        found.forEach(document -> numbers.add(document.getInteger("number")));
+        return numbers;
+    }
+
+    /** Else a cache of 48 MB takes a heap. */
+    @Test
+    void countsWhatDocumentsTakeOnTheHeapAlsoAfterSmallerOnes() {
+        DocumentType type = new DocumentType();
+        de.bwaldvogel.mongo.bson.Document large = new de.bwaldvogel.mongo.bson.Document("text", "x".repeat(50_000));
+        try (MVStore store = MVStore.open(directory.resolve("pages.mv").toString())) {
+            MVMap<Integer, de.bwaldvogel.mongo.bson.Document> map = store.openMap(
+                    "farm", new MVMap.Builder<Integer, de.bwaldvogel.mongo.bson.Document>().valueType(type));
+            IntStream.range(0, 2_000)
+                    .forEach(number -> map.put(number, new de.bwaldvogel.mongo.bson.Document("text", "x")));
+            IntStream.range(2_000, 2_100).forEach(number -> map.put(number, large));
+
+            Page<?, ?> last = map.getRootPage();
+            while (!last.isLeaf()) {
+                last = last.getChildPage(last.getRawChildPageCount() - 1);
+            }
+            assertThat(last.getMemory()).isGreaterThanOrEqualTo(last.getKeyCount() * type.getMemory(large));
+        }
     }
 
     private void with(Consumer<MongoCollection<Document>> action) {
