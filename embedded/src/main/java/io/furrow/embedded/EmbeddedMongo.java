@@ -12,7 +12,7 @@ import de.bwaldvogel.mongo.backend.memory.MemoryBackend;
 
 /**
  * A server in this JVM that speaks MongoDB's protocol, on 127.0.0.1, with its documents in one file unless said. What it has acknowledged
- * outlives the end of its process, also a sudden one; not that of the machine. It keeps no index but that of {@code _id} and
+ * outlives the end of its process, also a sudden one; not that of the machine. It keeps indexes of unique keys and of one date, and
  * removes nothing by itself.
  */
 public final class EmbeddedMongo implements AutoCloseable {

@@ -25,6 +25,19 @@ final class LimitedSortCollection extends H2Collection {
         super(database, name, options, documents, meta, cursors);
     }
 
+    @Override
+    protected QueryResult queryDocuments(
+            Document query, Document order, int skip, int limit, int batchSize, Document fields) {
+        return getIndexes().stream()
+                .filter(DateIndex.class::isInstance)
+                .map(DateIndex.class::cast)
+                .flatMap(index -> index.keys(query, order).stream())
+                .findFirst()
+                .map(keys -> matchDocumentsFromStream(
+                        query, keys.map(this::getDocument), skip, limit, batchSize, null, fields))
+                .orElseGet(() -> super.queryDocuments(query, order, skip, limit, batchSize, fields));
+    }
+
     private record Numbered(Document document, long number) {}
 
     @Override

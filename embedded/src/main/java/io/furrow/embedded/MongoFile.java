@@ -116,5 +116,16 @@ final class MongoFile extends H2Backend {
             getMvStore().openMap(getFullCollectionNamespace(collection) + INDEX + index, indexMap());
             return super.openOrCreateUniqueIndex(collection, index, keys, sparse);
         }
+
+        /** A date that queries sort by is one field; other indexes than of such and of unique keys the library leaves empty. */
+        @Override
+        protected Index<Object> openOrCreateSecondaryIndex(
+                String collection, String index, List<IndexKey> keys, boolean sparse) {
+            if (keys.size() > 1 || keys.get(0).getKey().contains(".")) {
+                return super.openOrCreateSecondaryIndex(collection, index, keys, sparse);
+            }
+            String name = getFullCollectionNamespace(collection) + INDEX + index;
+            return new DateIndex(index, keys.get(0), getMvStore().openMap(name, indexMap()));
+        }
     }
 }

@@ -11,6 +11,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Locale;
+import java.util.function.Consumer;
 
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
@@ -212,14 +213,9 @@ public final class BenchCommand {
                             description = "Show this text.")
                     boolean wantsHelp)
             throws Exception {
-        PrintWriter out = spec.commandLine().getOut();
-        try (RunDirectory directory = RunDirectory.open(null);
-                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+        return onSuite((suite, progress) -> {
             LoadMeasurement measurement =
-                    new LoadMeasurement(suite.devices(), suite.kafka().clientProperties(), line -> {
-                        out.println("  " + line);
-                        out.flush();
-                    });
+                    new LoadMeasurement(suite.devices(), suite.kafka().clientProperties(), progress);
             Duration between = Duration.ofMillis(period);
             for (int share = WARM_UP_STEPS; warmup > 0 && share >= 1; share /= 2) {
                 measurement.run(new LoadPlan(
@@ -233,12 +229,12 @@ public final class BenchCommand {
             LoadReport report = measurement.run(
                     new LoadPlan(devices, between, payload, Duration.ofSeconds(seconds), DOMAIN, "load"),
                     Duration.ofSeconds(skip));
-            report.print(out);
+            report.print(spec.commandLine().getOut());
             if (csv != null) {
                 Files.writeString(csv, report.csv());
             }
             return report.delivered() == report.sent() ? 0 : 1;
-        }
+        });
     }
 
     @Command(
@@ -272,21 +268,32 @@ public final class BenchCommand {
                             description = "Show this text.")
                     boolean wantsHelp)
             throws Exception {
-        PrintWriter out = spec.commandLine().getOut();
-        try (RunDirectory directory = RunDirectory.open(null);
-                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+        return onSuite((suite, progress) -> {
             OverloadReport report = new OverloadMeasurement(
                             suite.devices(),
                             suite.kafka().clientProperties(),
                             () -> pending(suite.listener()),
                             new OverloadMeasurement.Plan(rate, Duration.ofSeconds(seconds), bursts),
-                            line -> {
-                                out.println("  " + line);
-                                out.flush();
-                            })
+                            progress)
                     .run();
-            report.print(out);
+            report.print(spec.commandLine().getOut());
             return report.delivered() == report.sent() ? 0 : 1;
+        });
+    }
+
+    private interface Measurement {
+        /** @return the exit code */
+        int run(Suite suite, Consumer<String> progress) throws Exception;
+    }
+
+    private int onSuite(Measurement measurement) throws Exception {
+        PrintWriter out = spec.commandLine().getOut();
+        try (RunDirectory directory = RunDirectory.open(null);
+                Suite suite = Suite.start(SuiteSettings.onFreePorts("10s"), directory, new Progress(out))) {
+            return measurement.run(suite, line -> {
+                out.println("  " + line);
+                out.flush();
+            });
         }
     }
 

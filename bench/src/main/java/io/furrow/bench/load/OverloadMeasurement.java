@@ -134,12 +134,12 @@ public final class OverloadMeasurement {
 
     private Interval send(double factor, Duration duration) throws IOException, InterruptedException {
         LoadPlan load = plan.load(factor, duration);
-        long from = System.currentTimeMillis();
         try (LoadFleet fleet = LoadFleet.start(devices, load)) {
+            long from = System.currentTimeMillis();
             fleet.await();
             sent += fleet.acknowledged();
+            return new Interval(from, System.currentTimeMillis());
         }
-        return new Interval(from, System.currentTimeMillis());
     }
 
     private Interval bursts() throws IOException, InterruptedException {

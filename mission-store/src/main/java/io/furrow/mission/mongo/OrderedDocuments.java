@@ -59,7 +59,7 @@ final class OrderedDocuments implements AutoCloseable {
     /**
      * How much is read at once.
      *
-     * @param perQuery documents of the first query; the embedded server looks at the whole mission for each
+     * @param perQuery documents of the first query
      * @param queryBytes a query that follows on a full one is twice as long, as long as its documents are expected to be within
      *     these: the embedded server holds in memory what a query may return
      * @param crowd more documents of one millisecond than these are read by ids; less than {@code perQuery}

@@ -7,6 +7,7 @@ import java.util.ArrayList;
 import java.util.Collection;
 import java.util.List;
 import java.util.Map;
+import java.util.Objects;
 import java.util.Optional;
 import java.util.Properties;
 import java.util.Random;
@@ -130,13 +131,26 @@ public final class AlarmDelivery implements RestartingWorker.Work, ConsumerRebal
             decided = now;
             queue.passTime(now);
         }
+        List<DeliveryQueue.Post> posts = new ArrayList<>();
         for (Optional<DeliveryQueue.Post> next = queue.next(now); next.isPresent(); next = queue.next(now)) {
-            DeliveryQueue.Post post = next.get();
-            try {
-                webhook.post(post.id(), post.alarm()).thenAccept(answer -> done.add(new Done(post, answer)));
-            } catch (RuntimeException e) { // an alarm that cannot be posted must not block the others
-                done.add(new Done(post, Webhook.Answer.failed(e.toString())));
-            }
+            posts.add(next.get());
+        }
+        List<DeliveryQueue.Update> attempts = posts.stream()
+                .map(DeliveryQueue.Post::attempt)
+                .filter(Objects::nonNull)
+                .toList();
+        if (!attempts.isEmpty()) {
+            attempts.forEach(this::store);
+            producer.flush();
+        }
+        posts.forEach(this::post);
+    }
+
+    private void post(DeliveryQueue.Post post) {
+        try {
+            webhook.post(post.id(), post.alarm()).thenAccept(answer -> done.add(new Done(post, answer)));
+        } catch (RuntimeException e) { // an alarm that cannot be posted must not block the others
+            done.add(new Done(post, Webhook.Answer.failed(e.toString())));
         }
     }
 

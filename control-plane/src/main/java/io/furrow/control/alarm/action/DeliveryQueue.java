@@ -49,8 +49,9 @@ final class DeliveryQueue {
      * An alarm to be posted.
      *
      * @param id of the delivery: {@code <alarm>:<sequence>}, for a repetition {@code <alarm>:<sequence>:<number>}
+     * @param attempt to be stored before the post, which may be accepted though nobody learns of it; null if the alarm has one
      */
-    record Post(String id, Alarm alarm, int repeats) {}
+    record Post(String id, Alarm alarm, int repeats, Update attempt) {}
 
     /**
      * A change of the stored deliveries.
@@ -63,7 +64,7 @@ final class DeliveryQueue {
     private static final class Entry {
         /** Null until the alarm was read. */
         private Alarm newest;
-        /** Null until the alarm was posted. */
+        /** Null until the alarm is posted. */
         private Delivered delivered;
 
         private boolean removed;
@@ -128,15 +129,20 @@ final class DeliveryQueue {
             entry.underWay = true;
             underWay++;
         });
-        return next.map(DeliveryQueue::post);
+        return next.map(entry -> post(entry, now));
     }
 
-    private static Post post(Entry entry) {
+    private static Post post(Entry entry, long now) {
         Alarm alarm = entry.newest;
-        boolean again = entry.delivered != null && entry.delivered.sequence() == alarm.sequence();
+        boolean first = entry.delivered == null;
+        if (first) {
+            entry.delivered = Delivered.attempted(now);
+        }
+        boolean again = entry.delivered.sequence() == alarm.sequence();
         int repeats = again ? entry.delivered.repeats() + 1 : 0;
         String id = "%s:%d".formatted(alarm.alarm(), alarm.sequence());
-        return new Post(repeats == 0 ? id : id + ":" + repeats, alarm, repeats);
+        Update attempt = first ? new Update(alarm.alarm(), entry.delivered) : null;
+        return new Post(repeats == 0 ? id : id + ":" + repeats, alarm, repeats, attempt);
     }
 
     /** Handles the result of a post, also of one that an earlier queue began. */

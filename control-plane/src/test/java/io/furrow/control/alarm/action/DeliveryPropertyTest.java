@@ -163,7 +163,9 @@ class DeliveryPropertyTest {
         private void post() {
             for (int i = 0; i < 20; i++) {
                 for (Optional<DeliveryQueue.Post> next = queue.next(now); next.isPresent(); next = queue.next(now)) {
-                    underWay.add(next.get());
+                    DeliveryQueue.Post post = next.get();
+                    underWay.add(post);
+                    Optional.ofNullable(post.attempt()).ifPresent(this::store);
                 }
                 assertThat(underWay.size()).as(said).isLessThanOrEqualTo(DeliveryQueue.MAX_UNDER_WAY);
                 assertThat(underWay)

@@ -228,10 +228,25 @@ class DeliveryQueueTest {
         Alarm old = Alarm.raised(cause(AlarmKind.COLLISION, "old"), null, ++sequence, now - 2)
                 .become(AlarmState.CLOSED, null, "over", now - 1);
 
-        queue = new DeliveryQueue(SETTINGS, now, new Random(7));
-        stored.forEach(queue::restore);
+        restart();
         List.of(first, second, closed, old).forEach(alarm -> queue.take(alarm, now));
         assertThat(ids(all())).containsExactlyInAnyOrder(second.alarm(), closed.alarm());
+    }
+
+    /** The answer of its post was lost with the process. */
+    @Test
+    void postsTheEndOfAnInhibitedAlarmThatMayHaveBeenAccepted() {
+        Alarm alarm = take(AlarmKind.SILENT_DEVICE);
+        now += SETTINGS.groupWait().toMillis();
+        assertThat(ids(all())).containsExactly(alarm.alarm());
+
+        restart();
+        Alarm inhibited = alarm.inhibited("silent-farm-1", now).numbered(++sequence);
+        queue.take(inhibited, now);
+        assertThat(all()).isEmpty();
+        queue.take(inhibited.become(AlarmState.CLOSED, null, "over", now).numbered(++sequence), now);
+
+        assertThat(all()).extracting(post -> post.alarm().state()).containsExactly(AlarmState.CLOSED);
     }
 
     @Test
@@ -254,6 +269,11 @@ class DeliveryQueueTest {
         assertThat(queue.forgetMissing()).isEmpty();
     }
 
+    private void restart() {
+        queue = new DeliveryQueue(SETTINGS, now, new Random(7));
+        stored.forEach(queue::restore);
+    }
+
     private Alarm take(AlarmKind kind) {
         Alarm alarm = Alarm.raised(cause(kind, "s" + sequence), null, ++sequence, now);
         queue.take(alarm, now);
@@ -268,6 +288,7 @@ class DeliveryQueueTest {
         List<DeliveryQueue.Post> all = new ArrayList<>();
         for (Optional<DeliveryQueue.Post> next = queue.next(now); next.isPresent(); next = queue.next(now)) {
             all.add(next.get());
+            Optional.ofNullable(next.get().attempt()).ifPresent(this::store);
         }
         return all;
     }
@@ -277,12 +298,14 @@ class DeliveryQueueTest {
     }
 
     private void complete(DeliveryQueue.Post post, Webhook.Answer answer) {
-        queue.completed(post, answer, now).ifPresent(update -> {
-            if (update.delivered() == null) {
-                stored.remove(update.alarm());
-            } else {
-                stored.put(update.alarm(), update.delivered());
-            }
-        });
+        queue.completed(post, answer, now).ifPresent(this::store);
+    }
+
+    private void store(DeliveryQueue.Update update) {
+        if (update.delivered() == null) {
+            stored.remove(update.alarm());
+        } else {
+            stored.put(update.alarm(), update.delivered());
+        }
     }
 }
