@@ -6,6 +6,7 @@ import java.util.LinkedHashMap;
 import java.util.LinkedHashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Set;
 
 import io.furrow.connect.repair.entity.EntityRecord;
@@ -21,6 +22,7 @@ public final class LastRecords {
     private static final int ENTRY_BYTES = 320;
 
     private static final long UNKNOWN = Long.MIN_VALUE;
+    private static final long NEVER = Long.MAX_VALUE;
 
     /** The decision on a record that was read from the context broker. */
     enum Judgment {
@@ -55,7 +57,8 @@ public final class LastRecords {
     private long bytes;
     private long clock;
     private long forgotten = UNKNOWN;
-    private boolean overflow;
+    /** The oldest record of a stale entity that did not fit. */
+    private long overflow = NEVER;
 
     /** @param maxBytes of heap */
     LastRecords(long maxBytes) {
@@ -70,13 +73,15 @@ public final class LastRecords {
     /**
      * A notification's record was appended to the topic.
      *
-     * @return whether its state is new: neither notified before by the same subscription nor read
+     * @return whether its state is new: neither notified before by the same subscription, nor read, nor deleted since
      */
     boolean append(EntityRecord record, String subscription) {
         long modified = millis(record);
         Last last = entities.get(record.identity());
         long newest = last == null || last.modified == UNKNOWN ? forgotten : last.modified;
         boolean isNew = modified > newest;
+        // A repair does not learn when an entity was deleted: earlier changes may be newer than those known so far.
+        boolean isSuperseded = last != null && (last.gone || last.stale) && modified <= forgotten;
         boolean isStale;
         if (last == null) {
             last = add(record);
@@ -95,8 +100,8 @@ public final class LastRecords {
         boolean isOther = last.from != 0 && last.from != from && modified == last.modified;
         set(last, record, from);
         last.modified = modified == UNKNOWN ? UNKNOWN : Math.max(modified, newest);
-        mark(record.identity(), last, isStale || last.mixed);
-        return isNew || isOther || modified == UNKNOWN;
+        mark(record, last, isStale || last.mixed);
+        return isNew && !isSuperseded || isOther || modified == UNKNOWN;
     }
 
     /** A record from before the start, of which only the event is known; records since the start are later. */
@@ -125,7 +130,7 @@ public final class LastRecords {
             if (!found.gone()) {
                 last.modified = came ? Math.max(modified, last.modified) : modified;
             }
-            mark(found.identity(), last, false);
+            mark(found, last, false);
             return Judgment.REPEATED;
         }
         if (!came || !last.mixed && last.modified != UNKNOWN && modified > last.modified) {
@@ -134,7 +139,7 @@ public final class LastRecords {
         if (!last.mixed && !last.stale && modified != UNKNOWN && modified < last.modified) {
             return Judgment.REPEATED;
         }
-        mark(found.identity(), last, true);
+        mark(found, last, true);
         return Judgment.ASK_AGAIN;
     }
 
@@ -146,16 +151,16 @@ public final class LastRecords {
         }
         set(last, found, 0);
         last.modified = found.gone() ? last.modified : millis(found);
-        mark(found.identity(), last, false);
+        mark(found, last, false);
     }
 
     /** An appended record did not become durable: the last record is unknown. */
-    void fail(String identity) {
-        Last last = entities.get(identity);
+    void fail(EntityRecord record) {
+        Last last = entities.get(record.identity());
         if (last != null) {
             last.eventId = "";
             last.gone = false;
-            mark(identity, last, true);
+            mark(record, last, true);
         }
     }
 
@@ -163,10 +168,9 @@ public final class LastRecords {
     void settle(String identity) {
         Last last = entities.get(identity);
         if (last != null) {
-            mark(identity, last, false);
-        } else {
-            stale.remove(identity);
+            last.stale = false;
         }
+        stale.remove(identity);
     }
 
     /** Changes before this time may have been notified before this task started to track records. */
@@ -188,11 +192,14 @@ public final class LastRecords {
         return List.copyOf(stale);
     }
 
-    /** Whether more entities were stale than fit since the last call. */
-    boolean takeOverflow() {
-        boolean was = overflow;
-        overflow = false;
-        return was;
+    /**
+     * The time from which changes have to be read because more entities were stale than fit since the last call, the
+     * beginning if it is unknown; empty if all did fit. A state in the context broker is no older than any record of it.
+     */
+    Optional<Instant> takeOverflow() {
+        long from = overflow;
+        overflow = NEVER;
+        return from == NEVER ? Optional.empty() : Optional.of(Instant.ofEpochMilli(Math.max(0, from)));
     }
 
     private Last add(EntityRecord record) {
@@ -220,12 +227,13 @@ public final class LastRecords {
         last.at = ++clock;
     }
 
-    private void mark(String identity, Last last, boolean isStale) {
+    private void mark(EntityRecord record, Last last, boolean isStale) {
+        String identity = record.identity();
         last.stale = isStale;
         if (isStale && (stale.size() < maxBytes / ENTRY_BYTES || stale.contains(identity))) {
             stale.add(identity);
         } else if (isStale) {
-            overflow = true;
+            overflow = Math.min(overflow, millis(record));
         } else {
             stale.remove(identity);
         }

@@ -21,6 +21,7 @@ public final class LiveEvents {
     private final Arrivals arrivals = new Arrivals();
     private final LastRecords last;
     private volatile Consumer<String> staleListener = identity -> {};
+    private volatile Consumer<Instant> overflowListener = from -> {};
 
     /** @param maxBytes heap for the tracked entities */
     public LiveEvents(long maxBytes) {
@@ -79,16 +80,33 @@ public final class LiveEvents {
         return durable.whenComplete((nothing, failure) -> {
             if (failure != null) {
                 synchronized (this) {
-                    records.forEach(record -> last.fail(record.identity()));
+                    records.forEach(last::fail);
                 }
             }
             (failure == null ? stale : records).forEach(record -> listener.accept(record.identity()));
+            reportOverflow();
         });
+    }
+
+    private void reportOverflow() {
+        Optional<Instant> from;
+        synchronized (this) {
+            from = last.takeOverflow();
+        }
+        from.ifPresent(overflowListener);
     }
 
     /** Registers a listener for each entity that has to be read again; it is called from any thread. */
     void onStale(Consumer<String> listener) {
         staleListener = listener;
+    }
+
+    /**
+     * Registers a listener for the time from which changes have to be read again because more entities were stale than
+     * are tracked; it is called from any thread.
+     */
+    void onOverflow(Consumer<Instant> listener) {
+        overflowListener = listener;
     }
 
     /** Restores the entities that were to be read again when the source stopped. */
@@ -102,8 +120,13 @@ public final class LiveEvents {
     }
 
     /** Whether a read state is new. */
-    synchronized boolean isNews(EntityRecord found, long asked) {
-        return last.judge(found, asked) == Judgment.NEWS;
+    boolean isNews(EntityRecord found, long asked) {
+        Judgment judgment;
+        synchronized (this) {
+            judgment = last.judge(found, asked);
+        }
+        reportOverflow();
+        return judgment == Judgment.NEWS;
     }
 
     /** The findings of a repair that were appended; empty durability if there was no room. */
@@ -115,6 +138,18 @@ public final class LiveEvents {
      * @param asked the {@link #now} before the context broker was queried
      */
     <T> Appended<T> appendNews(
+            List<T> found,
+            Function<T, EntityRecord> record,
+            long asked,
+            Function<List<T>, Optional<CompletableFuture<Void>>> appending) {
+        try {
+            return appendedNews(found, record, asked, appending);
+        } finally {
+            reportOverflow();
+        }
+    }
+
+    private <T> Appended<T> appendedNews(
             List<T> found,
             Function<T, EntityRecord> record,
             long asked,
@@ -153,10 +188,6 @@ public final class LiveEvents {
 
     synchronized void settle(String identity) {
         last.settle(identity);
-    }
-
-    synchronized boolean takeOverflow() {
-        return last.takeOverflow();
     }
 
     /** Changes before this time may be on the topic although they are not tracked. */

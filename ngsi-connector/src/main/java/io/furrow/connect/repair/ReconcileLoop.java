@@ -2,6 +2,7 @@ package io.furrow.connect.repair;
 
 import java.io.IOException;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Function;
@@ -74,6 +75,7 @@ public final class ReconcileLoop implements AutoCloseable {
             throw e;
         }
         means.live().onStale(caretakers::markStale);
+        means.live().onOverflow(caretakers::noteLate);
         caretakers.show(means.ledger());
         caretakers.thread.start();
         return caretakers;
@@ -158,6 +160,20 @@ public final class ReconcileLoop implements AutoCloseable {
             } catch (IOException | RuntimeException e) {
                 // The next poll fails for the same reason, and logs it.
                 LOG.debug("cannot note {}", LogText.oneLine(identity), e);
+            }
+        }
+    }
+
+    /** Each of them reads again: whose entities they are was not tracked. */
+    private void noteLate(Instant from) {
+        for (Schedule charge : charges) {
+            try {
+                charge.caretaker.noteLate(from);
+            } catch (IOException | RuntimeException e) {
+                LOG.warn(
+                        "cannot store from when entities of {} have to be read again; a restart would forget it",
+                        charge.caretaker.scope(),
+                        e);
             }
         }
     }

@@ -6,10 +6,12 @@ import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.Comparator;
 import java.util.List;
 import java.util.Optional;
 import java.util.Set;
 import java.util.function.Function;
+import java.util.stream.Stream;
 
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
@@ -20,6 +22,7 @@ import io.furrow.connect.broker.Outcome;
 import io.furrow.connect.ledger.Ledger;
 import io.furrow.connect.repair.DeliveryBalance.Arrived;
 import io.furrow.connect.repair.DeliveryBalance.Verdict;
+import io.furrow.connect.repair.LateRecords.Late;
 import io.furrow.connect.repair.entity.BrokerEntities;
 import io.furrow.connect.repair.entity.Identities;
 import io.furrow.connect.repair.entity.KnownEntities;
@@ -42,11 +45,13 @@ public final class SubscriptionReconciler implements AutoCloseable {
     private final SharedServices means;
     private final KnownEntities known;
     private final Watermark watermark;
+    private final LateRecords lateRecords;
     private final DeliveryBalance balance;
     private final BrokerUptime uptime;
     private String subscription = "";
     private Optional<Instant> lookedAt = Optional.empty();
     private Optional<String> missing = Optional.empty();
+    private Optional<Late> late = Optional.empty();
     private long turnedAway;
     private final ListingSchedule listings;
     private volatile Duration gap = Duration.ZERO;
@@ -77,6 +82,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         balance = new DeliveryBalance(keeper.wanted().content().namesItsSubscription());
         known = KnownEntities.open(folder.resolve("known"), settings.deletions().knownMaxBytes());
         watermark = Watermark.open(folder.resolve("watermark"));
+        lateRecords = LateRecords.open(folder.resolve("late"));
         means.live().restoreStale(known.stale());
         watermark.time().ifPresent(time -> means.live().forgetUntil(time.minus(settings.overlap())));
     }
@@ -122,6 +128,11 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
     }
 
+    /** What changed since a time has to be read again; from any thread. */
+    void noteLate(Instant from) throws IOException {
+        lateRecords.add(from);
+    }
+
     /** Whether its subscription notifies about entities in the scope. */
     boolean covers(FiwareScope scope) {
         FiwareScope ours = keeper.scope();
@@ -153,7 +164,8 @@ public final class SubscriptionReconciler implements AutoCloseable {
         if (failed > turnedAway) {
             miss("the source had to reject notifications");
         }
-        if (means.live().takeOverflow()) {
+        late = lateRecords.late();
+        if (late.isPresent()) {
             miss("more notifications were late than repair.recent.max.bytes can track");
         }
         turnedAway = failed;
@@ -162,6 +174,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         }
         if (settings.mode() == RepairSettings.Mode.OFF) {
             missing = Optional.empty();
+            lateRecords.settle(late);
         } else {
             repair(kept, verdict, now);
         }
@@ -228,6 +241,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         if (isMissing) {
             report(kept, missing.get(), repair.result(), Duration.ofNanos(System.nanoTime() - begin));
             missing = Optional.empty();
+            lateRecords.settle(late);
             // To the second: later notifications of earlier changes concern entities that were read or deleted.
             means.live().forgetUntil(kept.at().plusSeconds(1));
             balance.repaired(means.live().arrivedOf(kept.id()));
@@ -254,9 +268,12 @@ public final class SubscriptionReconciler implements AutoCloseable {
             throws BrokerException, IOException, InterruptedException {
         Optional<Instant> good = watermark.time().or(() -> LastNotification.of(kept));
         gap = good.map(time -> Duration.between(time, now)).orElse(Duration.ZERO);
-        Optional<Instant> since = good.map(time -> time.minus(settings.overlap()))
+        Optional<Instant> missed = good.map(time -> time.minus(settings.overlap()))
                 .or(() ->
                         settings.mode() == RepairSettings.Mode.INITIAL ? Optional.of(Instant.EPOCH) : Optional.empty());
+        Optional<Instant> since = Stream.of(missed, late.map(Late::from))
+                .flatMap(Optional::stream)
+                .min(Comparator.naturalOrder());
         if (since.isPresent()) {
             means.live().forgetUntil(since.get());
             repair.changesFrom(since.get());

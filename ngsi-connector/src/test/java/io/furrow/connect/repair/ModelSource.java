@@ -89,6 +89,7 @@ final class ModelSource implements RepairOutput, AutoCloseable {
         caretaker = SubscriptionReconciler.open(
                 charge, settings, new SubscriptionReconciler.SharedServices(live, this, ledger));
         live.onStale(this::markStale);
+        live.onOverflow(this::noteLate);
     }
 
     /** Bounds of pages, in entities and bytes, of what is remembered, in bytes, and least time between listings. */
@@ -101,6 +102,14 @@ final class ModelSource implements RepairOutput, AutoCloseable {
     private void markStale(String identity) {
         try {
             caretaker.markStale(identity);
+        } catch (IOException e) {
+            throw new AssertionError(e);
+        }
+    }
+
+    private void noteLate(Instant from) {
+        try {
+            caretaker.noteLate(from);
         } catch (IOException e) {
             throw new AssertionError(e);
         }

@@ -141,4 +141,66 @@ class SubscriptionReconcilerTest {
 
         assertThat(topic.values()).containsEntry("e Probe", "newer");
     }
+
+    /** It would stand for the one that was lost after the repair. */
+    @Test
+    void countsNoLateChangeOfAnEntityThatARepairFoundDeleted() throws Exception {
+        Bounds bounds = new Bounds(10, 5000, 1 << 20, Duration.ZERO);
+        try (ModelSource source = new ModelSource(broker, folder, bounds, topic)) {
+            source.look();
+            broker.put("deleted", "Probe", "v1");
+            source.take(broker.queue.remove(0));
+            source.look();
+            broker.pass(1);
+            broker.put("deleted", "Probe", "v2");
+            broker.delete("deleted Probe");
+            broker.queue.remove(1);
+            broker.failed();
+            source.look();
+            assertThat(topic.gone()).containsEntry("deleted", true);
+
+            broker.put("lost", "Probe", "v");
+            broker.queue.remove(1);
+            source.take(broker.queue.remove(0));
+            source.look();
+            source.look();
+        }
+
+        assertThat(topic.values()).containsOnlyKeys("lost Probe");
+    }
+
+    /** The states to read again are older than the time up to which the books are balanced. */
+    @Test
+    void emitsTheNewestStatesAgainAfterMoreThatComeLateThanAreTrackedAlsoAcrossARestart() throws Exception {
+        Bounds bounds = new Bounds(10, 5000, 700, Duration.ofHours(1));
+        List<ModelBroker.Told> older = new ArrayList<>();
+        try (ModelSource source = new ModelSource(broker, folder, bounds, topic)) {
+            source.look();
+            for (int i = 0; i < 5; i++) {
+                broker.put("e" + i, "Probe", "older");
+                broker.pass(5);
+                broker.put("e" + i, "Probe", "newer");
+                older.add(broker.queue.get(0));
+                source.take(broker.queue.remove(0));
+                source.take(broker.queue.remove(0));
+            }
+            broker.pass(60_000);
+            source.look();
+            source.look();
+            assertThat(topic.values()).hasSize(5).containsValue("newer").doesNotContainValue("older");
+
+            older.forEach(source::take);
+            assertThat(topic.values()).doesNotContainValue("newer");
+        }
+        try (ModelSource source = new ModelSource(broker, folder, bounds, topic)) {
+            source.look();
+            assertThat(topic.values()).hasSize(5).doesNotContainValue("older");
+
+            older.forEach(source::take);
+            assertThat(topic.values()).doesNotContainValue("newer");
+            source.look();
+        }
+
+        assertThat(topic.values()).hasSize(5).doesNotContainValue("older");
+    }
 }

@@ -1,0 +1,67 @@
+package io.furrow.connect.repair;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.nio.file.StandardCopyOption;
+import java.time.DateTimeException;
+import java.time.Instant;
+import java.util.Optional;
+
+/**
+ * The oldest of the records that are stale and that {@link LastRecords} cannot track: what changed since has to be read again.
+ * Survives a restart in a file. Thread-safe.
+ */
+final class LateRecords {
+    /**
+     * The records up to now.
+     *
+     * @param from time of the oldest
+     * @param count how many there were, to tell later ones from these
+     */
+    record Late(Instant from, long count) {}
+
+    private final Path file;
+    private Optional<Late> late;
+
+    private LateRecords(Path file, Optional<Late> late) {
+        this.file = file;
+        this.late = late;
+    }
+
+    /** An unreadable file counts as the least time: then more is read again than needed. */
+    static LateRecords open(Path file) throws IOException {
+        if (!Files.exists(file)) {
+            return new LateRecords(file, Optional.empty());
+        }
+        try {
+            Instant from = Instant.parse(Files.readString(file).trim());
+            return new LateRecords(file, Optional.of(new Late(from, 1)));
+        } catch (DateTimeException e) {
+            return new LateRecords(file, Optional.of(new Late(Instant.EPOCH, 1)));
+        }
+    }
+
+    synchronized Optional<Late> late() {
+        return late;
+    }
+
+    synchronized void add(Instant time) throws IOException {
+        Optional<Late> before = late;
+        Instant from = before.map(Late::from).filter(time::isAfter).orElse(time);
+        late = Optional.of(new Late(from, before.map(Late::count).orElse(0L) + 1));
+        if (before.map(Late::from).filter(from::equals).isEmpty()) {
+            Path next = file.resolveSibling(file.getFileName() + ".tmp");
+            Files.writeString(next, from + "\n");
+            Files.move(next, file, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
+        }
+    }
+
+    /** These were read again; keeps all if others were added meanwhile. */
+    synchronized void settle(Optional<Late> these) throws IOException {
+        if (late.isPresent() && late.equals(these)) {
+            Files.deleteIfExists(file);
+            late = Optional.empty();
+        }
+    }
+}
