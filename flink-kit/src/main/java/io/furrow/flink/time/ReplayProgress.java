@@ -5,7 +5,7 @@ import java.util.function.LongSupplier;
 /**
  * How long a replay has been read, over all partitions of its reader: a clock that stands still while the replay is paused.
  * The time between two records counts, of a long one no more than a pause; after the end of an epoch, when nothing more is to
- * come, all of it.
+ * come, all of it, unless the next record begins another: then it was the replay that waited, and no partition is behind.
  */
 final class ReplayProgress {
     private final LongSupplier clock;
@@ -25,11 +25,13 @@ final class ReplayProgress {
     /**
      * A record was read.
      *
+     * @param time event time of the record
      * @param reached event time of its partition
      * @param end whether it ends its epoch
      */
-    void advance(long reached, boolean end) {
-        read = millis();
+    void advance(long time, long reached, boolean end) {
+        boolean begins = ended && time > furthest; // after an end that is the last instant of its epoch
+        read = begins ? read + Math.min(clock.getAsLong() - last, pauseMillis) : millis();
         last = clock.getAsLong();
         ended = end;
         furthest = Math.max(furthest, reached);

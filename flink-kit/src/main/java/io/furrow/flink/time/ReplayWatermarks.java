@@ -55,7 +55,7 @@ public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
                     new Watermark(reached)); // as far as the former epoch came, however soon this one follows
         }
         reached = Math.max(reached, isEnd ? Epochs.end(Epochs.of(timestamp)) : timestamp - bound - 1);
-        replay.advance(reached, isEnd);
+        replay.advance(timestamp, reached, isEnd);
         newestRead = replay.millis();
     }
 

@@ -101,6 +101,23 @@ class ReplayWatermarksTest {
     }
 
     @Test
+    void waitForTheOtherPartitionsHoweverLongAfterItsEndAnEpochIsFollowed() {
+        one.end(0, 50_000);
+        other.end(0, 50_000);
+        empty.end(0, 50_000);
+        assertThat(afterwards(HOUR)).isEqualTo(Epochs.SPAN - 1);
+        one.read(1, 20_000);
+        one.read(1, 40_000);
+        assertThat(afterwards(IDLE / 10))
+                .as("the others' first records are not late")
+                .isEqualTo(Epochs.SPAN - 1);
+
+        other.read(1, 20_000);
+        empty.read(1, 30_000);
+        assertThat(afterwards(0)).isEqualTo(Epochs.SPAN + 20_000 - BOUND - 1);
+    }
+
+    @Test
     void waitForThePartitionsThatDoNotEndForTheIdleTimeoutOnly() {
         empty.end(0, 50_000);
         one.read(0, 50_000);
