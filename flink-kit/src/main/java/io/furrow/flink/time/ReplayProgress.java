@@ -13,6 +13,8 @@ final class ReplayProgress {
     private long read;
     private long last;
     private boolean ended;
+    private boolean begun;
+    private long began;
     private long furthest = Long.MIN_VALUE;
 
     /** @param clock milliseconds since whenever */
@@ -33,6 +35,8 @@ final class ReplayProgress {
         boolean begins = ended && time > furthest; // after an end that is the last instant of its epoch
         read = begins ? read + Math.min(clock.getAsLong() - last, pauseMillis) : millis();
         last = clock.getAsLong();
+        began = begun ? began : last;
+        begun = true;
         ended = end;
         furthest = Math.max(furthest, reached);
     }
@@ -46,6 +50,11 @@ final class ReplayProgress {
     /** Milliseconds by the clock itself. */
     long clockMillis() {
         return clock.getAsLong();
+    }
+
+    /** Milliseconds by the clock itself since a moment of it or since the first record, whichever is later; 0 before that record. */
+    long clockMillisSince(long moment) {
+        return begun ? clock.getAsLong() - Math.max(moment, began) : 0;
     }
 
     /** Whether no partition is further. */

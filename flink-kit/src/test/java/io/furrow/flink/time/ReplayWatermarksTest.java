@@ -36,6 +36,19 @@ class ReplayWatermarksTest {
     }
 
     @Test
+    void waitForTheOtherPartitionsHoweverLateTheReplayBegins() {
+        assertThat(afterwards(HOUR)).isEqualTo(Long.MIN_VALUE);
+        one.read(0, 20_000);
+        one.read(0, 40_000);
+        assertThat(afterwards(IDLE - 1))
+                .as("the others' first records are not late")
+                .isEqualTo(Long.MIN_VALUE);
+
+        other.read(0, 20_000);
+        assertThat(afterwards(1)).isEqualTo(20_000 - BOUND - 1);
+    }
+
+    @Test
     void leaveAPausedReplayWhereItIs() {
         one.read(0, 50_000);
         other.read(0, 40_000);
