@@ -16,10 +16,10 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * Event time of one partition of a replay, see {@link Epochs}: its newest record's, behind by the out-of-orderness; after an
- * {@code end} the last instant of the epoch. A partition holds up nothing without a first record for the idle timeout, and
- * afterwards without a record for as much time of reading ({@link ReplayProgress}), which stands still while the replay is paused:
- * else its next record, after the pause, could be late. The one that is furthest holds up nobody and is never idle: were all idle
- * at once, event time would stay where it is.
+ * {@code end} the last instant of the epoch. A partition holds up nothing without a first record for the idle timeout, counted from
+ * the first record of any, and afterwards without a record for as much time of reading ({@link ReplayProgress}), which stands still
+ * while the replay is paused: else its next record, after the pause, could be late. The one that is furthest holds up nobody and is
+ * never idle: were all idle at once, event time would stay where it is.
  */
 public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
     private static final long NOTHING_YET = Long.MIN_VALUE;
@@ -55,14 +55,14 @@ public final class ReplayWatermarks implements WatermarkGenerator<TopicRecord> {
                     new Watermark(reached)); // as far as the former epoch came, however soon this one follows
         }
         reached = Math.max(reached, isEnd ? Epochs.end(Epochs.of(timestamp)) : timestamp - bound - 1);
-        replay.advance(reached, isEnd);
+        replay.advance(timestamp, reached, isEnd);
         newestRead = replay.millis();
     }
 
     @Override
     public void onPeriodicEmit(WatermarkOutput output) {
         if (reached == NOTHING_YET) {
-            if (replay.clockMillis() - since >= idleMillis) {
+            if (replay.clockMillisSince(since) >= idleMillis) {
                 output.markIdle();
             }
         } else if (replay.millis() - newestRead >= idleMillis && !replay.isFurthest(reached)) {

@@ -36,6 +36,19 @@ class ReplayWatermarksTest {
     }
 
     @Test
+    void waitForTheOtherPartitionsHoweverLateTheReplayBegins() {
+        assertThat(afterwards(HOUR)).isEqualTo(Long.MIN_VALUE);
+        one.read(0, 20_000);
+        one.read(0, 40_000);
+        assertThat(afterwards(IDLE - 1))
+                .as("the others' first records are not late")
+                .isEqualTo(Long.MIN_VALUE);
+
+        other.read(0, 20_000);
+        assertThat(afterwards(1)).isEqualTo(20_000 - BOUND - 1);
+    }
+
+    @Test
     void leaveAPausedReplayWhereItIs() {
         one.read(0, 50_000);
         other.read(0, 40_000);
@@ -98,6 +111,23 @@ class ReplayWatermarksTest {
         assertThat(afterwards(0))
                 .as("the first instant of the next is not late")
                 .isEqualTo(Epochs.SPAN - 1);
+    }
+
+    @Test
+    void waitForTheOtherPartitionsHoweverLongAfterItsEndAnEpochIsFollowed() {
+        one.end(0, 50_000);
+        other.end(0, 50_000);
+        empty.end(0, 50_000);
+        assertThat(afterwards(HOUR)).isEqualTo(Epochs.SPAN - 1);
+        one.read(1, 20_000);
+        one.read(1, 40_000);
+        assertThat(afterwards(IDLE / 10))
+                .as("the others' first records are not late")
+                .isEqualTo(Epochs.SPAN - 1);
+
+        other.read(1, 20_000);
+        empty.read(1, 30_000);
+        assertThat(afterwards(0)).isEqualTo(Epochs.SPAN + 20_000 - BOUND - 1);
     }
 
     @Test
