@@ -3,7 +3,6 @@ package io.furrow.embedded;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.ArrayList;
-import java.util.Arrays;
 import java.util.Date;
 import java.util.List;
 import java.util.function.Consumer;
@@ -123,8 +122,7 @@ class DateIndexTest {
     }
 
     private static void assertSame(MongoCollection<Document> farm) {
-        List<Date> ends =
-                Arrays.asList(new Date(Long.MIN_VALUE), date(-5), date(20), date(120), new Date(Long.MAX_VALUE));
+        List<Date> ends = List.of(new Date(Long.MIN_VALUE), date(20), date(120));
         for (Date from : ends) {
             assertSame(farm, Filters.gte(INDEXED, from), Filters.gte(PLAIN, from));
             assertSame(farm, Filters.lt(INDEXED, from), Filters.lt(PLAIN, from));
@@ -147,7 +145,7 @@ class DateIndexTest {
     private static void assertSame(MongoCollection<Document> farm, Bson indexed, Bson plain) {
         assertThat(farm.find(indexed)).as("%s", indexed).containsExactlyInAnyOrderElementsOf(farm.find(plain));
         assertThat(farm.countDocuments(indexed)).as("%s", indexed).isEqualTo(farm.countDocuments(plain));
-        for (int limit : new int[] {0, 1, 17}) {
+        for (int limit : new int[] {0, 17}) {
             assertThat(times(farm.find(indexed).sort(Sorts.ascending(INDEXED)).limit(limit)))
                     .as("%s ascending", indexed)
                     .isEqualTo(

@@ -138,6 +138,7 @@ class IngestOnKafkaIT {
                 .toList();
     }
 
+    @Tag("full")
     @ParameterizedTest
     @CsvSource({"at-least-once, hashmap, 1, 2", "exactly-once, rocksdb, 2, 1"})
     void goesOnFromASavepointAtAnotherParallelismWithoutGapOrRepetition(
