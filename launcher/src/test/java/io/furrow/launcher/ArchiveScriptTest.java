@@ -73,6 +73,27 @@ class ArchiveScriptTest {
                 .isDirectoryContaining(classes::equals);
     }
 
+    /** The Java of this test does not say which file is whole: it takes any. */
+    @Test
+    void storesTheClassesOfTheSuiteAtTheEndOfTheFirstDemonstration() throws Exception {
+        Path classes = home.resolve("lib/classes-suite.jsa");
+
+        run("bin/furrow", "up");
+        run("bin/furrow", "demo");
+        assertThat(calls()).last().asString().contains("-XX:ArchiveClassesAtExit=" + classes + ".new ");
+        run("bin/furrow", "mission", "list");
+        assertThat(calls()).last().asString().doesNotContain("classes-suite");
+        run("bin/furrow", "up");
+        assertThat(calls()).last().asString().contains("-XX:SharedArchiveFile=" + classes + " ");
+        run("bin/furrow", "demo");
+
+        assertThat(calls()).last().asString().contains("-XX:SharedArchiveFile=" + classes + " ");
+        assertThat(calls())
+                .filteredOn(call -> call.contains("ArchiveClassesAtExit=" + classes))
+                .hasSize(1);
+        assertThat(home.resolve("lib")).isDirectoryNotContaining("glob:**.new");
+    }
+
     @Test
     void tellsItsVersionByOneSmallProgram() throws Exception {
         run("bin/furrow", "--version");
