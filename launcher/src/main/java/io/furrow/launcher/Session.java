@@ -19,6 +19,8 @@ public final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
     private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);
     private static final int STOPPED_BY_INTERRUPT = 130;
+    /** Set by the script where the JVM stores its classes when it ends, after all else. */
+    private static final String STORES_CLASSES = "furrow.stores.classes";
 
     private final PrintWriter out;
     private final CountDownLatch stopRequested = new CountDownLatch(1);
@@ -49,6 +51,7 @@ public final class Session {
                 started = true;
                 UrlTable.print(out, suite);
                 show(suite);
+                out.println("Furrow stops …");
                 LOG.info("Stopping, {} included", joined);
             }
         } finally {
@@ -85,6 +88,9 @@ public final class Session {
             if (!stopped.await(timeout, TimeUnit.MILLISECONDS)) {
                 directory.close();
                 Runtime.getRuntime().halt(STOPPED_BY_INTERRUPT);
+            }
+            if (Boolean.getBoolean(STORES_CLASSES)) {
+                out.println("The JVM stores the suite's classes, once, some 15 s; later starts are quicker.");
             }
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
