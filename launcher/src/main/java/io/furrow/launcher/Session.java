@@ -14,7 +14,7 @@ import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
 
-/** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds. */
+/** A suite at the terminal: started, shown, stopped by Ctrl-C within ten seconds; the JVM ends later where it then stores its classes. */
 public final class Session {
     private static final Logger LOG = LoggerFactory.getLogger(Session.class);
     private static final Duration STOP_WITHIN = Duration.ofMillis(9_500);

@@ -80,6 +80,25 @@ class BadInputIT {
         awaitDeadLetter("not-an-entity", "ingest");
     }
 
+    @Test
+    void setsAsideAResultThatTheContextBrokerRefuses() throws Exception {
+        try (KafkaProducer<String, String> producer = new KafkaProducer<>(
+                running.suite().kafka().clientProperties(), new StringSerializer(), new StringSerializer())) {
+            for (String text : List.of("(refused)", "accepted")) {
+                producer.send(new ProducerRecord<>("data.context", 0, text, result(text)))
+                        .get();
+            }
+        }
+
+        await().atMost(TIMEOUT)
+                .untilAsserted(() ->
+                        assertThat(running.ngsi().entities("id=accepted")).hasSize(1));
+        try (TopicLog dead = running.topic("ngsi-sink.dead")) {
+            await().atMost(TIMEOUT)
+                    .untilAsserted(() -> assertThat(dead.of("(refused)")).hasSize(1));
+        }
+    }
+
     @ParameterizedTest
     @CsvSource({"NaN, -3.483", "-3.483, 40.3134", "0, 0", "95, -3.483"})
     void routesADeviceWithoutAUsablePositionAndLeavesItOutOfTheAverage(String latitude, String longitude)
@@ -190,6 +209,11 @@ class BadInputIT {
     private static String entity(String id, String attribute) {
         return "{\"id\":\"%s\",\"type\":\"Probe\",\"Domain\":{\"type\":\"String\",\"value\":\"bad\"},%s}"
                 .formatted(id, attribute);
+    }
+
+    private static String result(String text) {
+        return "{\"id\":\"%s\",\"type\":\"Note\",\"text\":{\"type\":\"String\",\"value\":\"%s\"}}"
+                .formatted(text.replaceAll("\\W", ""), text);
     }
 
     private static String thermometer(String id, double reading, String latitude, String longitude) {

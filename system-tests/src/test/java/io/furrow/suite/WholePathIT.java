@@ -6,6 +6,7 @@ import java.time.Duration;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.Test;
@@ -22,6 +23,9 @@ import static org.awaitility.Awaitility.await;
 
 class WholePathIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
+
+    /** With characters that the context broker refuses in most types of attributes. */
+    private static final String NAME = "O'Brien's = \"the\" <field>; (north)";
 
     private static RunningSuite running;
 
@@ -72,13 +76,19 @@ class WholePathIT {
                 .filter(field -> field.id().equals("field-1"))
                 .findFirst()
                 .orElseThrow();
-        fields.write(List.of(new FieldVersion("imported", 0, known.geometry(), known.properties())));
+        ObjectNode properties =
+                known.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
+        fields.write(List.of(new FieldVersion("imported", 0, known.geometry(), properties)));
 
         await().atMost(TIMEOUT).untilAsserted(() -> {
             JsonNode average = running.ngsi()
                     .entities("id=Analytics:FieldTemperature:imported")
                     .path(0);
             assertThat(average.at("/quality/value").asText()).isEqualTo("robust");
+            assertThat(average.at("/Domain/value").asText()).isEqualTo("farm (north)");
+            assertThat(running.ngsi().entities("type=Analytics:Presence"))
+                    .anySatisfy(presence ->
+                            assertThat(presence.at("/fieldName/value").asText()).isEqualTo(NAME));
         });
     }
 

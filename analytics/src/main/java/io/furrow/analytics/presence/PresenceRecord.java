@@ -48,10 +48,10 @@ final class PresenceRecord {
             entity.integer(PresenceResult.DWELL, stay.left() - stay.since());
         }
         if (!stay.name().isEmpty()) {
-            entity.text(PresenceResult.FIELD_NAME, stay.name());
+            entity.freeText(PresenceResult.FIELD_NAME, stay.name());
         }
         if (!stay.domain().isEmpty()) {
-            entity.text("Domain", stay.domain());
+            entity.freeText("Domain", stay.domain());
         }
         String output = Topics.resultOf(fix.topic(), topic);
         return ResultRecord.of(output, fix.id(), entity, fix.scope(), passage.told(), SOURCE);

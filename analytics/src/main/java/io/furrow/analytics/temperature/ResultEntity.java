@@ -43,7 +43,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
                 .integer(FieldResult.WINDOW_END, original(result.windowEnd(), result.windowEnd()))
                 .text(FieldResult.QUALITY, average.verified() ? FieldResult.ROBUST : FieldResult.UNVERIFIED);
         if (!result.domain().isEmpty()) {
-            entity.text("Domain", result.domain());
+            entity.freeText("Domain", result.domain());
         }
         return record(result.field(), entity, result.scope(), result.windowEnd() - 1);
     }
@@ -63,7 +63,7 @@ record ResultEntity(String attribute, String topic) implements Serializable {
                 .integer(FieldResult.WINDOW_START, original(last.windowStart(), last.windowEnd()))
                 .integer(FieldResult.WINDOW_END, original(last.windowEnd(), last.windowEnd()));
         if (!last.domain().isEmpty()) {
-            entity.text("Domain", last.domain());
+            entity.freeText("Domain", last.domain());
         }
         return record(last.device(), entity, last.scope(), last.time());
     }

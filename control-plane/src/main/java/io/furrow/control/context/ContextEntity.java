@@ -4,8 +4,6 @@ import java.util.List;
 import java.util.TreeSet;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
-import com.fasterxml.jackson.databind.node.NullNode;
-import com.fasterxml.jackson.databind.node.TextNode;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.mission.Mission;
@@ -22,8 +20,6 @@ import io.furrow.model.ngsi.EntityBuilder;
 final class ContextEntity {
     private static final String DOMAIN = "Domain";
     private static final String MISSION = "Mission";
-    /** The context broker rejects quotes and brackets in texts of other types. */
-    private static final String FREE_TEXT = "TextUnrestricted";
 
     private ContextEntity() {}
 
@@ -41,8 +37,8 @@ final class ContextEntity {
      */
     static EntityBuilder of(Domain domain, int missions, List<FieldState> fields) {
         EntityBuilder entity = Entity.builder(domainId(domain.domain()), DOMAIN);
-        freeText(entity, "name", domain.name() == null ? domain.domain() : domain.name());
-        freeText(entity, "description", domain.description());
+        entity.freeText("name", domain.name() == null ? domain.domain() : domain.name());
+        entity.freeText("description", domain.description());
         entity.integer(
                         "fieldCount",
                         domain.fields() == null ? 0 : domain.fields().size())
@@ -73,8 +69,8 @@ final class ContextEntity {
                 .text("status", status == null ? "created" : status.state().word())
                 .number("progress", status == null ? 0 : progress(status));
         entity.integer("deviceCount", mission.deviceCount()).integer("missingCount", missing(status));
-        freeText(entity, "reason", status == null ? null : status.reason());
-        freeText(entity, "template", mission.template());
+        entity.freeText("reason", status == null ? null : status.reason());
+        entity.freeText("template", mission.template());
         time(entity, "start", mission.start());
         time(entity, "end", status == null ? null : status.ends());
         entity.integer("collisions", tally.collisions())
@@ -92,10 +88,6 @@ final class ContextEntity {
     private static int missing(MissionStatus status) {
         boolean runs = status != null && status.state() == MissionState.RUNNING;
         return runs ? status.devices() - status.confirmed() : 0;
-    }
-
-    private static void freeText(EntityBuilder entity, String name, String value) {
-        entity.attribute(name, FREE_TEXT, value == null ? NullNode.instance : TextNode.valueOf(value));
     }
 
     private static void number(EntityBuilder entity, String name, Double value) {

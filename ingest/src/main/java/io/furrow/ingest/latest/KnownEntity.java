@@ -18,12 +18,14 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param time of the newest event, epoch ms
  * @param deleted whether that event was its deletion; nothing older brings it back
  * @param type as the newest event had it
+ * @param received when the last event was received, epoch ms; before {@code time} if the device's clock is ahead
  */
-public record KnownEntity(long time, boolean deleted, String type, Map<String, KnownAttribute> attributes) {
-    static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of());
+public record KnownEntity(
+        long time, boolean deleted, String type, Map<String, KnownAttribute> attributes, long received) {
+    static final KnownEntity NEVER_SEEN = new KnownEntity(Long.MIN_VALUE, false, "", Map.of(), Long.MIN_VALUE);
 
     /** After a change: the same object where the event brings nothing that is not known newer. */
-    KnownEntity with(Entity reported, long eventTime) {
+    KnownEntity with(Entity reported, long eventTime, long eventReceived) {
         if (deleted && eventTime <= time) {
             return this;
         }
@@ -40,13 +42,23 @@ public record KnownEntity(long time, boolean deleted, String type, Map<String, K
             }
         }
         return news
-                ? new KnownEntity(Math.max(time, eventTime), false, eventTime >= time ? reported.type() : type, merged)
+                ? new KnownEntity(
+                        Math.max(time, eventTime),
+                        false,
+                        eventTime >= time ? reported.type() : type,
+                        merged,
+                        Math.max(received, eventReceived))
                 : this;
     }
 
-    /** After its deletion: the same object where something newer is known. */
+    /**
+     * After its deletion: the same object where something newer is known. The time of a deletion is that of the context
+     * broker or of its receipt: of a device whose clock is ahead the receipt of its events counts.
+     */
     KnownEntity withoutAnything(long eventTime) {
-        return eventTime >= time ? new KnownEntity(eventTime, true, type, Map.of()) : this;
+        return eventTime >= Math.min(time, received)
+                ? new KnownEntity(Math.max(time, eventTime), true, type, Map.of(), eventTime)
+                : this;
     }
 
     /** In normalized form, attributes by name; put together from what is JSON already. */

@@ -69,7 +69,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         }
         KnownEntity known = latest.value() == null
                 ? KnownEntity.NEVER_SEEN.withoutAnything(time)
-                : KnownEntity.NEVER_SEEN.with(Entity.parse(latest.value()), time);
+                : KnownEntity.NEVER_SEEN.with(Entity.parse(latest.value()), time, time);
         remember(known, timers);
     }
 
@@ -85,7 +85,7 @@ public final class MergeLatest extends KeyedProcessFunction<String, ReportedEven
         KnownEntity known = entity.value() == null ? KnownEntity.NEVER_SEEN : entity.value();
         KnownEntity merged = event.isDeletion()
                 ? known.withoutAnything(event.time())
-                : known.with(Entity.parse(event.record().value()), event.time());
+                : known.with(Entity.parse(event.record().value()), event.time(), event.received());
         if (merged == known) {
             outdated.inc();
             return;

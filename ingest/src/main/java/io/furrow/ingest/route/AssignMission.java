@@ -71,14 +71,14 @@ public final class AssignMission
                 event.domain().isEmpty() || event.mission().isEmpty() ? completed(event, context) : event;
         KnownRoute known = route.value();
         if (known == null || known.time() <= event.time()) {
-            route.update(new KnownRoute(assigned.domain(), assigned.mission(), event.time()));
+            route.update(new KnownRoute(assigned.domain(), assigned.mission(), event.time(), event.received()));
         }
         return assigned;
     }
 
     private ReportedEvent deleted(ReportedEvent event, ReadOnlyContext context) throws Exception {
         KnownRoute known = route.value();
-        if (known != null && known.time() <= event.time()) {
+        if (known != null && Math.min(known.time(), known.received()) <= event.time()) {
             route.clear();
         }
         return known == null ? completed(event, context) : event.belongingTo(known.domain(), known.mission());

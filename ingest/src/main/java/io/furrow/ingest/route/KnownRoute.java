@@ -4,5 +4,6 @@ package io.furrow.ingest.route;
  * Where the newest event of an entity went.
  *
  * @param time of that event, epoch ms
+ * @param received when it was received, epoch ms; before {@code time} if the device's clock is ahead
  */
-public record KnownRoute(String domain, String mission, long time) {}
+public record KnownRoute(String domain, String mission, long time, long received) {}

@@ -1,6 +1,7 @@
 package io.furrow.ingest.route;
 
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.event.HeaderNames;
 
 /**
  * An event as the stages of {@code ingest} see it: a change of an entity, or its deletion.
@@ -23,6 +24,16 @@ public record ReportedEvent(
     /** Event time, epoch ms. */
     public long time() {
         return record.timestamp();
+    }
+
+    /** When the source received it, epoch ms; its event time if that is not said. */
+    public long received() {
+        String received = record.headers().get(HeaderNames.TS_SOURCE);
+        try {
+            return received == null ? time() : Long.parseLong(received);
+        } catch (NumberFormatException e) { // a stranger's header
+            return time();
+        }
     }
 
     /** The same event with what was found out of its domain and mission. */

@@ -130,6 +130,24 @@ class MergeLatestTest {
     }
 
     @Test
+    void isEndedByADeletionThatFollowsReportsOfAClockThatIsAhead() throws Exception {
+        report(160, 100, robot().number("speed", 1));
+        event(105, null);
+
+        assertThat(last().value()).isNull();
+        assertThat(last().timestamp()).as("nothing older brings it back").isEqualTo(160);
+    }
+
+    @Test
+    void isNotEndedByADeletionBeforeItCameBackWithAClockThatWasSetBack() throws Exception {
+        report(160, 100, robot().number("speed", 1));
+        report(110, 110, robot().number("fuel", 50));
+        event(105, null);
+
+        assertThat(operator.extractOutputValues()).hasSize(2).noneMatch(record -> record.value() == null);
+    }
+
+    @Test
     void remembersAcrossARestart() throws Exception {
         report(200, robot().number("speed", 2));
         OperatorSubtaskState snapshot = operator.snapshot(1, 1);
@@ -189,11 +207,25 @@ class MergeLatestTest {
     }
 
     private void report(long time, EntityBuilder entity) throws Exception {
-        event(time, entity.build().toBytes());
+        report(time, time, entity);
+    }
+
+    private void report(long time, long received, EntityBuilder entity) throws Exception {
+        event(time, received, entity.build().toBytes());
     }
 
     private void event(long time, byte[] value) throws Exception {
-        Map<String, String> headers = Map.of(HeaderNames.CE_ID, "e" + time, HeaderNames.TS_DEVICE, Long.toString(time));
+        event(time, time, value);
+    }
+
+    private void event(long time, long received, byte[] value) throws Exception {
+        Map<String, String> headers = Map.of(
+                HeaderNames.CE_ID,
+                "e" + time,
+                HeaderNames.TS_DEVICE,
+                Long.toString(time),
+                HeaderNames.TS_SOURCE,
+                Long.toString(received));
         TopicRecord record = TopicRecord.of("data.raw", time, "robot", value, headers);
         operator.processElement(new ReportedEvent("e" + time, "farm|/|robot", "robot", "Robot", "", "", record), time);
     }

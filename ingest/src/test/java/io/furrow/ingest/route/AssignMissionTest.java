@@ -19,6 +19,7 @@ import io.furrow.flink.device.DeviceChange;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -107,6 +108,15 @@ class AssignMissionTest {
     }
 
     @Test
+    void forgetsTheEntityWithTheDeletionThatFollowsReportsOfAClockThatIsAhead() throws Exception {
+        event("robot", 260, 200, "farm", "sowing", new byte[0]);
+        delete("robot", 205);
+
+        assertThat(routes()).containsExactly("farm/sowing", "farm/sowing");
+        assertThat(operator.numKeyedStateEntries()).isZero();
+    }
+
+    @Test
     void forgetsDevicesThatEndedLongerAgoThanTheyAreKept() throws Exception {
         broadcast(0, version("robot", "farm", "weeding", 100, 1));
         broadcast(1, new DeviceChange("|/|robot", 0, 1, 200, null));
@@ -184,15 +194,17 @@ class AssignMissionTest {
     }
 
     private void report(String id, long time, String domain, String mission) throws Exception {
-        event(id, time, domain, mission, new byte[0]);
+        event(id, time, time, domain, mission, new byte[0]);
     }
 
     private void delete(String id, long time) throws Exception {
-        event(id, time, "", "", null);
+        event(id, time, time, "", "", null);
     }
 
-    private void event(String id, long time, String domain, String mission, byte[] value) throws Exception {
-        TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, Map.of());
+    private void event(String id, long time, long received, String domain, String mission, byte[] value)
+            throws Exception {
+        Map<String, String> headers = Map.of(HeaderNames.TS_SOURCE, Long.toString(received));
+        TopicRecord record = TopicRecord.of(Topics.RAW, time, id, value, headers);
         operator.processElement1(
                 new StreamRecord<>(new ReportedEvent("e", "|/|" + id, id, "Robot", domain, mission, record), time));
     }

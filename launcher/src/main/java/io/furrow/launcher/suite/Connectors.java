@@ -17,9 +17,13 @@ import io.furrow.http.AllowedNames;
 import io.furrow.launcher.RestClient;
 import io.furrow.launcher.Sleep;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
 
 /** Puts the two NGSI connectors into a Connect cluster through its REST API. */
 public final class Connectors {
+    /** Results that the context broker refused. */
+    static final String DEAD_RESULTS = Topics.dead("ngsi-sink");
+
     private static final int MAX_RECORD_BYTES = 16 * 1024 * 1024;
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     /** Records that come within this time are one batch for all that read them: a fraction of the requests and wake-ups. */
@@ -107,7 +111,10 @@ public final class Connectors {
         }
     }
 
-    /** Creates or changes the sink that writes results into the context broker. */
+    /**
+     * Creates or changes the sink that writes results into the context broker; those that it refuses go to
+     * {@link #DEAD_RESULTS}.
+     */
     void sink(URI contextBroker, List<String> topics) {
         put(
                 "ngsi-sink",
@@ -119,7 +126,13 @@ public final class Connectors {
                         "topics",
                         String.join(",", topics),
                         "context.broker.url",
-                        contextBroker.toString()));
+                        contextBroker.toString(),
+                        "errors.tolerance",
+                        "all",
+                        "errors.deadletterqueue.topic.name",
+                        DEAD_RESULTS,
+                        "errors.deadletterqueue.context.headers.enable",
+                        "true"));
     }
 
     /** Creates or changes a connector and returns when its first task runs. */

@@ -33,7 +33,8 @@ public final class KafkaAccess implements AutoCloseable {
             Topics.PRESENCE,
             Topics.PRESENCE_LATE,
             Topics.CLOCKS,
-            Topics.CONTEXT);
+            Topics.CONTEXT,
+            Connectors.DEAD_RESULTS);
 
     private final String bootstrapServers;
     private final Path propertiesFile;

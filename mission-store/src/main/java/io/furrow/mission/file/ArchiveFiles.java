@@ -32,9 +32,9 @@ final class ArchiveFiles implements AutoCloseable {
         this.groups = groups;
     }
 
-    /** Continues to the first line after a cursor; nothing is open yet. */
+    /** Continues to the first line after a cursor; nothing is open yet. A file alone may bear a date and hold several days. */
     void skipTo(Cursor after) throws IOException {
-        while (nextGroup < groups.size() && isBefore(groups.get(nextGroup), after)) {
+        while (groups.size() > 1 && nextGroup < groups.size() && isBefore(groups.get(nextGroup), after)) {
             nextGroup++;
         }
         boolean skips = after.compareTo(Cursor.START) > 0;

@@ -124,6 +124,20 @@ class FileRecordingTest extends RecordingContract {
     }
 
     @Test
+    void readsOnInAFileOfSeveralDaysThatIsNamedAfterTheFirst() throws Exception {
+        long evening = Instant.parse("2026-11-20T20:00:00Z").toEpochMilli();
+        StoredEvent first = RandomEvents.event("a", evening, 0);
+        StoredEvent second = RandomEvents.event("b", evening + 8 * 3_600_000, 0);
+        StoredEvent third = RandomEvents.event("c", evening + 9 * 3_600_000, 0);
+        Files.write(folder.resolve("2026-11-20-night.ndjson"), lines(List.of(first, second, third)));
+        try (Recording recording = new FileRecordings(folder.toString())
+                .open("2026-11-20-night")
+                .orElseThrow()) {
+            assertThat(recording.read(Cursor.after(second), ALL).events()).containsExactly(third);
+        }
+    }
+
+    @Test
     void namesTheLinesThatHoldNoEvent() throws Exception {
         Path file = folder.resolve("hoeing.ndjson");
         String good = new String(lines(List.of(RandomEvents.event("a", 1, 0))), StandardCharsets.UTF_8);

@@ -29,9 +29,18 @@ public final class EntityBuilder {
         this.type = type;
     }
 
-    /** An attribute of type {@code String}. */
+    /** An attribute of type {@code String}. The context broker rejects a value with one of {@code < > " ' = ; ( )}. */
     public EntityBuilder text(String name, String value) {
         return attribute(name, "String", NODES.textNode(value));
+    }
+
+    /**
+     * An attribute of type {@code TextUnrestricted}, of which the context broker accepts any text: names that people give.
+     *
+     * @param value null for none
+     */
+    public EntityBuilder freeText(String name, String value) {
+        return attribute(name, "TextUnrestricted", value == null ? NODES.nullNode() : NODES.textNode(value));
     }
 
     /**

@@ -1,5 +1,6 @@
 package io.furrow.model.ngsi;
 
+import java.time.Instant;
 import java.util.List;
 import java.util.Map;
 import java.util.Optional;
@@ -9,6 +10,8 @@ import java.util.stream.Collectors;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.time.Instants;
 
 /**
  * An NGSI-LD entity, normalized, concise or simplified, as the NGSI-v2 normalized entity that Furrow carries.
@@ -125,10 +128,13 @@ final class NgsiLdEntity {
 
     private ObjectNode observed(JsonNode reported) {
         JsonNode at = reported.path("observedAt");
-        if (at.isTextual()) {
-            newestObservation = Optional.of(newestObservation
-                    .filter(newest -> newest.compareTo(at.textValue()) >= 0)
-                    .orElse(at.textValue()));
+        Optional<Instant> time = at.isTextual() ? Instants.of(at) : Optional.empty();
+        if (time.isPresent()
+                && newestObservation
+                        .flatMap(Instants::ofText)
+                        .filter(time.get()::isBefore)
+                        .isEmpty()) {
+            newestObservation = Optional.of(at.textValue());
         }
         return NgsiLdAttribute.read(reported);
     }

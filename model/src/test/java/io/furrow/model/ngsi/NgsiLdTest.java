@@ -10,6 +10,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.MethodSource;
+import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -70,6 +71,24 @@ class NgsiLdTest {
                 .extracting(entity -> entity.json().toString())
                 .containsExactly(
                         "{\"id\":\"a\",\"type\":\"T\",\"t\":{\"type\":\"Number\",\"value\":3,\"metadata\":{}}}");
+    }
+
+    @ParameterizedTest
+    @CsvSource({
+        "2026-05-01T10:00:00.500Z, 2026-05-01T10:00:00Z",
+        "2026-05-01T10:00:00Z, 2026-05-01T11:30:00+02:00",
+        "2026-05-01T10:00:00Z, yesterday"
+    })
+    void isAsNewAsItsNewestObservationInWhicheverForm(String newest, String other) throws Exception {
+        for (List<String> times : List.of(List.of(newest, other), List.of(other, newest))) {
+            Entity entity = read("""
+                    {"id": "a", "type": "T", "@context": [], "t": {"value": 1, "observedAt": "%s"},
+                     "u": {"value": 2, "observedAt": "%s"}}""".formatted(times.toArray()))
+                    .entities()
+                    .get(0);
+
+            assertThat(entity.text("TimeInstant")).contains(newest);
+        }
     }
 
     @ParameterizedTest

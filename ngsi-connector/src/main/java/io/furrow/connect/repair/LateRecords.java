@@ -1,9 +1,7 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
-import java.nio.file.Files;
 import java.nio.file.Path;
-import java.nio.file.StandardCopyOption;
 import java.time.DateTimeException;
 import java.time.Instant;
 import java.util.Optional;
@@ -21,22 +19,19 @@ final class LateRecords {
      */
     record Late(Instant from, long count) {}
 
-    private final Path file;
+    private final TimeFile file;
     private Optional<Late> late;
 
-    private LateRecords(Path file, Optional<Late> late) {
+    private LateRecords(TimeFile file, Optional<Late> late) {
         this.file = file;
         this.late = late;
     }
 
     /** An unreadable file counts as the least time: then more is read again than needed. */
-    static LateRecords open(Path file) throws IOException {
-        if (!Files.exists(file)) {
-            return new LateRecords(file, Optional.empty());
-        }
+    static LateRecords open(Path path) throws IOException {
+        TimeFile file = new TimeFile(path);
         try {
-            Instant from = Instant.parse(Files.readString(file).trim());
-            return new LateRecords(file, Optional.of(new Late(from, 1)));
+            return new LateRecords(file, file.read().map(from -> new Late(from, 1)));
         } catch (DateTimeException e) {
             return new LateRecords(file, Optional.of(new Late(Instant.EPOCH, 1)));
         }
@@ -51,16 +46,14 @@ final class LateRecords {
         Instant from = before.map(Late::from).filter(time::isAfter).orElse(time);
         late = Optional.of(new Late(from, before.map(Late::count).orElse(0L) + 1));
         if (before.map(Late::from).filter(from::equals).isEmpty()) {
-            Path next = file.resolveSibling(file.getFileName() + ".tmp");
-            Files.writeString(next, from + "\n");
-            Files.move(next, file, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
+            file.write(from);
         }
     }
 
     /** These were read again; keeps all if others were added meanwhile. */
     synchronized void settle(Optional<Late> these) throws IOException {
         if (late.isPresent() && late.equals(these)) {
-            Files.deleteIfExists(file);
+            file.delete();
             late = Optional.empty();
         }
     }

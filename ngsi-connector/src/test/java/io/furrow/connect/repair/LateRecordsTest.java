@@ -1,6 +1,7 @@
 package io.furrow.connect.repair;
 
 import java.io.IOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
@@ -8,6 +9,8 @@ import java.time.Instant;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.connect.repair.LateRecords.Late;
 
@@ -52,9 +55,10 @@ class LateRecordsTest {
         assertThat(records.late()).isEmpty();
     }
 
-    @Test
-    void readsAllAgainWhereItsFileIsUnreadable() throws IOException {
-        Files.writeString(folder.resolve("late"), "yesterday");
+    @ParameterizedTest
+    @ValueSource(strings = {"yesterday", "", "\u00ff\u0000"})
+    void readsAllAgainWhereItsFileIsUnreadable(String damaged) throws IOException {
+        Files.write(folder.resolve("late"), damaged.getBytes(StandardCharsets.ISO_8859_1));
 
         open();
 

@@ -19,8 +19,9 @@ import io.furrow.control.alarm.Severity;
  * accepted or rejected. A failed alarm is retried after a backoff of one second to five minutes, without blocking
  * others. Time is a parameter; the queue itself neither posts nor stores anything.
  *
- * <p>A muted or inhibited alarm waits until this ends. If it closes before, it is posted only if it had been posted
- * before. An alarm that opened and closed without having been posted is posted once, as closed.
+ * <p>A muted or inhibited alarm waits until this ends. If it closes before, it is posted only if a post had been
+ * attempted: the webhook may have accepted that one. Another alarm that opened and closed without having been posted is
+ * posted once, as closed.
  */
 final class DeliveryQueue {
     static final int MAX_UNDER_WAY = 4;

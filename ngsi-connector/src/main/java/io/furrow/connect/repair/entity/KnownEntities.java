@@ -130,9 +130,15 @@ public final class KnownEntities implements AutoCloseable {
             now = changes();
             file.beginRewrite();
         }
-        file.writeAside(now);
-        synchronized (this) {
-            file.endRewrite();
+        try {
+            file.writeAside(now);
+            synchronized (this) {
+                file.endRewrite();
+            }
+        } finally {
+            synchronized (this) {
+                file.abandonRewrite();
+            }
         }
     }
 

@@ -171,18 +171,29 @@ final class KnownFile implements AutoCloseable {
     }
 
     void endRewrite() throws IOException {
-        try (BufferedWriter next = Files.newBufferedWriter(aside(), StandardOpenOption.APPEND)) {
+        BufferedWriter before = out;
+        BufferedWriter next = Files.newBufferedWriter(aside(), StandardCharsets.UTF_8, StandardOpenOption.APPEND);
+        try {
             for (Change change : meanwhile) {
                 next.write(change.line());
             }
+            next.flush();
+            Files.move(aside(), path, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
+        } catch (IOException e) {
+            next.close();
+            throw e;
         }
+        out = next;
         meanwhile = null;
-        if (out != null) {
-            out.close();
-        }
-        Files.move(aside(), path, StandardCopyOption.REPLACE_EXISTING, StandardCopyOption.ATOMIC_MOVE);
-        out = Files.newBufferedWriter(path, StandardCharsets.UTF_8, StandardOpenOption.APPEND);
         chars = Files.size(path);
+        if (before != null) {
+            before.close();
+        }
+    }
+
+    /** Keeps the file as it is; for instance because the disk is full. */
+    void abandonRewrite() {
+        meanwhile = null;
     }
 
     private Path aside() {

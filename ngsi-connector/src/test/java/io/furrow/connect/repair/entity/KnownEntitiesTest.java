@@ -125,6 +125,25 @@ class KnownEntitiesTest {
     }
 
     @Test
+    void isWrittenAnewOnceThereIsRoomOnTheDisk() throws IOException {
+        Path file = folder.resolve("known");
+        try (KnownEntities known = KnownEntities.open(file, 1 << 20)) {
+            known.add("|/|stays");
+            for (int i = 0; i < 200_000; i++) {
+                known.add("|/|urn:" + i);
+                known.remove("|/|urn:" + i);
+            }
+            Path inTheWay = Files.createDirectory(folder.resolve("known.tmp"));
+            assertThatThrownBy(known::flush).isInstanceOf(IOException.class);
+            Files.delete(inTheWay);
+
+            known.flush();
+
+            assertThat(Files.size(file)).isLessThan(1 << 20);
+        }
+    }
+
+    @Test
     void isWrittenAnewWhileEntitiesComeAndGo() throws Exception {
         Path file = folder.resolve("known");
         try (KnownEntities known = KnownEntities.open(file, 1 << 26)) {
