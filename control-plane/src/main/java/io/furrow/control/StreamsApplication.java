@@ -61,10 +61,20 @@ final class StreamsApplication implements AutoCloseable {
         return application;
     }
 
-    private synchronized void startClient() {
-        if (closed) {
-            return;
+    /** Its start blocks until it has what all instances hold, and must not keep others from closing this. */
+    private void startClient() {
+        KafkaStreams fresh = newClient();
+        if (fresh != null) {
+            fresh.start();
         }
+    }
+
+    /** Null once this is closed. */
+    private synchronized KafkaStreams newClient() {
+        if (closed) {
+            return null;
+        }
+        started = Instant.now();
         KafkaStreams fresh = new KafkaStreams(topology.get(), settings);
         fresh.setUncaughtExceptionHandler(this::onFailure);
         fresh.setStateListener((now, before) -> {
@@ -75,14 +85,17 @@ final class StreamsApplication implements AutoCloseable {
                 supervisor.execute(this::replaceClient);
             }
         });
-        started = Instant.now();
         streams = fresh;
-        fresh.start();
+        return fresh;
     }
 
     /** Not on a thread of the client, which its close waits for. */
     private void replaceClient() {
         streams.close(CLOSE_TIMEOUT);
+        startLater();
+    }
+
+    private void startLater() {
         Duration pause;
         synchronized (this) {
             if (closed) {
@@ -94,7 +107,17 @@ final class StreamsApplication implements AutoCloseable {
             pause = backoff.next();
         }
         LOG.warn("the {} is started again in {} s", name, pause.toSeconds());
-        supervisor.schedule(this::startClient, pause.toMillis(), TimeUnit.MILLISECONDS);
+        supervisor.schedule(this::startAgain, pause.toMillis(), TimeUnit.MILLISECONDS);
+    }
+
+    private void startAgain() {
+        try {
+            startClient();
+        } catch (RuntimeException e) { // for instance while no address of Kafka resolves
+            failure = e.toString();
+            LOG.warn("the {} did not start", name, e);
+            startLater();
+        }
     }
 
     /**

@@ -24,6 +24,7 @@ export async function createMission() {
   const minutes = h('input', { type: 'number', min: 1, max: 525600, step: 1, inputmode: 'numeric' });
   const now = h('input', { type: 'checkbox', checked: true });
   let chosen = null;
+  let created = null;
 
   const groups = () => (template.value === OWN ? ids.value.split(/\s+/).filter(Boolean) : chosen?.devices ?? []);
   const { dialog, action } = openDialog({
@@ -37,7 +38,13 @@ export async function createMission() {
     work: async () => {
       const plan = { domain: domain.value, ...(template.value === OWN ? { devices: groups() } : { template: template.value }) };
       const lasts = minutes.value ? { duration: `PT${Number(minutes.value)}M` } : {};
-      await (now.checked ? api.post(`/api/missions/${encodeURIComponent(name.value)}/start`, { ...plan, ...lasts }) : api.post('/api/missions', { mission: name.value, ...plan }));
+      if (created !== name.value) { // a start alone would replace the devices of one that exists
+        await api.post('/api/missions', { mission: name.value, ...plan });
+        created = name.value;
+      }
+      if (now.checked) {
+        await api.post(`/api/missions/${encodeURIComponent(name.value)}/start`, { ...plan, ...lasts });
+      }
       dialog.dispatchEvent(new CustomEvent('created', { detail: name.value }));
     },
   });

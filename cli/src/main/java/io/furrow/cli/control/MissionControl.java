@@ -120,11 +120,23 @@ public class MissionControl extends CommandGroup {
         return control.run(api -> {
             ObjectNode json = plan.json(mission, begin.domain);
             if (DeviceListParts.requests(json).size() > 1) {
+                deleteIfKnown(api, mission);
                 create(api, json);
                 json.remove("devices");
             }
             control.answered(api.send("POST", MISSIONS + ControlApi.part(mission) + "/start", begin.in(json)));
         });
+    }
+
+    /** Of a mission that does not run a start replaces the list; with one in several requests it is created again. */
+    private static void deleteIfKnown(ControlApi api, String mission) {
+        try {
+            api.send("DELETE", MISSIONS + ControlApi.part(mission), null);
+        } catch (ControlPlaneException e) {
+            if (!e.isUnknown()) {
+                throw e;
+            }
+        }
     }
 
     /** When it starts, for how long, and to which domain it belongs. */
@@ -140,7 +152,7 @@ public class MissionControl extends CommandGroup {
 
         ObjectNode in(ObjectNode json) {
             if (at != null) {
-                json.put("start", at);
+                json.set("start", NgsiJson.mapper().valueToTree(ReplayWords.time(at)));
             }
             return duration == null ? json : json.put("duration", duration);
         }

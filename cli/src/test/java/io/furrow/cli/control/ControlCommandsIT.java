@@ -108,7 +108,7 @@ class ControlCommandsIT {
         await().atMost(TIMEOUT)
                 .untilAsserted(() -> assertThat(run("mission", "list", "--domain", "farm"))
                         .containsPattern("weeding +farm +– +created"));
-        run("mission", "start", "weeding");
+        run("mission", "start", "weeding", "--at", Long.toString(System.currentTimeMillis()));
         assertThat(run("mission", "watch", "weeding", "--until", "running")).contains("running", "0/0 devices");
         assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");
         assertThat(refused("mission", "start", "weeding")).contains("mission-running");

@@ -184,7 +184,8 @@ final class Silence {
         boolean was = alarms.isRaised(AlarmKind.SILENT_FARM, Topics.RAW);
         double together = all.expectedPerMs == 0 ? 0 : 1 / all.expectedPerMs;
         double enough = Math.max(FARM_QUIET.toMillis(), together);
-        boolean quiet = now - Math.max(lastReport, began) > enough;
+        boolean unheard = was && lastReport == 0; // since this process began to read
+        boolean quiet = unheard || now - Math.max(lastReport, began) > enough;
         if (quiet || !was) {
             resumed = null;
         } else if (resumed == null) {

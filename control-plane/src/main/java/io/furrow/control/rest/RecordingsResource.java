@@ -28,6 +28,8 @@ import io.furrow.model.topic.Topics;
 public final class RecordingsResource {
     private static final String MISSION = "mission";
     private static final int BUCKETS = 240;
+    private static final Instant FIRST_TIME = Instant.parse("0000-01-01T00:00:00Z");
+    private static final Instant LAST_TIME = Instant.parse("9999-12-31T23:59:59.999Z");
 
     private final ServiceView view;
     private final EventTiles events;
@@ -103,13 +105,16 @@ public final class RecordingsResource {
         }
         try {
             String text = given.get(0);
-            return text.matches("-?\\d{1,18}")
-                    ? Long.parseLong(text)
-                    : Instant.parse(text).toEpochMilli();
-        } catch (DateTimeException | ArithmeticException e) {
-            throw new ProblemException(
-                    ErrorCode.WRONG_MEMBER,
-                    "'%s' must be an event time, such as 2026-03-01T08:00:00Z, or epoch ms".formatted(name));
+            Instant time = text.matches("-?\\d{1,15}") ? Instant.ofEpochMilli(Long.parseLong(text)) : Instant.parse(text);
+            if (!time.isBefore(FIRST_TIME) && !time.isAfter(LAST_TIME)) {
+                return time.toEpochMilli();
+            }
+        } catch (DateTimeException e) {
+            // as of a time that is too early or too late
         }
+        throw new ProblemException(
+                ErrorCode.WRONG_MEMBER,
+                "'%s' must be an event time of the years 0 to 9999, such as 2026-03-01T08:00:00Z, or epoch ms"
+                        .formatted(name));
     }
 }

@@ -105,6 +105,8 @@ class TimelineIT {
         assertRefused(TIMELINE + "?buckets=0", "400 wrong-member");
         assertRefused(TIMELINE + "?buckets=1001", "400 wrong-member");
         assertRefused(TIMELINE + "?from=noon", "400 wrong-member");
+        assertRefused(TIMELINE + "?from=0&to=144115188076800000&buckets=1", "400 wrong-member");
+        assertRefused(TIMELINE + "?from=0&to=999999999999999&buckets=1", "400 wrong-member");
         assertRefused(TIMELINE + "?from=" + (TIME + 10_000), "400 wrong-member");
         assertThat(running.client().error(running.client().send("GET", TIMELINE, null)))
                 .as("without --mongo")

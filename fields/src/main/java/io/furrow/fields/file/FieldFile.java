@@ -33,6 +33,8 @@ public record FieldFile(
         List<RefusedFeature> refused,
         List<String> notes) {
     private static final int FIRST_BYTES = 16;
+    /** That of UTF-8, its bytes as characters. */
+    private static final String BYTE_ORDER_MARK = "\u00ef\u00bb\u00bf";
 
     /** Reads GeoJSON, a Shapefile or a GeoPackage, detected by the first bytes. */
     public static FieldFile read(Path file, ImportOptions options) throws UnusableFileException {
@@ -86,6 +88,7 @@ public record FieldFile(
             throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
         }
         String text = new String(first, StandardCharsets.ISO_8859_1);
+        String json = text.startsWith(BYTE_ORDER_MARK) ? text.substring(BYTE_ORDER_MARK.length()) : text;
         if (text.startsWith("SQLite format 3")) {
             return GeoPackageFields.read(file, options.layer());
         }
@@ -95,7 +98,7 @@ public record FieldFile(
         if (text.startsWith("\0\0'\n")) {
             return ShapefileFields.read(file);
         }
-        if (text.strip().startsWith("{")) {
+        if (json.strip().startsWith("{")) {
             return GeoJsonFields.read(file);
         }
         throw new UnusableFileException(file

@@ -38,12 +38,17 @@ final class GeoPackageFields {
 
     /** @param name name of the layer; null for the only one */
     static FieldLayer read(Path file, String name) throws UnusableFileException {
-        String url = "jdbc:sqlite:file:" + file.toUri().getRawPath() + "?mode=ro&immutable=1";
+        String url = "jdbc:sqlite:file:" + file.toUri().getRawPath() + (hasLog(file) ? "?mode=ro" : "?mode=ro&immutable=1");
         try (Connection database = DriverManager.getConnection(url)) {
             return new GeoPackageFields(file, database).layer(name);
         } catch (SQLException e) {
             throw new UnusableFileException(file + " is not a readable GeoPackage (" + e.getMessage() + ")", e);
         }
+    }
+
+    /** Whether changes are not in the file itself yet, as while QGIS has it open. */
+    private static boolean hasLog(Path file) {
+        return file.resolveSibling(file.getFileName() + "-wal").toFile().length() > 0;
     }
 
     private FieldLayer layer(String name) throws SQLException, UnusableFileException {

@@ -4,6 +4,9 @@ import java.io.IOException;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.sql.Connection;
+import java.sql.DriverManager;
+import java.sql.Statement;
 import java.time.Instant;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -175,6 +178,27 @@ public class FieldFileTest {
                 .isInstanceOf(UnusableFileException.class)
                 .hasMessageContaining("is not a known coordinate system")
                 .hasMessageContaining("--crs");
+    }
+
+    @Test
+    void readsWhatAnotherProgramHasChangedInAGeoPackageThatItHasOpen() throws Exception {
+        Path file = Files.copy(resource("geopackage-25830.gpkg"), folder.resolve("open.gpkg"));
+        try (Connection qgis = DriverManager.getConnection("jdbc:sqlite:" + file);
+                Statement statement = qgis.createStatement()) {
+            statement.execute("PRAGMA journal_mode=WAL");
+            statement.execute("UPDATE fields SET name = 'changed'");
+
+            assertThat(FieldFile.read(file, PLAIN).fields())
+                    .allSatisfy(field -> assertThat(field.version().name()).isEqualTo("changed"));
+        }
+    }
+
+    @Test
+    void readsGeoJsonWithAByteOrderMark() throws Exception {
+        Path file = Files.writeString(
+                folder.resolve("marked.geojson"), "\ufeff" + Files.readString(resource("farm.geojson")));
+
+        assertThat(FieldFile.read(file, PLAIN).fields()).isNotEmpty();
     }
 
     @Test

@@ -9,11 +9,13 @@ import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
+import io.furrow.cli.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.launcher.Session;
 import io.furrow.launcher.option.FarmOptions;
 import io.furrow.launcher.option.SuiteOptions;
+import io.furrow.launcher.suite.SuiteSettings;
 
 /** {@code ./furrow up}. */
 @Command(
@@ -49,7 +51,11 @@ public final class UpCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws Exception {
+        SuiteSettings.Farm settings = farm.farm(options.fiwareService);
+        if (orion == null && settings.iotAgent() != null) {
+            throw new CommandException("--iot-agent needs --orion: the stand-in of the context broker has its own.");
+        }
         return new Session(spec.commandLine().getOut())
-                .run(options.settings(orion, kafka, farm.farm(options.fiwareService)), options.data, suite -> () -> {});
+                .run(options.settings(orion, kafka, settings), options.data, suite -> () -> {});
     }
 }

@@ -94,6 +94,10 @@ public final class ProvisioningOptions {
      */
     public AgentSettings agent(String fiwareService) {
         if (iotAgent == null) {
+            if (passwords != null || rules != null || reload != null) {
+                throw new CommandException("--mqtt-password-file, --mqtt-acl-file and --mqtt-reload need --iot-agent: "
+                        + "only devices that are provisioned get accounts.");
+            }
             if (resource != null || interval != null) {
                 throw new CommandException(
                         "--iot-agent-resource and --iot-agent-interval need --iot-agent: the stand-in has its own.");

@@ -10,6 +10,7 @@ import java.util.concurrent.TimeUnit;
 import java.util.concurrent.TimeoutException;
 
 import org.apache.flink.api.common.JobID;
+import org.apache.flink.api.common.JobStatus;
 import org.apache.flink.core.execution.RecoveryClaimMode;
 import org.apache.flink.core.execution.SavepointFormatType;
 import org.apache.flink.runtime.jobgraph.SavepointRestoreSettings;
@@ -18,6 +19,7 @@ import org.apache.flink.streaming.api.graph.StreamGraph;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.cli.CommandException;
 import io.furrow.embedded.EmbeddedFlink;
 import io.furrow.launcher.Sleep;
 
@@ -48,6 +50,25 @@ final class Jobs {
                 .ifPresent(state -> graph.setSavepointRestoreSettings(
                         SavepointRestoreSettings.forPath(state.toUri().toString(), false, RecoveryClaimMode.CLAIM)));
         running.put(name, flink.submit(graph));
+    }
+
+    /**
+     * Waits until each job has found its state.
+     *
+     * @throws CommandException if one cannot continue from it
+     */
+    synchronized void awaitStarted() {
+        running.forEach((name, job) -> {
+            while (flink.status(job) == JobStatus.INITIALIZING) {
+                Sleep.of(BETWEEN_CHECKS);
+            }
+            if (flink.status(job) == JobStatus.FAILED) {
+                throw new CommandException(
+                        ("Job %s cannot continue from its state in %s; see furrow.log. Move that folder away, and the job"
+                                        + " begins anew: it reads again what Kafka still has.")
+                                .formatted(name, directory.resolve(name)));
+            }
+        });
     }
 
     /** Name and id of each job, in the order in which they were submitted. */

@@ -33,8 +33,9 @@ public final class RunDirectory implements AutoCloseable {
     private static final int DELETIONS = 100;
     private static final Duration BETWEEN_DELETIONS = Duration.ofMillis(20);
     private static final String LOCK = "lock";
-    /** What a start that was refused leaves. */
-    private static final Pattern WITHOUT_DATA = Pattern.compile(Pattern.quote(LOCK) + "|furrow\\.log(\\.\\d+)?");
+    /** What a start that was refused leaves, and a file system of its own has. */
+    private static final Pattern WITHOUT_DATA =
+            Pattern.compile(Pattern.quote(LOCK) + "|furrow\\.log(\\.\\d+)?|lost\\+found");
 
     private static final FileAttribute<?> OWNER_ONLY =
             PosixFilePermissions.asFileAttribute(PosixFilePermissions.fromString("rwx------"));

@@ -190,6 +190,7 @@ public final class Suite implements AutoCloseable {
         jobs = new Jobs(flink, directory.resolve("jobs"));
         progress.step("jobs", () -> {
             new JobPlans(settings, kafka, mongo, directory).all().forEach(jobs::submit);
+            jobs.awaitStarted();
             return jobs.running();
         });
     }

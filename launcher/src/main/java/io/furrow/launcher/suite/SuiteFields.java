@@ -56,7 +56,7 @@ final class SuiteFields {
     }
 
     /**
-     * Writes the fields of the settings' file; without one those of the demonstration farm, if the broker is the suite's own and
+     * Writes the fields of the settings' file as those of all times before the first import, and ends others of them; without one those of the demonstration farm, if the broker is the suite's own and
      * has no fields yet.
      *
      * @throws CommandException if the file cannot be used wholly
@@ -69,7 +69,7 @@ final class SuiteFields {
             return List.of();
         }
         List<FieldVersion> wanted = file == null ? read(demo(directory)) : read(file);
-        List<FieldVersion> changed = FieldChange.of(wanted, known, false, Instant.EPOCH.toEpochMilli()).stream()
+        List<FieldVersion> changed = FieldChange.of(wanted, known, file != null, Instant.EPOCH.toEpochMilli()).stream()
                 .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
                 .map(FieldChange::version)
                 .toList();

@@ -103,6 +103,7 @@ class CommandLineTest {
             delimiter = '|',
             value = {
                 "--iot-agent-resource|/iot/d|--iot-agent-interval need --iot-agent",
+                "--mqtt-password-file=passwords|--mqtt-acl-file=rules|--mqtt-reload need --iot-agent",
                 "--iot-agent=http://127.0.0.1:4041|--iot-agent-resource=json|must be empty or begin with '/'",
                 "--iot-agent=http://127.0.0.1:4041|--iot-agent-interval=0s|at least a second",
                 "--iot-agent=http://127.0.0.1:4041|--fiware-service=|name one with --fiware-service",
@@ -117,6 +118,13 @@ class CommandLineTest {
             assertThat(err.toString()).contains(sentence).hasLineCount(1);
             err.getBuffer().setLength(0);
         }
+    }
+
+    @Test
+    void refusesAnIotAgentWithoutItsContextBroker() {
+        assertThat(furrow.execute("up", "--iot-agent=http://127.0.0.1:4041")).isNotZero();
+
+        assertThat(err.toString()).startsWith("--iot-agent needs --orion").hasLineCount(1);
     }
 
     @ParameterizedTest

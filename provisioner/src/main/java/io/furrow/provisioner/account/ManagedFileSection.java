@@ -2,7 +2,6 @@ package io.furrow.provisioner.account;
 
 import java.io.IOException;
 import java.nio.file.Files;
-import java.nio.file.LinkOption;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.nio.file.attribute.PosixFileAttributeView;
@@ -59,12 +58,14 @@ final class ManagedFileSection {
         if (begin >= 0) {
             next.addAll(all.subList(Math.min(all.size(), end(all, begin) + 1), all.size()));
         }
-        Files.createDirectories(file.getParent());
-        Path fresh = Files.createTempFile(file.getParent(), file.getFileName().toString(), ".new");
+        Path written = Files.exists(file) ? file.toRealPath() : file; // a link stays one
+        Files.createDirectories(written.getParent());
+        Path fresh = Files.createTempFile(
+                written.getParent(), written.getFileName().toString(), ".new");
         try {
             Files.write(fresh, next);
             giveTo(fresh);
-            Files.move(fresh, file, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
+            Files.move(fresh, written, StandardCopyOption.ATOMIC_MOVE, StandardCopyOption.REPLACE_EXISTING);
         } finally {
             Files.deleteIfExists(fresh);
         }
@@ -89,7 +90,7 @@ final class ManagedFileSection {
             view.setPermissions(PosixFilePermissions.fromString("rw-r-----"));
             return;
         }
-        PosixFileAttributes old = Files.readAttributes(file, PosixFileAttributes.class, LinkOption.NOFOLLOW_LINKS);
+        PosixFileAttributes old = Files.readAttributes(file, PosixFileAttributes.class);
         try {
             if (!old.group().equals(view.readAttributes().group())) {
                 view.setGroup(old.group());

@@ -60,6 +60,20 @@ class MosquittoFilesTest {
     }
 
     @Test
+    void writesTheFileToWhichALinkLeads() throws IOException {
+        Path real = Files.createFile(passwords().resolveSibling("real"));
+        Files.setPosixFilePermissions(real, PosixFilePermissions.fromString("rw-r--r--"));
+        Files.createSymbolicLink(passwords(), real);
+
+        files(null).replace(List.of(gateway));
+
+        assertThat(passwords()).isSymbolicLink();
+        assertThat(Files.readAllLines(real)).anyMatch(line -> MosquittoPassword.isOf(line, gateway.login()));
+        assertThat(PosixFilePermissions.toString(Files.getPosixFilePermissions(real)))
+                .isEqualTo("rw-r--r--");
+    }
+
+    @Test
     void touchesNothingAndTellsNobodyWhereNothingChanges() throws IOException {
         MosquittoFiles files = files(count());
         files.replace(List.of(gateway, device));

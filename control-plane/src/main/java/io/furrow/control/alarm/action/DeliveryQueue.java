@@ -220,6 +220,7 @@ final class DeliveryQueue {
         }
         boolean lasts = alarm.state() == AlarmState.OPEN
                 && known != null
+                && !known.refused()
                 && now - known.time() >= settings.repeatInterval().toMillis();
         return known == null || known.sequence() != alarm.sequence() || lasts;
     }

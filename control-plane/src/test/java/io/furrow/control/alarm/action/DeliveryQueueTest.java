@@ -156,7 +156,7 @@ class DeliveryQueueTest {
     void doesNotRepeatWhatIsRefused() {
         Alarm alarm = take(AlarmKind.COLLISION);
         complete(all().get(0), REFUSED);
-        now += Duration.ofHours(1).toMillis();
+        now += SETTINGS.repeatInterval().multipliedBy(2).toMillis();
         queue.passTime(now);
         assertThat(all()).isEmpty();
         assertThat(stored.get(alarm.alarm()).refused()).isTrue();

@@ -1,0 +1,53 @@
+package io.furrow.control.health;
+
+import java.nio.charset.StandardCharsets;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.control.alarm.AlarmCommandHandler;
+import io.furrow.control.alarm.AlarmHandlers;
+import io.furrow.control.manager.KeptOutbox;
+import io.furrow.model.topic.Topics;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class SilenceTest {
+    private static final long NOW = 1_700_000_000_000L;
+    private static final long HOUR = 3_600_000;
+
+    private final KeptOutbox outbox = new KeptOutbox();
+    private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+
+    @Test
+    void saysAfterARestartThatNothingArrivesUntilSomethingDoes() {
+        silent().reconcile(NOW - HOUR, NOW);
+        assertThat(farm()).contains("nothing arrives");
+
+        Silence restarted = silent();
+        for (long now = NOW + HOUR; now < NOW + HOUR + 60_000; now += 1_000) {
+            restarted.reconcile(NOW + HOUR, now);
+            assertThat(farm()).contains("nothing arrives");
+        }
+
+        restarted.reported(NOW + HOUR + 60_000);
+        restarted.reconcile(NOW + HOUR, NOW + HOUR + 60_000);
+        assertThat(farm()).contains("reports arrive");
+    }
+
+    private Silence silent() {
+        Silence silence = new Silence(HealthOptions.DEFAULT, alarms);
+        for (int i = 0; i < 5; i++) {
+            String id = "urn:t:" + i;
+            silence.put(id, new Silence.Device(id, "Thermometer", "urn:m", true, false, NOW, 30_000));
+        }
+        return silence;
+    }
+
+    private String farm() {
+        return outbox.compacted(Topics.ALARMS).values().stream()
+                .map(alarm -> new String(alarm, StandardCharsets.UTF_8))
+                .filter(alarm -> alarm.contains("silent-farm"))
+                .findFirst()
+                .orElse("");
+    }
+}
