@@ -91,8 +91,8 @@ class BadInputIT {
         }
 
         await().atMost(TIMEOUT)
-                .untilAsserted(() ->
-                        assertThat(running.ngsi().entities("id=accepted")).hasSize(1));
+                .untilAsserted(
+                        () -> assertThat(running.ngsi().entities("id=accepted")).hasSize(1));
         try (TopicLog dead = running.topic("ngsi-sink.dead")) {
             await().atMost(TIMEOUT)
                     .untilAsserted(() -> assertThat(dead.of("(refused)")).hasSize(1));

@@ -76,8 +76,7 @@ class WholePathIT {
                 .filter(field -> field.id().equals("field-1"))
                 .findFirst()
                 .orElseThrow();
-        ObjectNode properties =
-                known.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
+        ObjectNode properties = known.properties().deepCopy().put("name", NAME).put("Domain", "farm (north)");
         fields.write(List.of(new FieldVersion("imported", 0, known.geometry(), properties)));
 
         await().atMost(TIMEOUT).untilAsserted(() -> {

@@ -43,7 +43,7 @@ class TemperatureJobTest {
              "windowStart": {"type": "Integer", "value": 0, "metadata": {}},
              "windowEnd": {"type": "Integer", "value": 60000, "metadata": {}},
              "quality": {"type": "String", "value": "robust", "metadata": {}},
-             "Domain": {"type": "String", "value": "canary", "metadata": {}}}\
+             "Domain": {"type": "TextUnrestricted", "value": "canary", "metadata": {}}}\
             """.getBytes(StandardCharsets.UTF_8));
         assertThat(run.records()).hasSize(1);
         TopicRecord result = run.records().get(0);
@@ -213,7 +213,7 @@ class TemperatureJobTest {
                  "since": {"type": "Integer", "value": 0, "metadata": {}},
                  "windowStart": {"type": "Integer", "value": 120000, "metadata": {}},
                  "windowEnd": {"type": "Integer", "value": 180000, "metadata": {}},
-                 "Domain": {"type": "String", "value": "canary", "metadata": {}}}""".getBytes(StandardCharsets.UTF_8));
+                 "Domain": {"type": "TextUnrestricted", "value": "canary", "metadata": {}}}""".getBytes(StandardCharsets.UTF_8));
         assertThat(reports).hasSize(1);
         assertThat(NgsiJson.read(reports.get(0).value())).isEqualTo(expected);
         assertThat(new String(reports.get(0).key(), StandardCharsets.UTF_8)).isEqualTo("t3");

@@ -105,7 +105,8 @@ public final class RecordingsResource {
         }
         try {
             String text = given.get(0);
-            Instant time = text.matches("-?\\d{1,15}") ? Instant.ofEpochMilli(Long.parseLong(text)) : Instant.parse(text);
+            Instant time =
+                    text.matches("-?\\d{1,15}") ? Instant.ofEpochMilli(Long.parseLong(text)) : Instant.parse(text);
             if (!time.isBefore(FIRST_TIME) && !time.isAfter(LAST_TIME)) {
                 return time.toEpochMilli();
             }

@@ -33,8 +33,6 @@ public record FieldFile(
         List<RefusedFeature> refused,
         List<String> notes) {
     private static final int FIRST_BYTES = 16;
-    /** That of UTF-8, its bytes as characters. */
-    private static final String BYTE_ORDER_MARK = "\u00ef\u00bb\u00bf";
 
     /** Reads GeoJSON, a Shapefile or a GeoPackage, detected by the first bytes. */
     public static FieldFile read(Path file, ImportOptions options) throws UnusableFileException {
@@ -87,8 +85,8 @@ public record FieldFile(
         } catch (IOException e) {
             throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
         }
-        String text = new String(first, StandardCharsets.ISO_8859_1);
-        String json = text.startsWith(BYTE_ORDER_MARK) ? text.substring(BYTE_ORDER_MARK.length()) : text;
+        int begin = GeoJsonFields.begin(first);
+        String text = new String(first, begin, first.length - begin, StandardCharsets.ISO_8859_1);
         if (text.startsWith("SQLite format 3")) {
             return GeoPackageFields.read(file, options.layer());
         }
@@ -98,7 +96,7 @@ public record FieldFile(
         if (text.startsWith("\0\0'\n")) {
             return ShapefileFields.read(file);
         }
-        if (json.strip().startsWith("{")) {
+        if (text.strip().startsWith("{")) {
             return GeoJsonFields.read(file);
         }
         throw new UnusableFileException(file

@@ -4,6 +4,7 @@ import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
+import java.util.Arrays;
 import java.util.List;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -25,6 +26,8 @@ import io.furrow.model.ngsi.UnreadableException;
  */
 final class GeoJsonFields {
     private static final String WGS84 = "CRS84";
+    /** With which editors on Windows begin a file in UTF-8. */
+    private static final byte[] BYTE_ORDER_MARK = {(byte) 0xef, (byte) 0xbb, (byte) 0xbf};
 
     private GeoJsonFields() {}
 
@@ -45,9 +48,15 @@ final class GeoJsonFields {
         return new FieldLayer(crs(file, json), read, List.of());
     }
 
+    /** Where the text of a file in UTF-8 begins. */
+    static int begin(byte[] file) {
+        return Arrays.mismatch(BYTE_ORDER_MARK, file) == BYTE_ORDER_MARK.length ? BYTE_ORDER_MARK.length : 0;
+    }
+
     private static JsonNode json(Path file) throws UnusableFileException {
         try {
-            return NgsiJson.read(Files.readAllBytes(file));
+            byte[] all = Files.readAllBytes(file);
+            return NgsiJson.read(Arrays.copyOfRange(all, begin(all), all.length));
         } catch (IOException e) {
             throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
         } catch (UnreadableException e) {

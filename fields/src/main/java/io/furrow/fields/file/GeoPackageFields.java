@@ -38,7 +38,8 @@ final class GeoPackageFields {
 
     /** @param name name of the layer; null for the only one */
     static FieldLayer read(Path file, String name) throws UnusableFileException {
-        String url = "jdbc:sqlite:file:" + file.toUri().getRawPath() + (hasLog(file) ? "?mode=ro" : "?mode=ro&immutable=1");
+        String url =
+                "jdbc:sqlite:file:" + file.toUri().getRawPath() + (hasLog(file) ? "?mode=ro" : "?mode=ro&immutable=1");
         try (Connection database = DriverManager.getConnection(url)) {
             return new GeoPackageFields(file, database).layer(name);
         } catch (SQLException e) {

@@ -130,9 +130,8 @@ class FileRecordingTest extends RecordingContract {
         StoredEvent second = RandomEvents.event("b", evening + 8 * 3_600_000, 0);
         StoredEvent third = RandomEvents.event("c", evening + 9 * 3_600_000, 0);
         Files.write(folder.resolve("2026-11-20-night.ndjson"), lines(List.of(first, second, third)));
-        try (Recording recording = new FileRecordings(folder.toString())
-                .open("2026-11-20-night")
-                .orElseThrow()) {
+        try (Recording recording =
+                new FileRecordings(folder.toString()).open("2026-11-20-night").orElseThrow()) {
             assertThat(recording.read(Cursor.after(second), ALL).events()).containsExactly(third);
         }
     }

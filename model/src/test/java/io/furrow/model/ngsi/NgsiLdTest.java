@@ -9,8 +9,8 @@ import java.util.stream.Stream;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
-import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.MethodSource;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -83,9 +83,7 @@ class NgsiLdTest {
         for (List<String> times : List.of(List.of(newest, other), List.of(other, newest))) {
             Entity entity = read("""
                     {"id": "a", "type": "T", "@context": [], "t": {"value": 1, "observedAt": "%s"},
-                     "u": {"value": 2, "observedAt": "%s"}}""".formatted(times.toArray()))
-                    .entities()
-                    .get(0);
+                     "u": {"value": 2, "observedAt": "%s"}}""".formatted(times.toArray())).entities().get(0);
 
             assertThat(entity.text("TimeInstant")).contains(newest);
         }

@@ -22,8 +22,7 @@ record TimeFile(Path path) {
         if (!Files.exists(path)) {
             return Optional.empty();
         }
-        return Optional.of(Instant.parse(
-                new String(Files.readAllBytes(path), StandardCharsets.ISO_8859_1).trim()));
+        return Optional.of(Instant.parse(new String(Files.readAllBytes(path), StandardCharsets.ISO_8859_1).trim()));
     }
 
     void write(Instant time) throws IOException {

@@ -60,8 +60,8 @@ final class ManagedFileSection {
         }
         Path written = Files.exists(file) ? file.toRealPath() : file; // a link stays one
         Files.createDirectories(written.getParent());
-        Path fresh = Files.createTempFile(
-                written.getParent(), written.getFileName().toString(), ".new");
+        Path fresh =
+                Files.createTempFile(written.getParent(), written.getFileName().toString(), ".new");
         try {
             Files.write(fresh, next);
             giveTo(fresh);

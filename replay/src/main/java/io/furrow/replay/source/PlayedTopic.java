@@ -36,7 +36,7 @@ final class PlayedTopic implements TopicWatch.Watched {
         try {
             boolean isFirst = partitions == 0;
             int found = reading.topics().prepare(topic);
-            if (restored && isFirst) {
+            if (isFirst) {
                 end = reading.topics().end(topic);
             }
             partitions = found;
@@ -50,8 +50,9 @@ final class PlayedTopic implements TopicWatch.Watched {
         }
     }
 
+    /** Whether it may have records already: of this replay before a restart, or of another that was played on it. */
     boolean isRestored() {
-        return restored;
+        return restored || end.epoch() >= 0;
     }
 
     TopicEnd end() {

@@ -57,7 +57,7 @@ final class RunningReplay {
     private final PlayedTopic topic;
     /** Whether its topic is asked for that it needs to go on after a restart. */
     private boolean asked;
-    /** Whether it goes on after a restart. */
+    /** Whether it goes on after what its topic has. */
     private boolean goesOn;
 
     /**
@@ -166,16 +166,20 @@ final class RunningReplay {
         due = Math.max(next, reading.clock().now());
     }
 
+    private void goOnAfterItsTopic() {
+        if (topic.isRestored() && !goesOn && playback != null && topic.partitions() > 0) {
+            goesOn = true;
+            playback.goOnAfter(topic.end().epoch(), topic.end().timestamp());
+        }
+    }
+
     private long runOnce(Consumer<TopicRecord> out) {
         if (awaitsTopic()) {
             playback.awaitTopic(topic.refusal());
             reports.report(playback, reading.clock().now(), out);
             return reports.due(playback);
         }
-        if (topic.isRestored() && !goesOn && playback != null && topic.partitions() > 0) {
-            goesOn = true;
-            playback.goOnAfter(topic.end().epoch(), topic.end().timestamp());
-        }
+        goOnAfterItsTopic();
         while (!wishes.isEmpty()) {
             byte[] wish = wishes.remove();
             if (wish == REMOVED) {
@@ -192,6 +196,7 @@ final class RunningReplay {
             playback.fail(DELETED, reading.clock().now()).ifPresent(played -> write(played, out));
         }
         for (Fetched answer = answers.poll(); answer != null; answer = answers.poll()) {
+            goOnAfterItsTopic(); // known before the answer came
             playback.take(answer, reading.clock().now()).ifPresent(played -> write(played, out));
         }
         boolean more = true;

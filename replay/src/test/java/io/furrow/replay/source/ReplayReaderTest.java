@@ -353,6 +353,20 @@ class ReplayReaderTest {
         assertThat(played("m", "end").get(0).headers()).containsEntry(HeaderNames.REPLAY_EPOCH, "7");
     }
 
+    @Test
+    void beginsANewEpochOnATopicThatAReplayBeforeHasLeft() throws Exception {
+        missions.with("m", TIME, TIME + 10);
+        topics.end = new TopicEnd(0, TIME + 10);
+        start(wanted("m", ReplayCommand.MAX, State.RUNNING, 1));
+
+        play("m", "end", 1);
+
+        assertThat(played("m", "event"))
+                .extracting(record -> record.headers().get(HeaderNames.REPLAY_EPOCH))
+                .containsExactly("1", "1");
+        assertThat(played("m", "event")).extracting(TopicRecord::timestamp).containsExactly(TIME + 10, TIME + 20);
+    }
+
     /** Whoever asked for it can forget it then. */
     @Test
     void appliesARecordThatItCannotReadAsAFailure() throws Exception {

@@ -14,6 +14,7 @@ import org.junit.jupiter.api.io.TempDir;
 import io.furrow.connect.repair.Watermark;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 
 class KnownEntitiesTest {
     /** Of an identity of four signs. */
