@@ -115,12 +115,22 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
         if (command instanceof AlarmCommand.Acknowledge acknowledge) {
             return answer(acknowledge.alarm(), new AlarmEvent.Acknowledged(acknowledge.user()), "acknowledged", now);
         } else if (command instanceof AlarmCommand.Close close) {
-            return answer(close.alarm(), new AlarmEvent.Dismissed(close.user()), "closed", now);
+            return answer(close.alarm(), dismissal(close, now), "closed", now);
         } else if (command instanceof AlarmCommand.Mute mute) {
             long until = now + mute.time().toMillis();
             return muted(mute.target(), until, now).with("until", until);
         }
         return muted(((AlarmCommand.Unmute) command).target(), null, now);
+    }
+
+    private AlarmEvent dismissal(AlarmCommand.Close close, long now) {
+        Alarm alarm = records.alarms().get(close.alarm());
+        boolean isOver = alarm != null
+                && alarm.isOfGroup()
+                && alarm.state() != AlarmState.CLOSED
+                && AlarmLimit.KINDS.contains(alarm.kind())
+                && limit.dismiss(alarm.kind(), alarm.subject(), now);
+        return new AlarmEvent.Dismissed(close.user(), isOver);
     }
 
     private CommandResult answer(String id, AlarmEvent event, String status, long now) throws RefusedException {

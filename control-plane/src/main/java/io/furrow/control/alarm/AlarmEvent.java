@@ -23,8 +23,9 @@ public sealed interface AlarmEvent {
      * A user closes the alarm.
      *
      * @param user null if not named
+     * @param isOver of a group alarm, whether none of its causes was reported lately
      */
-    record Dismissed(String user) implements AlarmEvent {}
+    record Dismissed(String user, boolean isOver) implements AlarmEvent {}
 
     /** @param user null if not named */
     record Acknowledged(String user) implements AlarmEvent {}

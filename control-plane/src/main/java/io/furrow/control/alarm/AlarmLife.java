@@ -34,7 +34,7 @@ final class AlarmLife {
         } else if (event instanceof AlarmEvent.Ended ended) {
             return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), ended.reason(), now);
         } else if (event instanceof AlarmEvent.Dismissed by) {
-            return dismissed(alarm, by.user(), now);
+            return dismissed(alarm, by, now);
         } else if (event instanceof AlarmEvent.Acknowledged by) {
             if (!alarm.state().canBecome(AlarmState.ACKNOWLEDGED)) {
                 throw wrongState(alarm);
@@ -56,16 +56,17 @@ final class AlarmLife {
         return inhibition ? updated.inhibited(reported.inhibitedBy(), now) : updated;
     }
 
-    private static Alarm dismissed(Alarm alarm, String user, long now) throws RefusedException {
+    private static Alarm dismissed(Alarm alarm, AlarmEvent.Dismissed event, long now) throws RefusedException {
         Duration ago = alarm.seen() == null ? null : Duration.ofMillis(now - alarm.seen());
-        if (alarm.isOfGroup() || ago != null && ago.compareTo(CAUSE_LASTS) < 0) {
+        boolean lasts = alarm.isOfGroup() ? !event.isOver() : ago != null && ago.compareTo(CAUSE_LASTS) < 0;
+        if (lasts) {
             String seen = alarm.isOfGroup() ? "" : " (seen %d s ago)".formatted(ago.toSeconds());
             throw new RefusedException(
                     ErrorCode.WRONG_STATE,
                     "alarm '%s' closes when its cause is over: %s%s. Acknowledge it, or mute it for a while."
                             .formatted(alarm.alarm(), alarm.text(), seen));
         }
-        String by = user == null ? "somebody" : user;
+        String by = event.user() == null ? "somebody" : event.user();
         return alarm.become(AlarmState.CLOSED, alarm.acknowledgedBy(), "closed by " + by, now);
     }
 

@@ -28,6 +28,7 @@ final class AlarmLimit {
             AlarmKind.COLLISION, AlarmKind.PREDICTED_ENCOUNTER, AlarmKind.SUSPECT_SENSOR, AlarmKind.CLOCK_BEHIND);
 
     private static final long RECOUNT_EVERY = Duration.ofSeconds(10).toMillis();
+    private static final long SEEN_INTERVAL = Duration.ofSeconds(10).toMillis();
 
     private final Records<Group> groups;
     private final Records<Counted> counted;
@@ -52,8 +53,9 @@ final class AlarmLimit {
      *
      * @param key kind and subject
      * @param until end of validity, epoch ms; null if it lasts until ended explicitly
+     * @param seen when it was last reported, epoch ms, to {@link #SEEN_INTERVAL}
      */
-    record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until) {}
+    record Counted(String key, AlarmKind kind, String group, List<Cause.Device> devices, Long until, long seen) {}
 
     AlarmLimit(Records<Group> groups, Records<Counted> counted) {
         this.groups = groups;
@@ -76,10 +78,10 @@ final class AlarmLimit {
             return false;
         }
         boolean hasRoom = group.counted() < MAX_COUNTED;
-        if (known ? !Objects.equals(before.until(), cause.until(now)) : hasRoom) {
-            counted.put(
-                    cause.key(),
-                    new Counted(cause.key(), cause.kind(), cause.group(), cause.devices(), cause.until(now)));
+        Counted counting =
+                new Counted(cause.key(), cause.kind(), cause.group(), cause.devices(), cause.until(now), now);
+        if (known ? isNews(before, counting) : hasRoom) {
+            counted.put(cause.key(), counting);
         }
         if (!known && hasRoom) {
             store(new Group(
@@ -90,6 +92,32 @@ final class AlarmLimit {
                     group.counted() + 1,
                     joined(group.devices(), cause.devices())));
         }
+        return true;
+    }
+
+    private static boolean isNews(Counted before, Counted now) {
+        return !Objects.equals(before.until(), now.until()) || now.seen() - before.seen() >= SEEN_INTERVAL;
+    }
+
+    /**
+     * Removes the counted causes of a group, of which the end may have been lost, unless one was reported lately.
+     *
+     * @return whether they were removed
+     */
+    boolean dismiss(AlarmKind kind, String group, long now) {
+        List<String> members = new ArrayList<>();
+        boolean[] lasts = new boolean[1];
+        counted.forEach(each -> {
+            if (each.kind() == kind && each.group().equals(group)) {
+                members.add(each.key());
+                lasts[0] |= now - each.seen() < AlarmLife.CAUSE_LASTS.toMillis();
+            }
+        });
+        if (lasts[0]) {
+            return false;
+        }
+        members.forEach(key -> counted.put(key, null));
+        store(group(kind, group).with(group(kind, group).alarms(), 0));
         return true;
     }
 

@@ -164,6 +164,24 @@ class AlarmCommandHandlerTest {
     }
 
     @Test
+    void closesAGroupAlarmByHandOnceNoneOfItsCausesIsReportedAnyMore() throws Exception {
+        for (int i = 0; i < AlarmLimit.MAX_ALARMS + 2; i++) {
+            handler.raise(pair(i), NOW);
+        }
+        handler.passTime(NOW + 1_000);
+        String crowd = "collision-" + (AlarmLimit.MAX_ALARMS + 1);
+        handler.raise(pair(AlarmLimit.MAX_ALARMS), NOW + 50_000);
+        AlarmCommand close = new AlarmCommand.Close(crowd, "ann");
+        assertThatThrownBy(() -> handler.answer(close, NOW + 70_000)).isInstanceOf(RefusedException.class);
+
+        handler.answer(close, NOW + 110_000);
+        handler.passTime(NOW + 120_000);
+
+        assertThat(alarm(crowd).state()).isEqualTo(AlarmState.CLOSED);
+        assertThat(current()).hasSize(AlarmLimit.MAX_ALARMS);
+    }
+
+    @Test
     void forgetsCountedCausesThatAreOverByThemselves() {
         for (int i = 0; i < AlarmLimit.MAX_ALARMS + 5; i++) {
             handler.raise(new Cause(AlarmKind.PREDICTED_ENCOUNTER, "p" + i, "x", List.of(), HOUR).inGroup("g"), NOW);
