@@ -140,7 +140,7 @@ export class Card {
     const sent = (this.sent = { command, at: Date.now(), info: infoOf(this.entity, command), waiting: true });
     this.drawCommands();
     try {
-      await api.post(`/api/devices/${encodeURIComponent(this.entity.id)}/commands`, { command, ...(store.devices.has(this.entity.id) ? {} : { type: this.entity.type }) });
+      await api.post(`/api/devices/${encodeURIComponent(this.entity.id)}/commands`, { command, type: this.entity.type });
     } catch (error) {
       sent.error = error.message;
     }

@@ -42,7 +42,7 @@ export function isPointless(entity, command) {
  * How a command went that was sent from here. The status may stay PENDING while the info has the answer already.
  *
  * @param {import('../core/entity.js').Entity} entity
- * @param {{command: string, at: number, info: *}} sent `info`: what the attribute said before
+ * @param {{command: string, at: number, info: *, waiting: boolean}} sent `info`: what the attribute said before; `waiting`: for the server to take it
  * @param {number} now epoch ms, of the clock
  * @returns {{state: 'pending'|'ok'|'failed'|'unanswered', info: string|null}}
  */
@@ -50,7 +50,7 @@ export function outcomeOf(entity, sent, now) {
   const prefix = `${sent.command}_status` in entity.attributes ? sent.command : 'cmd';
   const status = String(entity.attributes[`${prefix}_status`]?.value ?? '').toUpperCase();
   const info = entity.attributes[`${prefix}_info`]?.value;
-  const heard = entity.time >= sent.at;
+  const heard = !sent.waiting && entity.time >= sent.at;
   if (heard && (status === 'ERROR' || status === 'EXPIRED' || status === 'FAILED')) {
     return { state: 'failed', info: text(info) };
   }

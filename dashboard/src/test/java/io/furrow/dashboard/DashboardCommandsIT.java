@@ -107,6 +107,27 @@ class DashboardCommandsIT extends DashboardFixture {
                 .isEqualTo("olga");
     }
 
+    @Test
+    void writesForAnAdminOnlyWhatTheRestApiDoesForAnAdminOnly() throws Exception {
+        SocketClient olga = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER, OLGA));
+        SocketClient ofMissions = SocketClient.open(http, socket(Topics.MISSION_MANAGER, OLGA));
+        SocketClient anna = SocketClient.open(http, socket(Topics.DOMAIN_MANAGER + "?format=record", ANNA));
+        String delete = "{\"type\":\"request\",\"command\":\"delete\",\"domain\":\"farm\",\"force\":true}";
+        long before = ends(Topics.DOMAIN_MANAGER);
+
+        olga.send(delete);
+        ofMissions.send("{\"type\":\"request\",\"command\":\"delete-template\",\"template\":\"hoeing\"}");
+        ofMissions.send("{\"type\":\"request\",\"command\":\"rotate-credentials\",\"device\":\"urn:x\"}");
+
+        await().until(() -> olga.frames().size() == 1 && ofMissions.frames().size() == 2);
+        assertThat(olga.frames()).allMatch(frame -> frame.contains("needs the role admin, and 'olga' is operator"));
+        assertThat(ofMissions.frames()).allMatch(frame -> frame.contains("needs the role admin"));
+        assertThat(ends(Topics.MISSION_MANAGER)).isZero();
+        anna.send(delete);
+        await().until(() -> anna.frames().stream().anyMatch(frame -> frame.startsWith("{\"written\"")));
+        assertThat(ends(Topics.DOMAIN_MANAGER)).isEqualTo(before + 1);
+    }
+
     private static ConsumerRecord<String, String> last(String topic) {
         try (KafkaConsumer<String, String> consumer =
                 new KafkaConsumer<>(client(), new StringDeserializer(), new StringDeserializer())) {

@@ -47,6 +47,7 @@ import static org.awaitility.Awaitility.await;
 abstract class DashboardFixture {
     static final String VERA = "vera-reads-only-0001";
     static final String OLGA = "olga-commands-000001";
+    static final String ANNA = "anna-rules-the-farm1";
     static final String TOPIC = "data.farm.realtime.weeding";
     static final String REPLAY = "data.m.replay.0a1b2c3d";
 
@@ -74,7 +75,7 @@ abstract class DashboardFixture {
             Path directory = Files.createTempDirectory("dashboard");
             kafka = EmbeddedKafka.start(directory.resolve("kafka"));
             Path tokens = directory.resolve("tokens");
-            Files.writeString(tokens, "vera %s viewer%nolga %s operator%n".formatted(VERA, OLGA));
+            Files.writeString(tokens, "vera %s viewer%nolga %s operator%nanna %s admin%n".formatted(VERA, OLGA, ANNA));
             api = RestApi.start(
                     ControlSettings.of(client()),
                     RestSettings.on(0).withTokens(tokens),

@@ -9,6 +9,7 @@ import java.util.List;
 import java.util.stream.LongStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.admin.Admin;
 import org.apache.kafka.clients.producer.ProducerRecord;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
@@ -212,6 +213,23 @@ class DashboardStreamsIT extends DashboardFixture {
 
         await().until(() -> dashboard.streams().open() == 0);
         assertThat(metric("streams_closed_total{reason=\"client\"}")).isEqualTo(1);
+    }
+
+    @Tag("full")
+    @Test
+    void endsTheStreamsOfADeletedTopicAndReadsItWhenItIsMadeAgain() throws Exception {
+        String topic = "data.m.replay.1a2b3c4d";
+        kafka.createTopics(topics(topic));
+        SocketClient client = open(topic);
+
+        try (Admin admin = Admin.create(client())) {
+            admin.deleteTopics(List.of(topic)).all().get();
+            await().until(client::isOver);
+            assertThat(client.reason()).isEqualTo("topic 'data.m.replay.1a2b3c4d' is not there any more");
+            await().ignoreExceptions() // while the one before is being deleted
+                    .until(() -> admin.createTopics(topics(topic)).all().get() == null);
+        }
+        open(topic).close();
     }
 
     @Tag("full")

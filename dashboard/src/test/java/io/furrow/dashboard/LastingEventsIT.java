@@ -2,6 +2,7 @@ package io.furrow.dashboard;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.net.URI;
 import java.net.http.HttpClient;
 import java.net.http.HttpRequest;
 import java.net.http.HttpResponse;
@@ -27,6 +28,8 @@ import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.embedded.EmbeddedKafka;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.topic.Topics;
 
 import static java.nio.charset.StandardCharsets.UTF_8;
 import static org.assertj.core.api.Assertions.assertThat;
@@ -117,17 +120,33 @@ class LastingEventsIT {
                 await().atMost(TIMEOUT)
                         .until(() -> vera.lines("data: {\"records\"") == 1 && olga.lines("data: {\"records\"") == 1);
 
-                Files.writeString(tokens, "olga %s operator%n".formatted(OLGA));
+                SocketClient commanding = SocketClient.open(http, socket(dashboard, OLGA));
+                Files.writeString(tokens, "olga %s viewer%n".formatted(OLGA));
+                await().atMost(TIMEOUT).until(() -> {
+                    commanding.send("[]");
+                    return commanding.frames().stream().anyMatch(frame -> frame.contains("'olga' is viewer"));
+                });
+                assertThat(commanding.isOver()).isFalse();
                 await().atMost(TIMEOUT).until(() -> vera.over);
                 assertThat(vera.lines("broken")).isZero();
                 assertThat(stream(dashboard, VERA).statusCode()).isEqualTo(401);
-                assertThat(dashboard.streams().open()).isEqualTo(1);
+                assertThat(dashboard.streams().open()).isEqualTo(2);
                 producer.send(new ProducerRecord<>(TOPIC, "k", "{\"n\":2}".getBytes(UTF_8)))
                         .get();
                 await().atMost(TIMEOUT).until(() -> olga.lines("data: {\"records\"") == 2);
                 assertThat(vera.lines("data: {\"records\"")).isEqualTo(1);
             }
         }
+    }
+
+    private URI socket(Dashboard dashboard, String token) throws Exception {
+        HttpResponse<byte[]> answer = http.send(
+                HttpRequest.newBuilder(dashboard.uri().resolve("/api/register/" + Topics.DOMAIN_MANAGER))
+                        .header("Authorization", "Bearer " + token)
+                        .build(),
+                HttpResponse.BodyHandlers.ofByteArray());
+        String path = NgsiJson.read(answer.body()).path("socket").asText();
+        return URI.create(dashboard.uri().toString().replace("http", "ws") + path);
     }
 
     private HttpResponse<InputStream> stream(Dashboard dashboard, String token) throws Exception {

@@ -13,7 +13,7 @@ import io.furrow.launcher.suite.Suite;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** The context broker and the listener for notifications, as a client over HTTP sees them. */
-final class Ngsi {
+public final class Ngsi {
     private final HttpClient http =
             HttpClient.newBuilder().version(HttpClient.Version.HTTP_1_1).build();
     private final Suite suite;
@@ -39,8 +39,17 @@ final class Ngsi {
     }
 
     /** Creates or updates an entity in normalized form. */
-    int append(String entities) throws IOException, InterruptedException {
-        String update = "{\"actionType\":\"append\",\"entities\":[" + entities + "]}";
+    public int append(String entities) throws IOException, InterruptedException {
+        return update("append", entities);
+    }
+
+    /** Deletes an entity. */
+    public int delete(String id) throws IOException, InterruptedException {
+        return update("delete", "{\"id\":\"" + id + "\"}");
+    }
+
+    private int update(String action, String entities) throws IOException, InterruptedException {
+        String update = "{\"actionType\":\"" + action + "\",\"entities\":[" + entities + "]}";
         return send(
                 suite.contextBroker().resolve("/v2/op/update"),
                 update.getBytes(java.nio.charset.StandardCharsets.UTF_8));

@@ -35,7 +35,7 @@ public final class RunningSuite implements AutoCloseable {
         return suite;
     }
 
-    Ngsi ngsi() {
+    public Ngsi ngsi() {
         return new Ngsi(suite);
     }
 

@@ -132,6 +132,8 @@ public final class DeviceCommands implements CommandSender {
         ObjectNode body = JsonNodeFactory.instance.objectNode();
         if (isRobot(type)) {
             body.putObject("cmd").put("type", "String").put("value", command);
+            // The result of an earlier command does not stand for that of this one.
+            body.putObject("cmd_status").put("type", "commandStatus").put("value", "PENDING");
         } else {
             body.putObject(command).put("type", "command").put("value", value);
         }

@@ -151,7 +151,10 @@ public final class DevicesResource {
             @Context ContainerRequestContext request, @PathParam(DEVICE) String id, InputStream body)
             throws IOException {
         ObjectNode members = Body.read(body);
-        ObjectNode device = find(id);
+        // A robot that is on no mission can be stopped too. An operator may put any entity on one.
+        ObjectNode device = members.hasNonNull("type")
+                ? view.find(Topics.DEVICES, means.scope().identity(id)).orElse(members)
+                : find(id);
         String command = members.path("command").asText();
         String value = members.path("value").asText("");
         String type = device.path("type").asText(members.path("type").asText());

@@ -48,7 +48,7 @@ class DeviceCommandsTest {
     }
 
     @Test
-    void tellsARobotByItsAttributeCmd() throws Exception {
+    void tellsARobotByItsAttributeCmdAndThatNothingIsAnsweredYet() throws Exception {
         commands().send("urn:ngsi-ld:Robot:m-1", "Robot", "Stop", "");
 
         commands().send("urn:ngsi-ld:Robot:m-1", "ROBOT", "Stop", "");
@@ -56,7 +56,8 @@ class DeviceCommandsTest {
         assertThat(heard)
                 .hasSize(2)
                 .containsOnly("POST /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs farm /north"
-                        + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}}");
+                        + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"},"
+                        + "\"cmd_status\":{\"type\":\"commandStatus\",\"value\":\"PENDING\"}}");
     }
 
     @Test

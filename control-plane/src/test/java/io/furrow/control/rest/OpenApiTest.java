@@ -19,6 +19,8 @@ import org.junit.jupiter.api.Test;
 
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.access.RoleFilter;
+import io.furrow.model.control.AdminCommands;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
@@ -56,10 +58,7 @@ class OpenApiTest {
     /** What reports nothing of the farm has no role. */
     @Test
     void describesTheRoleThatTheCodeAsksFor() throws Exception {
-        Map<String, String> roles = new TreeMap<>();
-        for (Class<?> type : resources()) {
-            addRoles(Resource.from(type), "", roles);
-        }
+        Map<String, String> roles = roles();
         OpenApiDocument document = OpenApiDocument.read();
         for (String operation : document.operations()) {
             String[] words = operation.split(" ");
@@ -75,6 +74,37 @@ class OpenApiTest {
                 .containsEntry("DELETE /api/templates/{template}", "admin")
                 .containsEntry("GET /api/devices", "viewer")
                 .containsEntry("DELETE /api/missions/{mission}", "operator");
+    }
+
+    /** On the topic of a manager a command takes the role that it takes here. */
+    @Test
+    void namesTheCommandsOfAllOperationsForAdmins() throws Exception {
+        Set<String> operations = new TreeSet<>();
+        roles().forEach((operation, role) -> {
+            if (role.equals(Role.ADMINS) && !operation.startsWith("GET")) {
+                operations.add(operation);
+            }
+        });
+
+        assertThat(operations)
+                .containsExactlyInAnyOrder(
+                        "DELETE /api/domains/{domain}",
+                        "DELETE /api/templates/{template}",
+                        "POST /api/devices/{device}/credentials");
+        assertThat(AdminCommands.contains(Topics.DOMAIN_MANAGER, "delete")).isTrue();
+        assertThat(AdminCommands.contains(Topics.MISSION_MANAGER, "delete-template"))
+                .isTrue();
+        assertThat(AdminCommands.contains(Topics.MISSION_MANAGER, "rotate-credentials"))
+                .isTrue();
+        assertThat(AdminCommands.contains(Topics.MISSION_MANAGER, "delete")).isFalse();
+    }
+
+    private static Map<String, String> roles() throws Exception {
+        Map<String, String> roles = new TreeMap<>();
+        for (Class<?> type : resources()) {
+            addRoles(Resource.from(type), "", roles);
+        }
+        return roles;
     }
 
     private static void addRoles(Resource resource, String before, Map<String, String> roles) {

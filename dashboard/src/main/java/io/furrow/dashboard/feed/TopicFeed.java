@@ -11,8 +11,8 @@ import java.util.concurrent.CountDownLatch;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
 import org.apache.kafka.clients.consumer.ConsumerRecords;
 import org.apache.kafka.clients.consumer.KafkaConsumer;
-import org.apache.kafka.common.KafkaException;
 import org.apache.kafka.common.TopicPartition;
+import org.apache.kafka.common.errors.UnknownTopicOrPartitionException;
 import org.apache.kafka.common.errors.WakeupException;
 import org.apache.kafka.common.serialization.ByteArrayDeserializer;
 import org.slf4j.Logger;
@@ -80,6 +80,11 @@ public final class TopicFeed implements AutoCloseable {
         }
     }
 
+    /** Whether it serves nobody any more. */
+    boolean hasFailed() {
+        return failure != null;
+    }
+
     /** @return whether none is left */
     boolean remove(Stream stream) {
         streams.remove(stream);
@@ -106,13 +111,20 @@ public final class TopicFeed implements AutoCloseable {
             }
         } catch (WakeupException e) {
             LOG.debug("the feed of {} is closed", topic, e);
-        } catch (KafkaException e) {
+        } catch (UnknownTopicOrPartitionException e) {
+            LOG.debug("topic {} is gone", topic, e);
+            fail("topic '%s' is not there any more".formatted(topic));
+        } catch (RuntimeException e) { // streams that nobody serves would stay open
             LOG.warn("topic {} cannot be read any more", topic, e);
-            failure = "topic '%s' cannot be read (%s)".formatted(topic, e.getMessage());
-            streams.forEach(stream -> stream.end(failure));
+            fail("topic '%s' cannot be read (%s)".formatted(topic, e.getMessage()));
         } finally {
             atEnd.countDown();
         }
+    }
+
+    private void fail(String reason) {
+        failure = reason;
+        streams.forEach(stream -> stream.end(reason));
     }
 
     /** @param atTheirEnd else partitions that came later are read from their beginning */
@@ -120,6 +132,9 @@ public final class TopicFeed implements AutoCloseable {
         List<TopicPartition> all = consumer.partitionsFor(topic).stream()
                 .map(each -> new TopicPartition(each.topic(), each.partition()))
                 .toList();
+        if (all.isEmpty()) {
+            throw new UnknownTopicOrPartitionException("it has no partitions");
+        }
         Collection<TopicPartition> before = Set.copyOf(consumer.assignment());
         if (before.size() == all.size()) {
             return;

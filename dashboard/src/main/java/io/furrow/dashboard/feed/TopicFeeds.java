@@ -128,7 +128,11 @@ public final class TopicFeeds implements AutoCloseable {
             if (closed) {
                 throw new Problem(503, "stopping", "the dashboard stops");
             }
-            feed = feeds.computeIfAbsent(topic, name -> new TopicFeed(name, client, limits, counters));
+            feed = feeds.get(topic);
+            if (feed == null || feed.hasFailed()) {
+                feed = new TopicFeed(topic, client, limits, counters);
+                feeds.put(topic, feed);
+            }
             feed.add(stream);
         }
         feed.awaitBegun();

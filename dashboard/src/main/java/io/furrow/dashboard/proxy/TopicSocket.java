@@ -10,6 +10,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
+import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.proxy.StreamCounters.Closing;
 import io.furrow.model.ngsi.NgsiJson;
@@ -33,6 +34,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     private final ProxyLimits limits;
     private final Outbox outbox;
     private final long openedAt = System.nanoTime();
+    private volatile User user;
     private Session session;
     private boolean sending;
     private boolean closed;
@@ -42,6 +44,7 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     TopicSocket(TopicStreams streams, Tickets.Ticket ticket, ProxyLimits limits) {
         this.streams = streams;
         this.ticket = ticket;
+        this.user = ticket.user();
         this.limits = limits;
         this.outbox = new Outbox(ticket.request(), limits, streams.counters());
     }
@@ -54,6 +57,11 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     @Override
     public long openedAt() {
         return openedAt;
+    }
+
+    @Override
+    public void refresh(User current) {
+        user = current;
     }
 
     @Override
@@ -158,25 +166,23 @@ public final class TopicSocket implements Session.Listener.AutoDemanding, OpenSt
     public void onWebSocketText(String message) {
         try {
             count();
-            streams.writer()
-                    .write(ticket.request().topic(), ticket.user(), message)
-                    .whenComplete((at, failure) -> {
-                        if (failure instanceof Problem problem) {
-                            refuse(problem);
-                            return;
-                        }
-                        streams.counters().written();
-                        if (ticket.request().format() == StreamRequest.Format.RECORD) {
-                            say(NgsiJson.write(NgsiJson.mapper()
-                                    .createObjectNode()
-                                    .set(
-                                            "written",
-                                            NgsiJson.mapper()
-                                                    .createObjectNode()
-                                                    .put("partition", at.partition())
-                                                    .put("offset", at.offset()))));
-                        }
-                    });
+            streams.writer().write(ticket.request().topic(), user, message).whenComplete((at, failure) -> {
+                if (failure instanceof Problem problem) {
+                    refuse(problem);
+                    return;
+                }
+                streams.counters().written();
+                if (ticket.request().format() == StreamRequest.Format.RECORD) {
+                    say(NgsiJson.write(NgsiJson.mapper()
+                            .createObjectNode()
+                            .set(
+                                    "written",
+                                    NgsiJson.mapper()
+                                            .createObjectNode()
+                                            .put("partition", at.partition())
+                                            .put("offset", at.offset()))));
+                }
+            });
         } catch (Problem problem) {
             refuse(problem);
         }

@@ -206,11 +206,11 @@ public final class TopicStreams implements AutoCloseable {
         }
     }
 
-    /** A token that was taken back opens no stream, and keeps none. */
+    /** A token that was taken back opens no stream, and keeps none; a role that changed counts for open sockets too. */
     private void askAgain() {
         for (OpenStream stream : streams) {
             try {
-                users.find(stream.credentials());
+                stream.refresh(users.find(stream.credentials()));
                 if (stream.credentials().isOfProxy()
                         && System.nanoTime() - stream.openedAt() > MAX_BY_PROXY.toNanos()) {
                     stream.revoke("the proxy is to be asked again who this is; register once more");

@@ -18,6 +18,7 @@ import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.User;
 import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.model.control.AdminCommands;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -41,7 +42,7 @@ final class TopicWriter implements AutoCloseable {
 
     /**
      * @return where it stands, when Kafka has it
-     * @throws Problem for a user or a topic that may not, and for a message that is no JSON object
+     * @throws Problem for a topic that may not be written, a user whose role does not allow the command, and for a message that is no JSON object
      */
     CompletionStage<RecordMetadata> write(String topic, User user, String message) {
         if (!rules.mayWrite(topic)) {
@@ -50,14 +51,11 @@ final class TopicWriter implements AutoCloseable {
                     "topic-not-allowed",
                     "topic '%s' is not among those that may be written; --writable-topics names them".formatted(topic));
         }
-        if (!user.role().includes(Role.OPERATOR)) {
-            throw new Problem(
-                    403,
-                    "forbidden",
-                    "this needs the role operator, and '%s' is %s"
-                            .formatted(user.name(), user.role().word()));
-        }
+        check(user, Role.OPERATOR);
         ObjectNode json = read(message);
+        if (AdminCommands.contains(topic, json.path("command").asText())) {
+            check(user, Role.ADMIN);
+        }
         json.put("user", user.name()); // nobody speaks for another
         JsonNode id = json.path("requestId");
         byte[] key = id.isTextual() ? id.asText().getBytes(StandardCharsets.UTF_8) : null;
@@ -74,6 +72,16 @@ final class TopicWriter implements AutoCloseable {
             written.completeExceptionally(notWritten(topic, e));
         }
         return written;
+    }
+
+    private static void check(User user, Role least) {
+        if (!user.role().includes(least)) {
+            throw new Problem(
+                    403,
+                    "forbidden",
+                    "this needs the role %s, and '%s' is %s"
+                            .formatted(least.word(), user.name(), user.role().word()));
+        }
     }
 
     private static ObjectNode read(String message) {

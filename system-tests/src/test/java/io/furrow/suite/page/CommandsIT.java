@@ -1,46 +1,75 @@
 package io.furrow.suite.page;
 
-import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 
 import com.microsoft.playwright.Locator;
-import com.microsoft.playwright.Route;
+import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.AfterEach;
+import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
+import static org.awaitility.Awaitility.await;
 
-/** What a card says of a command that was taken, by what the device then reports. */
+/** What a card says of a command to a robot that reports by itself, by what the robot then reports. */
 @PageTest
 @Tag("full")
 class CommandsIT {
     private static final String ROBOT = "urn:ngsi-ld:Robot:answers";
+    private static final String MISSION = "/api/missions/answers";
 
+    private FarmPage farm;
     private Locator outcome;
 
+    @BeforeAll
+    static void beginItsMission(PageSuite suite) throws Exception {
+        String mission = "{\"domain\":\"farm\",\"devices\":[\"" + ROBOT + "\"]}";
+        await().until(() -> suite.rest("POST", MISSION + "/start", mission) == 200);
+    }
+
+    @AfterAll
+    static void endItsMission(PageSuite suite) throws Exception {
+        suite.rest("POST", MISSION + "/stop", "");
+        await().until(() -> suite.rest("DELETE", MISSION, "") == 200);
+    }
+
+    /** It has answered an earlier command. */
     @BeforeEach
     void stopARobot(PageSuite suite) throws Exception {
-        report(suite, "", "");
-        FarmPage farm = suite.open("");
-        farm.page()
-                .route("**/api/devices/*/commands", route -> route.fulfill(new Route.FulfillOptions().setStatus(202)));
+        report(suite, answer("OK", "Resume"));
+        farm = suite.open("");
+        farm.untilStore("store.devices.has('" + ROBOT + "')");
         outcome = farm.card(ROBOT).locator(".card-outcome");
         farm.card(ROBOT)
                 .getByText("Stop", new Locator.GetByTextOptions().setExact(true))
                 .click();
         assertThat(outcome).containsText("no answer yet");
+        farm.untilStore("store.entities.get('" + ROBOT + "').attributes.cmd.value === 'Stop'");
     }
 
     @AfterEach
     void forgetIt(PageSuite suite) throws Exception {
+        suite.running().ngsi().delete(ROBOT);
         suite.forget(ROBOT);
     }
 
     @Test
+    void takesNoEarlierAnswerForThatOfThisCommand(PageSuite suite) throws Exception {
+        long moved = report(suite, "");
+
+        farm.untilStore("store.entities.get('" + ROBOT + "').time >= " + moved);
+        outcome.evaluate("(element) => element.closest('li').card.draw()");
+        assertThat(outcome).containsText("no answer yet");
+
+        report(suite, answer("OK", "Stop"));
+        assertThat(outcome).containsText("✓ Stop");
+    }
+
+    @Test
     void saysThatACommandFailedAndWhy(PageSuite suite) throws Exception {
-        report(suite, "ERROR", "the brake is stuck");
+        report(suite, answer("ERROR", "the brake is stuck"));
 
         assertThat(outcome).containsText("✗ Stop failed");
         assertThat(outcome).containsText("the brake is stuck");
@@ -49,26 +78,35 @@ class CommandsIT {
     /** As some agents leave it: the status stays, and the answer is in the info. */
     @Test
     void takesTheInfoForTheAnswerWhileTheStatusIsPending(PageSuite suite) throws Exception {
-        report(suite, "PENDING", "");
+        report(suite, answer("PENDING", ""));
         assertThat(outcome).containsText("no answer yet");
 
-        report(suite, "PENDING", "stopped at row 7");
+        report(suite, answer("PENDING", "stopped at row 7"));
         assertThat(outcome).containsText("✓ Stop");
     }
 
     @Test
     void saysThatNoAnswerCame(PageSuite suite) throws Exception {
-        report(suite, "PENDING", "");
+        report(suite, answer("PENDING", ""));
         outcome.evaluate("(element) => { element.closest('li').card.sent.at -= 31_000; }");
 
         assertThat(outcome).containsText("Stop: no answer since");
     }
 
-    private static void report(PageSuite suite, String status, String info) throws Exception {
+    private static String answer(String status, String info) {
+        return """
+                , "cmd": {"type": "String", "value": ""}, "cmd_status": {"type": "commandStatus", "value": "%s"},
+                "cmd_info": {"type": "commandResult", "value": "%s"}""".formatted(status, info);
+    }
+
+    /** @return its time */
+    private static long report(PageSuite suite, String answer) throws Exception {
+        long now = Instant.now().toEpochMilli();
         String entity = """
                 {"id": "%s", "type": "ROBOT", "Domain": {"type": "String", "value": "farm"}, "Time": {"type": "Integer", "value": %d},
-                 "Latitude": {"type": "Float", "value": 40.3125}, "Longitude": {"type": "Float", "value": -3.4822}, "state": {"type": "String", "value": "Running"},
-                 "cmd": {"type": "String", "value": ""}, "cmd_status": {"type": "commandStatus", "value": "%s"}, "cmd_info": {"type": "commandResult", "value": "%s"}}""".formatted(ROBOT, Instant.now().toEpochMilli(), status, info);
-        suite.produce("data.raw", ROBOT, entity.getBytes(StandardCharsets.UTF_8));
+                 "Latitude": {"type": "Float", "value": 40.3125}, "Longitude": {"type": "Float", "value": -3.4822},
+                 "state": {"type": "String", "value": "Running"}%s}""".formatted(ROBOT, now, answer);
+        suite.running().ngsi().append(entity);
+        return now;
     }
 }

@@ -89,6 +89,17 @@ final class PageSuite implements AutoCloseable {
                         .body());
     }
 
+    /** The status of an answer of the control plane's REST API. */
+    int rest(String method, String path, String body) throws Exception {
+        HttpRequest request = HttpRequest.newBuilder(running.suite().control().resolve(path))
+                .header("Content-Type", "application/json")
+                .method(method, HttpRequest.BodyPublishers.ofString(body))
+                .build();
+        return HttpClient.newHttpClient()
+                .send(request, HttpResponse.BodyHandlers.discarding())
+                .statusCode();
+    }
+
     /** A new window with nothing remembered. */
     FarmPage open(String place) {
         return open(place, Look.DESK);
