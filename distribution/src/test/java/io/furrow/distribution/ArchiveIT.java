@@ -107,6 +107,7 @@ class ArchiveIT {
         assertThat(home.resolve("docker/mosquitto/run")).isExecutable();
         assertThat(home.resolve("docker/flink/submit")).isExecutable();
         assertThat(home.resolve("systemd/furrow.service")).exists();
+        assertThat(home.resolve("examples/fields.geojson")).content().contains("\"field-1\"");
     }
 
     @Test

@@ -3,6 +3,7 @@ package io.furrow.launcher;
 import picocli.AutoComplete.GenerateCompletion;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
+import picocli.CommandLine.IExecutionStrategy;
 import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
@@ -59,6 +60,12 @@ public final class Furrow {
         furrow.getSubcommands().get("replay").addSubcommand(new AnalyticsCommand());
         furrow.addSubcommand(new GenerateCompletion());
         furrow.getCommandSpec().version(Version.TEXT);
-        return furrow;
+        IExecutionStrategy strategy = furrow.getExecutionStrategy();
+        return furrow.setExecutionStrategy(parsed -> {
+            if (parsed.hasSubcommand() && parsed.subcommand().commandSpec().userObject() instanceof DeviceHostCommand) {
+                LogFile.writeToErrorStream(); // its module knows no log4j
+            }
+            return strategy.execute(parsed);
+        });
     }
 }

@@ -42,7 +42,7 @@ public final class MosquittoFiles implements MqttAccounts {
     /**
      * @param passwords option {@code password_file} of the broker
      * @param rules option {@code acl_file} of the broker
-     * @param reload for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto.pid)}; null for none. It may hold a password,
+     * @param reload for {@code sh -c}, as in {@code kill -HUP $(cat /run/mosquitto/mosquitto.pid)}; null for none. It may hold a password,
      *     so no message has it
      */
     public MosquittoFiles(Path passwords, Path rules, String reload) {
