@@ -132,7 +132,9 @@ class Feeds {
 
   takeStatus(record) {
     const known = store.replays.get(record.key) ?? { replay: record.key };
-    if (record.value === null) {
+    if (record.value === null && store.mode.replay === record.key) {
+      store.replays.set(record.key, { ...known, gone: true });
+    } else if (record.value === null) {
       store.replays.delete(record.key);
     } else {
       store.replays.set(record.key, { ...known, status: { ...record.value, time: record.time } });
