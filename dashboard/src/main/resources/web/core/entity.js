@@ -14,6 +14,8 @@ const STALE_AFTER = 60_000;
 const FRAME = new Set(['id', 'type']);
 const NOT_A_SERIES = new Set(['Time', 'TimeInstant', 'Latitude', 'Longitude', 'latitude', 'longitude']);
 const OFF_WORDS = new Set(['off', 'stopped', 'standby', 'sleeping']);
+/** Command states: the context broker may stamp them with another clock than the device its reports. */
+const COMMAND_STATE = /_(status|info)$/;
 const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'emergency', 'alarm']);
 
 /**
@@ -22,7 +24,7 @@ const LOOK_WORDS = new Set(['error', 'fault', 'faulty', 'failed', 'blocked', 'em
  * @property {string} type
  * @property {'robot'|'sensor'|'camera'|'other'} kind
  * @property {string} name
- * @property {Object<string, {type: string, value: *, metadata: Object}>} attributes values of FIROS are read
+ * @property {Object<string, {type: string, value: *, metadata: Object, time: number}>} attributes values of FIROS are read
  * @property {number} time of its newest report, event time, epoch ms
  * @property {[number, number]|null} position degrees, longitude first
  * @property {string|null} positionFault why there is none
@@ -51,7 +53,7 @@ export function newEntity(id) {
 }
 
 /**
- * Takes a report into an entity: its attributes in the place of those of the same names.
+ * Takes a report into an entity: its attributes in the place of those of the same names that are not newer.
  *
  * @param {Entity} entity
  * @param {import('./stream.js').TopicRecord} record
@@ -67,9 +69,9 @@ export function takeReport(entity, record) {
     }
     if (!(name in entity.attributes) && ++count > MOST_ATTRIBUTES) {
       omitted++;
-      continue;
+    } else if (!(entity.attributes[name]?.time > record.time) || COMMAND_STATE.test(name)) {
+      entity.attributes[name] = { ...readAttribute(reported[name]), time: record.time };
     }
-    entity.attributes[name] = readAttribute(reported[name]);
   }
   entity.omitted = omitted;
   const newer = record.time > entity.time;

@@ -32,15 +32,22 @@ class Feeds {
     setInterval(() => document.hidden || this.readImages(), IMAGES_MILLIS);
   }
 
-  /** A topic whose records one function takes, with its figures in `store.topics`. */
-  feed(topic, mode, take, { main = false, known = null, whileHidden } = {}) {
+  /**
+   * A topic whose records one function takes, with its figures in `store.topics`. A known state has no deletions: `forget` gets each key
+   * that an earlier stream had and the known state lacks, with the time of the newest record that it has.
+   */
+  feed(topic, mode, take, { main = false, forget = (key) => take({ key, headers: {}, value: null }), known = null, whileHidden } = {}) {
+    const before = new Set();
+    let [keys, newest] = [new Set(), -Infinity];
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
     store.topics.set(topic, figures);
     const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
       records: (records, merged) => {
         for (const record of records) {
           take(record);
-          record.kind === 'event' && figures.count++;
+          record.kind === 'event' ? figures.count++ : (newest = Math.max(newest, record.time));
+          // an entity may have another key in the known state
+          record.value === null && !record.cut ? keys.delete(record.key) : keys.add(record.key).add(record.value?.id ?? record.key);
         }
         figures.count += merged;
         figures.last = Date.now();
@@ -48,6 +55,8 @@ class Feeds {
         store.tell('topics');
       },
       primed: () => {
+        before.forEach((key) => keys.has(key) || forget(key, newest));
+        before.clear();
         known?.();
         if (main) {
           store.primed = true;
@@ -61,6 +70,10 @@ class Feeds {
         store.tell('connection');
       },
       state: (state, reason) => {
+        if (state === 'open') {
+          keys.forEach((key) => before.add(key));
+          [keys, newest] = [new Set(), -Infinity];
+        }
         Object.assign(figures, { state, reason });
         store.tell('topics');
         main && this.connection(state, reason);
@@ -95,7 +108,11 @@ class Feeds {
     this.shown?.forEach((each) => each.close());
     store.setMode({ kind: 'live' });
     this.shown = [
-      this.feed('data.raw', 'latest', (record) => store.takeEntity(record), { main: true }),
+      this.feed('data.raw', 'latest', (record) => store.takeEntity(record), {
+        main: true,
+        // what is newer than the known state is not merged yet
+        forget: (key, newest) => store.entities.get(key)?.time <= newest && store.takeEntity({ key, value: null }),
+      }),
       this.feed('data.collision', 'all', (record) => store.takeEncounter(record)),
       this.feed('data.temperature', 'all', (record) => store.takeTemperature(record)),
       this.feed('data.images', 'latest', (record) => store.takeImage(record)),
@@ -132,7 +149,9 @@ class Feeds {
 
   takeStatus(record) {
     const known = store.replays.get(record.key) ?? { replay: record.key };
-    if (record.value === null) {
+    if (record.value === null && store.mode.replay === record.key) {
+      store.replays.set(record.key, { ...known, gone: true });
+    } else if (record.value === null) {
       store.replays.delete(record.key);
     } else {
       store.replays.set(record.key, { ...known, status: { ...record.value, time: record.time } });
@@ -177,7 +196,7 @@ class Feeds {
     });
     this.epochs = new Map();
     this.shown = members.flatMap((each, index) => [
-      this.feed(each.topic, 'latest', (record) => this.takeReplayed(record), { main: index === 0 }),
+      this.feed(each.topic, 'latest', (record) => this.takeReplayed(record), { main: index === 0, forget: (key) => store.takeEntity({ key, value: null }) }),
       this.feed(`${each.topic}.collision`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeEncounter(record))),
       this.feed(`${each.topic}.temperature`, 'all', (record) => this.takeResult(record, each.topic, () => store.takeTemperature(record))),
     ]);

@@ -77,7 +77,8 @@ class FurrowMissions extends HTMLElement {
     this.empty = h('div.empty', { hidden: true }, h('h2', null, t('missions.none')), h('p', null, t('missions.noneHint')),
       store.may('operate') && h('button.button.primary', { type: 'button', on: { click: () => this.newMission() } }, t('missions.new')));
     replace(this.panel, this.empty, h('div.mission-columns', null, this.list, this.place));
-    const chosen = mission ?? [...store.missions.values()].find((each) => each.running && each.domain !== 'canary')?.mission;
+    const missions = [...store.missions.values()];
+    const chosen = mission ?? (missions.find((each) => each.running && each.domain !== 'canary') ?? missions[0])?.mission;
     if (chosen) {
       this.content = new MissionDetail(chosen, () => navigate('missions'));
       replace(this.place, this.content.element);

@@ -42,7 +42,7 @@ export class Findings {
    * @param {[number, number]} range epoch ms; what comes later is taken too
    * @param {{replay: boolean, changed: function()}} how
    */
-  constructor(topics, [from, to], { replay, changed }) {
+  constructor(topics, [from], { replay, changed }) {
     this.replay = replay;
     this.changed = changed;
     this.from = from;
@@ -54,40 +54,46 @@ export class Findings {
     this.staysById = new Map();
     this.abort = new AbortController();
     this.streams = [];
-    this.load(topics, from, to);
+    this.load(topics, from);
   }
 
-  async load(topics, from, to) {
+  async load(topics, from) {
     const within = this.replay ? { from: 0 } : { from: Math.floor(from) };
-    const options = { signal: this.abort.signal };
-    // streams first: what comes while the history is read lies in both, and counts once
-    this.follow(topics.averages, (record) => this.takeAverage(record));
-    this.follow(topics.encounters, (record) => this.takeEncounter(record));
-    this.follow(topics.stays, (record) => this.takeStay(record));
-    try {
-      const [averages, encounters, stays] = await Promise.all([
-        historyIfAny(topics.averages, within, options),
-        historyIfAny(topics.encounters, { ...within, newest: 'encounter' }, options),
-        historyIfAny(topics.stays, { from: Math.max(0, within.from - STAYED_BEFORE), newest: 'stay' }, options),
-      ]);
-      averages.records.forEach((each) => this.takeAverage(each));
-      encounters.records.forEach((each) => this.takeEncounter(each));
-      stays.records.forEach((each) => this.takeStay(each));
-      this.since = { averages: averages.since, encounters: encounters.since, stays: Math.max(from, stays.since) };
-    } catch (error) {
-      if (error.name === 'AbortError') {
-        return;
-      }
-      this.error = error;
-    }
+    const [averages, encounters, stays] = await Promise.all([
+      this.follow(topics.averages, within, (record) => this.takeAverage(record)),
+      this.follow(topics.encounters, { ...within, newest: 'encounter' }, (record) => this.takeEncounter(record)),
+      this.follow(topics.stays, { from: Math.max(0, within.from - STAYED_BEFORE), newest: 'stay' }, (record) => this.takeStay(record)),
+    ]);
+    this.since = { averages, encounters, stays: Math.max(from, stays) };
     this.loading = false;
-    this.changed();
+    this.tell();
   }
 
-  follow(topic, take) {
+  /** The stream first: what comes while the history is read lies in both, and counts once. @returns {Promise<number>} since when it is whole */
+  follow(topic, range, take) {
+    const read = async () => {
+      try {
+        const { records, since } = await historyIfAny(topic, range, { signal: this.abort.signal });
+        records.forEach(take);
+        return since;
+      } catch (error) {
+        this.error = error;
+        return this.from;
+      }
+    };
+    let away = false;
     this.streams.push(streams.subscribe(topic, { mode: 'all', prime: false }, {
       records: (records) => { records.forEach(take); this.changed(); },
+      state: (state) => {
+        state === 'open' && away && read().then(() => this.tell());
+        away = state !== 'open' && (away || state !== 'connecting');
+      },
     }));
+    return read();
+  }
+
+  tell() {
+    this.abort.signal.aborted || this.changed();
   }
 
   takeAverage(record) {

@@ -43,7 +43,9 @@ export class PresenceBars {
     this.more.hidden = lines.length === byLine.size;
     setText(this.more, t('analyses.more', { shown: lines.length, count: byLine.size }));
     const now = store.isReplay ? Math.max(store.now(), range[0]) : range[1];
-    const key = JSON.stringify([lines.map(([name, each]) => [name, each.map(({ from, to }) => [from, to])]), Math.round(range[0] / 5_000), store.may('operate')]);
+    // an open stay ends where it is now
+    const drawn = [...range, stays.some(({ to }) => to === null) && now].map((time) => Math.round(time / 5_000));
+    const key = JSON.stringify([lines.map(([name, each]) => [name, each.map(({ from, to }) => [from, to])]), drawn, store.may('operate')]);
     if (key === this.key) {
       this.place();
       return;

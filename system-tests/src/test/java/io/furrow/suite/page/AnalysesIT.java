@@ -76,6 +76,34 @@ class AnalysesIT {
     }
 
     @Test
+    void drawsStaysWhereTheAxisHasThem(PageSuite suite) {
+        FarmPage farm = suite.open("");
+
+        // the axis grows to the right, and in a replay an open stay on an axis that does not
+        Object widths = farm.page().evaluate("""
+                async () => {
+                  const { store } = await import('/core/store.js');
+                  const { PresenceBars } = await import('/views/analyses/presence.js');
+                  const bars = new PresenceBars(() => {});
+                  const width = (to, end) => {
+                    bars.show([{ id: 's', device: 'd', name: 'd', field: 'f', fieldName: 'f', from: 0, to }], [0, end]);
+                    return parseFloat(bars.lines.querySelector('.gantt-bar').style.width);
+                  };
+                  const live = [width(60_000, 120_000), width(60_000, 240_000)];
+                  const { mode } = store;
+                  const replayed = [30_000, 60_000].map((position) => {
+                    store.mode = { kind: 'replay', position };
+                    return width(null, 120_000);
+                  });
+                  store.mode = mode;
+                  bars.close();
+                  return [...live, ...replayed].map(Math.round).join();
+                }""");
+
+        org.assertj.core.api.Assertions.assertThat(widths).isEqualTo("50,25,25,50");
+    }
+
+    @Test
     void hasAllOfItOnAPhone(PageSuite suite) {
         FarmPage farm = suite.open("#/analyses", Look.PHONE);
         Locator moment = farm.find(".analysis.encounters tbody tr").first().getByText("To the moment");

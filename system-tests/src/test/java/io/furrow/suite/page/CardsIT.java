@@ -57,6 +57,29 @@ class CardsIT {
 
     @Tag("full")
     @Test
+    void takesOfALateReportWhatIsNotKnownNewerAndEachCommandState(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.untilStore("store.primed");
+        Object taken = farm.store("""
+                (() => {
+                  const id = 'urn:ngsi-ld:Robot:late';
+                  const report = (time, values) => store.takeEntity({ key: id, kind: 'event', time, headers: {},
+                    value: { id, type: 'Robot', ...Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }])) } });
+                  report(2000, { speed: 2, Latitude: 40.31, Longitude: -3.48, cmd_status: 'PENDING' });
+                  report(1000, { speed: 1, Latitude: 40.39, Longitude: -3.48, battery: 0.5, cmd_status: 'OK', constructor: 5 });
+                  report(1500, { battery: 0.4 });
+                  report(2000, { state: 'Stopped' });
+                  report(2000, { state: 'Running' });
+                  const { attributes, position, word } = store.entities.get(id);
+                  store.takeEntity({ key: id, value: null });
+                  return [...['speed', 'battery', 'cmd_status', 'constructor'].map((name) => attributes[name].value), position.join(), word].join(' ');
+                })()""");
+
+        org.assertj.core.api.Assertions.assertThat(taken).isEqualTo("2 0.4 OK 5 -3.48,40.31 Running");
+    }
+
+    @Tag("full")
+    @Test
     void findsOutTheDefectiveThermometerAndPutsItFirst(PageSuite suite) {
         FarmPage farm = suite.open("");
 

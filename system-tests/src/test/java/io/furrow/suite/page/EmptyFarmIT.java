@@ -84,7 +84,7 @@ class EmptyFarmIT {
                 .click();
     }
 
-    private static void answerWithNothing(Route route) {
+    static void answerWithNothing(Route route) {
         String path = path(route);
         if (path.equals("/api/me") || path.startsWith("/api/register")) {
             route.resume();

@@ -1,12 +1,22 @@
 package io.furrow.suite.page;
 
+import java.net.URI;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
 import java.util.regex.Pattern;
+import java.util.stream.Stream;
 
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.microsoft.playwright.Route;
+import com.microsoft.playwright.WebSocketRoute;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.dashboard.Dashboard;
+import io.furrow.model.ngsi.NgsiJson;
 
 import static com.microsoft.playwright.assertions.PlaywrightAssertions.assertThat;
 
@@ -63,5 +73,187 @@ class LostConnectionIT {
         farm.page().unroute("**/api/register/**");
 
         farm.untilStore(COLLISIONS + ".gap > 2");
+    }
+
+    /** What was known before a stream has no deletions, and of entities it is behind their reports. */
+    @Test
+    void letsGoOfWhatWasDeletedMeanwhile(PageSuite suite) {
+        Map<String, List<String>> known = new HashMap<>();
+        known.put("data.raw", entities("stays", "gone"));
+        known.put("service.fields", fields("stays", "gone"));
+        known.put("service.alarms", alarms("stays", "gone"));
+        known.put("service.replays", replays("stays", "gone"));
+        known.put("service.replays.status", replays("stays", "gone"));
+        List<WebSocketRoute> open = new ArrayList<>();
+        FarmPage farm = onStandIns(suite, known, open);
+        farm.page().route("**/api/history/**", EmptyFarmIT::answerWithNothing);
+        farm.open("");
+        String shown =
+                "[store.entities, store.fields, store.alarms, store.replays].map((each) => [...each.keys()].sort())";
+        farm.untilStore(shown + ".every((each) => each.join() === 'gone,stays')");
+        send(open, "data.raw", List.of(record("event", "new", 2_000, "{\"id\":\"new\",\"type\":\"Robot\"}")));
+        farm.untilStore("store.entities.has('new')");
+
+        known.put("data.raw", entities("stays"));
+        known.put("service.fields", fields("stays"));
+        known.put("service.alarms", alarms("stays"));
+        known.put("service.replays", replays("stays"));
+        known.put("service.replays.status", replays("stays"));
+        List.copyOf(open).forEach(WebSocketRoute::close);
+
+        farm.untilStore(
+                "JSON.stringify(" + shown + ") === '[[\"new\",\"stays\"],[\"stays\"],[\"stays\"],[\"stays\"]]'");
+    }
+
+    @Test
+    void readsWhatAnalyticsFoundMeanwhile(PageSuite suite) {
+        Map<String, String> found = new HashMap<>();
+        List<WebSocketRoute> open = new ArrayList<>();
+        FarmPage farm = onStandIns(suite, Map.of(), open);
+        farm.page().route("**/api/history/**", route -> {
+            String topic = URI.create(route.request().url()).getPath().substring("/api/history/".length());
+            route.fulfill(new Route.FulfillOptions()
+                    .setContentType("application/json")
+                    .setBody("{\"since\":0,\"records\":[" + found.getOrDefault(topic, "") + "]}"));
+        });
+        farm.open("#/analyses");
+        String[] parts = {"averages", "encounters", "presence"};
+        for (String part : parts) {
+            assertThat(farm.find(".analysis." + part + " .empty")).isVisible();
+        }
+        farm.page()
+                .waitForCondition(
+                        () -> Boolean.TRUE.equals(
+                                farm.page()
+                                        .evaluate(
+                                                "document.querySelector('furrow-analyses').findings.streams.every((each) => each.state === 'open')")));
+
+        long now = System.currentTimeMillis();
+        found.put(
+                "data.temperature",
+                result(
+                        "Analytics:FieldTemperature",
+                        Map.of(
+                                "field",
+                                "north",
+                                "averageTemperature",
+                                21.5,
+                                "windowStart",
+                                now - 10_000,
+                                "windowEnd",
+                                now)));
+        found.put(
+                "data.collision",
+                result(
+                        "Analytics:Collision",
+                        Map.of(
+                                "phase",
+                                "ended",
+                                "Device1_ID",
+                                "a",
+                                "Device2_ID",
+                                "b",
+                                "minDistance",
+                                2,
+                                "startTime",
+                                now - 5_000,
+                                "time",
+                                now)));
+        found.put(
+                "data.presence",
+                result(
+                        "Analytics:Presence",
+                        Map.of(
+                                "stay",
+                                "s",
+                                "device",
+                                "a",
+                                "field",
+                                "north",
+                                "phase",
+                                "entered",
+                                "startTime",
+                                now - 5_000)));
+        List.copyOf(open).forEach(WebSocketRoute::close);
+
+        for (String part : parts) {
+            assertThat(farm.find(".analysis." + part + " > .row .numbers").first())
+                    .hasText("1");
+        }
+    }
+
+    /** A window whose streams and answers are a stand-in's: each stream begins with what is known of its topic by then. */
+    private static FarmPage onStandIns(PageSuite suite, Map<String, List<String>> known, List<WebSocketRoute> open) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        farm.page().route("**/api/**", EmptyFarmIT::answerWithNothing);
+        farm.page()
+                .route(
+                        "**/api/register/**",
+                        route -> route.fulfill(new Route.FulfillOptions()
+                                .setContentType("application/json")
+                                .setBody("{\"socket\":\"/socket/"
+                                        + topicOf(route.request().url()) + "\"}")));
+        farm.page().routeWebSocket("**/socket/**", socket -> {
+            open.add(socket);
+            send(List.of(socket), topicOf(socket.url()), known.getOrDefault(topicOf(socket.url()), List.of()));
+            socket.send("{\"primed\":true}");
+        });
+        return farm;
+    }
+
+    private static void send(List<WebSocketRoute> sockets, String topic, List<String> records) {
+        sockets.stream()
+                .filter(socket -> topicOf(socket.url()).equals(topic))
+                .forEach(socket -> socket.send("{\"records\":[" + String.join(",", records) + "]}"));
+    }
+
+    private static String topicOf(String url) {
+        String path = URI.create(url).getPath();
+        return path.substring(path.lastIndexOf('/') + 1);
+    }
+
+    private static List<String> entities(String... ids) {
+        return records(ids, "%1$s", "{\"id\":\"%1$s\",\"type\":\"Robot\"}");
+    }
+
+    private static List<String> fields(String... ids) {
+        return records(
+                ids,
+                "%1$s@2026-01-01T00:00:00.000Z",
+                "{\"id\":\"%1$s\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\","
+                        + "\"coordinates\":[[[9.0,50.0],[9.001,50.0],[9.001,50.001],[9.0,50.0]]]}}");
+    }
+
+    private static List<String> alarms(String... ids) {
+        return records(
+                ids,
+                "%1$s",
+                "{\"alarm\":\"%1$s\",\"kind\":\"silent-device\",\"severity\":\"minor\",\"text\":\"%1$s is silent\",\"subject\":\"%1$s\","
+                        + "\"raised\":1,\"count\":1,\"state\":\"open\"}");
+    }
+
+    private static List<String> replays(String... ids) {
+        return records(
+                ids,
+                "%1$s",
+                "{\"replay\":\"%1$s\",\"mission\":\"weeding\",\"topic\":\"data.weeding.replay.%1$s\",\"state\":\"running\"}");
+    }
+
+    private static List<String> records(String[] ids, String key, String value) {
+        return Stream.of(ids)
+                .map(id -> record("prime", key.formatted(id), 1_000, value.formatted(id)))
+                .toList();
+    }
+
+    private static String record(String kind, String key, long time, String value) {
+        return """
+                {"kind": "%s", "key": "%s", "time": %d, "headers": {}, "value": %s}""".formatted(kind, key, time, value);
+    }
+
+    private static String result(String type, Map<String, Object> attributes) {
+        ObjectNode value = JsonNodeFactory.instance.objectNode().put("type", type);
+        attributes.forEach((name, each) ->
+                value.putObject(name).set("value", NgsiJson.mapper().valueToTree(each)));
+        return record("event", "any", System.currentTimeMillis(), value.toString());
     }
 }

@@ -4,7 +4,9 @@ import java.nio.charset.StandardCharsets;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.microsoft.playwright.APIResponse;
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Route;
 import com.microsoft.playwright.options.FilePayload;
 import org.apache.kafka.clients.producer.KafkaProducer;
 import org.apache.kafka.clients.producer.ProducerRecord;
@@ -52,6 +54,21 @@ class MissionsIT {
         farm.page().getByText("Who commanded what").first().click();
         assertThat(detail).hasCount(0);
         assertThat(farm.find("#missions-panel tbody")).containsText("again");
+    }
+
+    @Tag("full")
+    @Test
+    void showsAMissionThoughNoneRuns(PageSuite suite) {
+        FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
+        farm.page().route("**/api/missions", route -> {
+            APIResponse answer = route.fetch();
+            String stopped = answer.text().replace("\"running\":true", "\"running\":false");
+            route.fulfill(new Route.FulfillOptions().setResponse(answer).setBody(stopped));
+        });
+        farm.open("#/missions");
+
+        assertThat(farm.find("furrow-missions .mission-detail")).isVisible();
+        assertThat(farm.find("furrow-missions .mission-row[aria-pressed=true]")).hasCount(1);
     }
 
     @Tag("full")

@@ -106,6 +106,31 @@ class ReplaysIT {
         assertThat(farm.card("urn:ngsi-ld:Camera:1")).isAttached();
     }
 
+    /** Its status goes some time after it. */
+    @Test
+    void staysOverWhenItsStatusIsDeleted(PageSuite suite) {
+        FarmPage farm = suite.open("").expectingError(NO_RESULTS_YET);
+        farm.untilStore("store.primed");
+        Object states = farm.store("""
+                (() => {
+                  const of = { replay: 'r1', mission: 'weeding', topic: 'data.weeding.replay.00000001' };
+                  const timeline = document.querySelector('furrow-timeline');
+                  store.feeds.takeReplay({ key: 'r1', value: of });
+                  store.feeds.takeStatus({ key: 'r1', time: 1, value: { state: 'running' } });
+                  store.enterReplay(of);
+                  const states = [timeline.state];
+                  store.feeds.takeReplay({ key: 'r1', value: null });
+                  store.feeds.takeStatus({ key: 'r1', time: 2, value: { state: 'stopped' } });
+                  states.push(timeline.state);
+                  store.feeds.takeStatus({ key: 'r1', value: null });
+                  states.push(timeline.state);
+                  store.leaveReplay();
+                  return states.join();
+                })()""");
+
+        org.assertj.core.api.Assertions.assertThat(states).isEqualTo("running,over,over");
+    }
+
     private static void start(FarmPage farm) {
         recorded(farm, "weeding");
         farm.page().getByLabel("Choose weeding").check();
