@@ -14,6 +14,7 @@ import picocli.CommandLine.Parameters;
 import io.furrow.cli.command.CommandGroup;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
+import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.DeviceListParts;
 import io.furrow.cli.control.table.JsonFile;

@@ -49,9 +49,7 @@ public final class FarmSecretFile {
     static void requireLasting(RunDirectory directory, SuiteSettings settings) {
         SuiteSettings.Farm farm = settings.farm();
         boolean lasts = !directory.isTemporary() || farm.secret().file() != null;
-        boolean outlived = settings.kafka() != null
-                || farm.iotAgent() != null
-                || farm.accounts().passwords() != null;
+        boolean outlived = settings.kafka() != null || farm.iotAgent() != null;
         if (!lasts && outlived) {
             throw new CommandException(
                     "Without --data the farm's secret would be deleted at the end, but Kafka, the IoT Agent or the MQTT broker that already run keep"

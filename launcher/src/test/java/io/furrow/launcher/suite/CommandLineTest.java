@@ -185,12 +185,7 @@ class CommandLineTest {
     }
 
     @ParameterizedTest
-    @ValueSource(
-            strings = {
-                "--kafka 127.0.0.1:1",
-                "--orion http://127.0.0.1:1 --iot-agent http://127.0.0.1:1",
-                "--orion http://127.0.0.1:1 --mqtt-password-file passwords --mqtt-acl-file rules"
-            })
+    @ValueSource(strings = {"--kafka 127.0.0.1:1", "--orion http://127.0.0.1:1 --iot-agent http://127.0.0.1:1"})
     void makesNoSecretThatEndsBeforeWhatIsMadeWithIt(String words) {
         List<String> up = new ArrayList<>(List.of(upOnFreePorts(directory)));
         int data = up.indexOf("--data");
