@@ -95,8 +95,14 @@ public final class DeviceCommand extends CommandGroup {
             @Parameters(index = "0", paramLabel = "DEVICE", description = ID) String device,
             @Parameters(index = "1", paramLabel = "COMMAND", description = "The command.") String command,
             @Parameters(index = "2", paramLabel = "VALUE", arity = "0..1", description = "What it says beside.")
-                    String value) {
+                    String value,
+            @Option(
+                            names = "--type",
+                            paramLabel = "TYPE",
+                            description = "Type of its entity; needed of a device that reports by itself, as ROBOT.")
+                    String type) {
         Map<String, String> body = new LinkedHashMap<>();
+        body.put("type", type);
         body.put("command", command);
         body.put("value", value);
         return control.command("POST", DEVICES + ControlApi.part(device) + "/commands", ControlOptions.object(body));

@@ -144,7 +144,8 @@ public final class DeviceCommands implements CommandSender {
         String deviceId = order.deviceId();
         String type = order.type();
         ObjectNode body = body(type, order.command(), order.value());
-        String query = isRobot(type) ? "" : "?type=" + encoded(type);
+        // A robot is notified of the same command once more, too.
+        String query = isRobot(type) ? "?options=forcedUpdate" : "?type=" + encoded(type);
         HttpRequest.Builder request = HttpRequest.newBuilder(URI.create("%s/v2/entities/%s/attrs%s"
                         .formatted(contextBroker.toString().replaceAll("/+$", ""), encoded(deviceId), query)))
                 .timeout(TIMEOUT)

@@ -55,7 +55,7 @@ class DeviceCommandsTest {
 
         assertThat(heard)
                 .hasSize(2)
-                .containsOnly("POST /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs farm /north"
+                .containsOnly("POST /v2/entities/urn%3Angsi-ld%3ARobot%3Am-1/attrs?options=forcedUpdate farm /north"
                         + " {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"},"
                         + "\"cmd_status\":{\"type\":\"commandStatus\",\"value\":\"PENDING\"}}");
     }
