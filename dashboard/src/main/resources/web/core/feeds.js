@@ -17,6 +17,9 @@ const PAST_MILLIS = 300_000;
 const PAST_REPORTS = 3_000;
 const OVER = new Set(['ended', 'stopped', 'failed']);
 
+/** The longest that the known state of entities is behind what was reported: a checkpoint of ingest, and some. */
+const MERGED_MILLIS = 60_000;
+
 class Feeds {
   start() {
     store.feeds = this;
@@ -34,11 +37,11 @@ class Feeds {
 
   /**
    * A topic whose records one function takes, with its figures in `store.topics`. A known state has no deletions: `forget` gets each key
-   * that an earlier stream had and the known state lacks, with the time of the newest record that it has.
+   * that an earlier stream had and the known state lacks, with the time of the newest record that it has, and when the key came last.
    */
   feed(topic, mode, take, { main = false, forget = (key) => take({ key, headers: {}, value: null }), known = null, whileHidden } = {}) {
-    const before = new Set();
-    let [keys, newest] = [new Set(), -Infinity];
+    const before = new Map();
+    let [keys, newest] = [new Map(), -Infinity];
     const figures = { name: topic, count: 0, rate: 0, gap: 0, state: 'connecting', since: Date.now() };
     store.topics.set(topic, figures);
     const stream = streams.subscribe(topic, { mode, prime: true, whileHidden }, {
@@ -47,7 +50,7 @@ class Feeds {
           take(record);
           record.kind === 'event' ? figures.count++ : (newest = Math.max(newest, record.time));
           // an entity may have another key in the known state
-          record.value === null && !record.cut ? keys.delete(record.key) : keys.add(record.key).add(record.value?.id ?? record.key);
+          record.value === null && !record.cut ? keys.delete(record.key) : keys.set(record.key, Date.now()).set(record.value?.id ?? record.key, Date.now());
         }
         figures.count += merged;
         figures.last = Date.now();
@@ -55,7 +58,7 @@ class Feeds {
         store.tell('topics');
       },
       primed: () => {
-        before.forEach((key) => keys.has(key) || forget(key, newest));
+        before.forEach((came, key) => keys.has(key) || forget(key, newest, came));
         before.clear();
         known?.();
         if (main) {
@@ -71,8 +74,8 @@ class Feeds {
       },
       state: (state, reason) => {
         if (state === 'open') {
-          keys.forEach((key) => before.add(key));
-          [keys, newest] = [new Set(), -Infinity];
+          keys.forEach((came, key) => before.set(key, came));
+          [keys, newest] = [new Map(), -Infinity];
         }
         Object.assign(figures, { state, reason });
         store.tell('topics');
@@ -110,8 +113,8 @@ class Feeds {
     this.shown = [
       this.feed('data.raw', 'latest', (record) => store.takeEntity(record), {
         main: true,
-        // what is newer than the known state is not merged yet
-        forget: (key, newest) => store.entities.get(key)?.time <= newest && store.takeEntity({ key, value: null }),
+        // what came a moment ago and is newer than the known state is not merged yet
+        forget: (key, newest, came) => (store.entities.get(key)?.time <= newest || Date.now() - came > MERGED_MILLIS) && store.takeEntity({ key, value: null }),
       }),
       this.feed('data.collision', 'all', (record) => store.takeEncounter(record)),
       this.feed('data.temperature', 'all', (record) => store.takeTemperature(record)),

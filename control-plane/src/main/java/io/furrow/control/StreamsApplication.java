@@ -42,6 +42,8 @@ final class StreamsApplication implements AutoCloseable {
     private Instant started;
     private final Backoff backoff = new Backoff(MIN_BACKOFF, MAX_BACKOFF);
     private boolean closed;
+    /** Whether a start is scheduled: a client may say that it failed while its start does. */
+    private boolean startsLater;
 
     private StreamsApplication(String name, Supplier<Topology> topology, Properties settings) {
         this.name = name;
@@ -98,9 +100,10 @@ final class StreamsApplication implements AutoCloseable {
     private void startLater() {
         Duration pause;
         synchronized (this) {
-            if (closed) {
+            if (closed || startsLater) {
                 return;
             }
+            startsLater = true;
             if (started.plus(STABLE).isBefore(Instant.now())) {
                 backoff.reset();
             }
@@ -111,12 +114,15 @@ final class StreamsApplication implements AutoCloseable {
     }
 
     private void startAgain() {
+        synchronized (this) {
+            startsLater = false;
+        }
         try {
             startClient();
         } catch (RuntimeException e) { // for instance while no address of Kafka resolves
             failure = e.toString();
             LOG.warn("the {} did not start", name, e);
-            startLater();
+            replaceClient();
         }
     }
 

@@ -75,9 +75,10 @@ export class Findings {
       try {
         const { records, since } = await historyIfAny(topic, range, { signal: this.abort.signal });
         records.forEach(take);
+        this.error = this.error?.topic === topic ? null : this.error;
         return since;
       } catch (error) {
-        this.error = error;
+        this.error = Object.assign(error, { topic });
         return this.from;
       }
     };

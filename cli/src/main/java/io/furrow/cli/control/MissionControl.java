@@ -14,7 +14,6 @@ import picocli.CommandLine.Parameters;
 import io.furrow.cli.command.CommandGroup;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
-import io.furrow.cli.control.client.ControlPlaneException;
 import io.furrow.cli.control.table.ControlTable;
 import io.furrow.cli.control.table.DeviceListParts;
 import io.furrow.cli.control.table.JsonFile;
@@ -121,23 +120,11 @@ public class MissionControl extends CommandGroup {
         return control.run(api -> {
             ObjectNode json = plan.json(mission, begin.domain);
             if (DeviceListParts.requests(json).size() > 1) {
-                deleteIfKnown(api, mission);
                 create(api, json);
                 json.remove("devices");
             }
             control.answered(api.send("POST", MISSIONS + ControlApi.part(mission) + "/start", begin.in(json)));
         });
-    }
-
-    /** Of a mission that does not run a start replaces the list; with one in several requests it is created again. */
-    private static void deleteIfKnown(ControlApi api, String mission) {
-        try {
-            api.send("DELETE", MISSIONS + ControlApi.part(mission), null);
-        } catch (ControlPlaneException e) {
-            if (!e.isUnknown()) {
-                throw e;
-            }
-        }
     }
 
     /** When it starts, for how long, and to which domain it belongs. */

@@ -2,11 +2,13 @@ package io.furrow.dashboard.feed;
 
 import java.time.Duration;
 import java.util.ArrayList;
+import java.util.Comparator;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Properties;
+import java.util.TreeMap;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.consumer.ConsumerRecord;
@@ -71,11 +73,20 @@ public final class TopicHistory {
         }
     }
 
+    private record Place(long time, int partition, long offset) {
+        static Place of(ConsumerRecord<?, ?> record) {
+            return new Place(record.timestamp(), record.partition(), record.offset());
+        }
+    }
+
     /** One answer in the making. */
     private final class Reading {
         private final Range range;
         private final KafkaConsumer<byte[], byte[]> consumer;
         private final LinkedHashMap<String, ConsumerRecord<byte[], byte[]>> kept = new LinkedHashMap<>();
+        /** The ids of what is kept, the oldest first: partitions are read one after the other. */
+        private final TreeMap<Place, String> byTime = new TreeMap<>(
+                Comparator.comparingLong(Place::time).thenComparingInt(Place::partition).thenComparingLong(Place::offset));
         private final Map<TopicPartition, Long> starts = new HashMap<>();
         private final Map<TopicPartition, Long> ends = new HashMap<>();
         /** Partitions of whose stretch the oldest is not there, or is not read. */
@@ -155,20 +166,24 @@ public final class TopicHistory {
             }
             String id = id(record);
             ConsumerRecord<byte[], byte[]> older = kept.remove(id);
-            bytes -= length(older);
+            if (older != null) {
+                bytes -= length(older);
+                byTime.remove(Place.of(older));
+            }
             kept.put(id, record);
+            byTime.put(Place.of(record), id);
             bytes += length(record);
             while (kept.size() > range.limit() || bytes > limits.answered() && kept.size() > 1) {
                 ConsumerRecord<byte[], byte[]> oldest =
-                        kept.remove(kept.keySet().iterator().next());
+                        kept.remove(byTime.pollFirstEntry().getValue());
                 bytes -= length(oldest);
                 since = Math.max(since, oldest.timestamp() + 1);
             }
         }
 
-        /** Of nothing, and of a deletion, 0. */
+        /** Of a deletion 0. */
         private static int length(ConsumerRecord<byte[], byte[]> record) {
-            return record == null || record.value() == null ? 0 : record.value().length;
+            return record.value() == null ? 0 : record.value().length;
         }
 
         private String id(ConsumerRecord<byte[], byte[]> record) {

@@ -46,7 +46,8 @@ public final class TopicStreams implements AutoCloseable {
     private final ProxyLimits limits;
     private final Set<OpenStream> streams = ConcurrentHashMap.newKeySet();
     private final StreamCounters counters = new StreamCounters();
-    private final ScheduledExecutorService clock = Executors.newSingleThreadScheduledExecutor(daemon("streams-clock"));
+    /** Of two threads: one may wait for the control plane while the other pings. */
+    private final ScheduledExecutorService clock = Executors.newScheduledThreadPool(2, daemon("streams-clock"));
     private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
 
     public TopicStreams(Properties client, TopicRules rules, ProxyLimits limits, Users users) {

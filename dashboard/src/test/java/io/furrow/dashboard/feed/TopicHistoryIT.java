@@ -5,6 +5,7 @@ import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import java.util.stream.IntStream;
 import java.util.Optional;
 import java.util.Properties;
 
@@ -149,6 +150,22 @@ class TopicHistoryIT {
         TopicHistory.Answer weighed = read(all, new TopicHistory.Limits(1_000, 10_000, Duration.ofSeconds(10)));
         assertThat(numbers(weighed)).hasSize(9).startsWith(91);
         assertThat(weighed.since()).isEqualTo(TIME + 91);
+    }
+
+    @Test
+    void leavesOutTheOldestOfAllPartitions() throws Exception {
+        topic("data.parted", 4);
+        for (int n = 0; n < 400; n++) {
+            send("data.parted", n % 4, n, "{\"n\":%d}".formatted(n));
+        }
+
+        TopicHistory.Answer limited =
+                read(new TopicHistory.Range("data.parted", TIME, TIME + 1_000, null, 40), TopicHistory.Limits.DEFAULT);
+
+        assertThat(numbers(limited))
+                .containsExactlyInAnyOrderElementsOf(
+                        IntStream.range(360, 400).boxed().toList());
+        assertThat(limited.since()).isEqualTo(TIME + 360);
     }
 
     @Test

@@ -15,7 +15,10 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 
-/** Removes expired documents from time to time where the server does not do it by itself; a failure is tried again later. */
+/**
+ * Applies the retention to all missions, also to those that get no event any more: tells it a server that removes expired
+ * documents by itself, and removes them from time to time where it does not. A failure is tried again later.
+ */
 final class ExpiredDocumentsPurger implements AutoCloseable {
     private static final Logger LOG = LoggerFactory.getLogger(ExpiredDocumentsPurger.class);
     private static final long MAX_PAUSE = Duration.ofMinutes(5).toMillis();
@@ -41,18 +44,20 @@ final class ExpiredDocumentsPurger implements AutoCloseable {
         ExpiredDocumentsPurger purge = new ExpiredDocumentsPurger(access, retention);
         long pause = retention.shortest().map(Duration::toMillis).orElse(MAX_PAUSE) / PART;
         pause = Math.min(MAX_PAUSE, Math.max(MIN_PAUSE, pause));
-        purge.thread.scheduleWithFixedDelay(purge::purge, pause, pause, TimeUnit.MILLISECONDS);
+        purge.thread.scheduleWithFixedDelay(purge::purge, 0, pause, TimeUnit.MILLISECONDS);
         return purge;
     }
 
     private void purge() {
         try {
-            if (!collections.serverExpires()) {
+            if (collections.serverExpires()) {
+                collections.names().forEach(collections::prepared);
+            } else {
                 long removed = collections.purge();
                 LOG.debug("{} expired documents removed", removed);
             }
         } catch (MongoException e) {
-            LOG.warn("Expired documents could not be removed; it will be tried again", e);
+            LOG.warn("The retention of missions could not be applied; it will be tried again", e);
         }
     }
 

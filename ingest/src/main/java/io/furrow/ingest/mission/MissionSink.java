@@ -56,7 +56,7 @@ public final class MissionSink implements Sink<MissionDocument> {
         Counter retried = context.metricGroup().counter("retried");
         MongoClient client = access.open();
         MissionCollections collections = new MissionCollections(client, retention, Clock.systemUTC());
-        boolean purges = context.getTaskInfo().getIndexOfThisSubtask() == 0 && !retention.isForEver();
+        boolean purges = context.getTaskInfo().getIndexOfThisSubtask() == 0;
         ExpiredDocumentsPurger purge = purges ? ExpiredDocumentsPurger.start(access, retention) : null;
         AutoCloseable connection = () -> {
             if (purge != null) {

@@ -29,7 +29,6 @@ import io.furrow.mission.file.ArchiveLine;
 import io.furrow.mission.mongo.EventDocumentCodec;
 import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
-import io.furrow.mission.mongo.Retention;
 import io.furrow.model.ngsi.UnreadableException;
 
 /** The missions that are stored in MongoDB: listed, exported as lines, and imported from lines. */
@@ -43,7 +42,7 @@ public final class StoredMissions implements AutoCloseable {
 
     private StoredMissions(MongoClient client) {
         this.client = client;
-        this.collections = new MissionCollections(client, Retention.FOR_EVER, Clock.systemUTC());
+        this.collections = new MissionCollections(client, null, Clock.systemUTC());
     }
 
     /**

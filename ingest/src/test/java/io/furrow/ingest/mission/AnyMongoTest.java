@@ -26,6 +26,7 @@ import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.Retention;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
 
 /**
  * What missions ask of a server of MongoDB's protocol: of the embedded one, or of another by {@code -Dfurrow.test.mongo=URI}; its
@@ -123,6 +124,27 @@ class AnyMongoTest {
             assertThat(changed.purge()).isEqualTo(100);
             assertThat(collections.get(collection).countDocuments()).isZero();
         }
+    }
+
+    @Test
+    void appliesAnotherRetentionToAMissionThatIsOverAndKeepsItAtAnImport() throws Exception {
+        keeping(Retention.of(null, Map.of(mission, Duration.ofDays(30)))).prepared(collection);
+        send(readings(10));
+        Optional<Duration> kept =
+                collections.serverExpires() ? Optional.of(Duration.ofDays(3650)) : Optional.empty();
+
+        MongoAccess access = new MongoAccess(uri, MongoAccess.Waits.of(Duration.ofSeconds(5)));
+        try (ExpiredDocumentsPurger purge =
+                ExpiredDocumentsPurger.start(access, Retention.of(null, Map.of(mission, Duration.ofDays(3650))))) {
+            await().untilAsserted(() -> assertThat(retention()).isEqualTo(kept));
+        }
+        try (StoredMissions missions = StoredMissions.open(uri)) {
+            byte[] exported = exported(missions, mission);
+            missions.importFrom(mission, new ByteArrayInputStream(exported), "again", told -> {});
+        }
+
+        assertThat(retention()).isEqualTo(kept);
+        assertThat(collections.get(collection).countDocuments()).isEqualTo(10);
     }
 
     private MissionCollections keeping(Retention retention) {

@@ -63,10 +63,13 @@ final class Jobs {
                 Sleep.of(BETWEEN_CHECKS);
             }
             if (flink.status(job) == JobStatus.FAILED) {
+                Path state = directory.resolve(name);
                 throw new CommandException(
-                        ("Job %s cannot continue from its state in %s; see furrow.log. Move that folder away, and the job"
-                                        + " begins anew: it reads again what Kafka still has.")
-                                .formatted(name, directory.resolve(name)));
+                        NewestState.below(state).isEmpty()
+                                ? "Job %s failed; see furrow.log.".formatted(name)
+                                : ("Job %s cannot continue from its state in %s; see furrow.log. Move that folder away,"
+                                                + " and the job begins anew: it reads again what Kafka still has.")
+                                        .formatted(name, state));
             }
         });
     }

@@ -51,6 +51,7 @@ public final class MissionCollections {
     private final Set<String> prepared = new HashSet<>();
     private Boolean expires;
 
+    /** @param retention null to leave that of each collection as it is */
     public MissionCollections(MongoClient client, Retention retention, Clock clock) {
         this(client, retention, clock, null);
     }
@@ -109,7 +110,8 @@ public final class MissionCollections {
         MongoCollection<RawBsonDocument> collection = get(name);
         if (!prepared.contains(name)) {
             IndexOptions byTime = new IndexOptions().name(BY_TIME);
-            Optional<Duration> kept = serverExpires() ? retention.of(name) : Optional.empty();
+            Optional<Duration> kept =
+                    retention != null && serverExpires() ? retention.of(name) : Optional.empty();
             kept.ifPresent(time -> byTime.expireAfter(time.toSeconds(), TimeUnit.SECONDS));
             ensureIndex(collection, Indexes.ascending(EventDocumentCodec.TIME), byTime);
             ensureIndex(
@@ -121,15 +123,17 @@ public final class MissionCollections {
         return collection;
     }
 
-    private static void ensureIndex(MongoCollection<?> collection, Bson keys, IndexOptions options) {
+    private void ensureIndex(MongoCollection<?> collection, Bson keys, IndexOptions options) {
         try {
             collection.createIndex(keys, options);
         } catch (MongoCommandException e) {
             if (!OTHER_OPTIONS.contains(e.getErrorCode())) {
                 throw e;
             }
-            collection.dropIndex(keys); // the retention has changed
-            collection.createIndex(keys, options);
+            if (retention != null) {
+                collection.dropIndex(keys); // the retention has changed
+                collection.createIndex(keys, options);
+            }
         }
     }
 

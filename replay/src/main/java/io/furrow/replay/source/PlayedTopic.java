@@ -50,8 +50,12 @@ final class PlayedTopic implements TopicWatch.Watched {
         }
     }
 
-    /** Whether it may have records already: of this replay before a restart, or of another that was played on it. */
     boolean isRestored() {
+        return restored;
+    }
+
+    /** Whether it may have records already: of this replay before a restart, or of another that was played on it. */
+    boolean hasRecords() {
         return restored || end.epoch() >= 0;
     }
 

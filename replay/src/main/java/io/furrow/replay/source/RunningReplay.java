@@ -167,7 +167,7 @@ final class RunningReplay {
     }
 
     private void goOnAfterItsTopic() {
-        if (topic.isRestored() && !goesOn && playback != null && topic.partitions() > 0) {
+        if (topic.hasRecords() && !goesOn && playback != null && topic.partitions() > 0) {
             goesOn = true;
             playback.goOnAfter(topic.end().epoch(), topic.end().timestamp());
         }

@@ -405,6 +405,20 @@ class ReplayReaderTest {
     }
 
     @Test
+    void failsAReplayOnATopicThatWasLeftWhenThatIsDeletedAndRefused() throws Exception {
+        missions.with("m", TIME, TIME + 100_000);
+        topics.end = new TopicEnd(0, TIME);
+        start(wanted("m", 1, State.RUNNING, 1));
+        play("m", "event", 1);
+
+        topics.refusal = "no more topics";
+        topics.deleted.add(Topics.replay("m", "0a1b2c3d"));
+
+        playUntil(() -> status("m").state() == State.FAILED);
+        assertThat(status("m").reason()).isEqualTo("its topic was deleted while it was played");
+    }
+
+    @Test
     void failsAReplayWhoseTopicWasDeletedAndMadeAgainByTheBroker() throws Exception {
         missions.with("m", TIME, TIME + 100, TIME + 200_000).with("other", TIME, TIME + 200_000);
         start(wanted("m", 1, State.RUNNING, 1));

@@ -118,7 +118,10 @@ public record NgsiLd(String context) implements ContextBrokerApi {
         return IDS_PER_READ;
     }
 
-    /** With the types, because a query needs a type, an attribute or a query expression. */
+    /**
+     * With the types, because a query needs a type, an attribute or a query expression; with no higher limit than necessary, because
+     * brokers refuse one that is too high for them.
+     */
     @Override
     public BrokerRequest read(FiwareScope scope, Map<String, ? extends Collection<String>> ids) {
         Set<String> names = new HashSet<>();
@@ -130,8 +133,9 @@ public record NgsiLd(String context) implements ContextBrokerApi {
                 names.add(id);
             }
         });
-        String wanted = "&options=sysAttrs&limit=1000&id=" + list(names);
-        String query = types.isEmpty() ? "local=true" : "type=" + list(types);
+        String wanted = "&options=sysAttrs&limit=%d&id=%s".formatted(names.size(), list(names));
+        boolean typesAreKnown = ids.values().stream().noneMatch(Collection::isEmpty); // a deletion knows none
+        String query = typesAreKnown ? "type=" + list(types) : "local=true";
         return scoped(BrokerRequest.get(scope, "/ngsi-ld/v1/entities?" + query + wanted));
     }
 
