@@ -44,7 +44,7 @@ class MissionOptionsTest {
 
     @Test
     void keepDocumentsForEverUnlessTold() {
-        assertThat(parsed().retention().isForEver()).isTrue();
+        assertThat(parsed().retention()).isEqualTo(Retention.FOR_EVER);
         assertThat(parsed().retention().of("mission_weeding")).isEmpty();
     }
 

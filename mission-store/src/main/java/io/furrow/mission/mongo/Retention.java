@@ -27,10 +27,6 @@ public record Retention(Duration everywhere, TreeMap<String, Duration> byCollect
         return Optional.ofNullable(byCollection.getOrDefault(collection, everywhere));
     }
 
-    public boolean isForEver() {
-        return everywhere == null && byCollection.isEmpty();
-    }
-
     /** The shortest that is asked for. */
     public Optional<Duration> shortest() {
         Collection<Duration> named = byCollection.values();
