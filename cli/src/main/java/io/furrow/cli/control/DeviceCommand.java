@@ -76,17 +76,17 @@ public final class DeviceCommand extends CommandGroup {
 
     @Command(name = "on", description = "Switches a device on.")
     int on(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return command(control, device, "on", null);
+        return command(control, device, "on", null, null);
     }
 
     @Command(name = "off", description = "Switches a device off.")
     int off(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return command(control, device, "off", null);
+        return command(control, device, "off", null, null);
     }
 
     @Command(name = "restart", description = "Restarts a device.")
     int restart(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return command(control, device, "restart", null);
+        return command(control, device, "restart", null, null);
     }
 
     @Command(name = "command", description = "Sends a device any command, as Stop to a robot.")

@@ -132,7 +132,8 @@ class RestApiIT {
                 .contains("Thermometer%3Ahoeing-1")
                 .endsWith("{\"restart\":{\"type\":\"command\",\"value\":\"7\"}}");
         client.send("POST", "/api/devices/robot-1/commands", "{\"command\":\"Stop\"}");
-        assertThat(running.broker().last()).contains("robot-1/attrs?options=forcedUpdate {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}");
+        assertThat(running.broker().last())
+                .contains("robot-1/attrs?options=forcedUpdate {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}");
         client.send("POST", "/api/devices/" + id + "/commands", "{\"command\":\"on\",\"type\":\"ROBOT\"}");
         assertThat(running.broker().last()).contains("hoeing-1/attrs?type=Thermometer {\"on\":");
         for (String own : new String[] {"urn:own:1", "urn:on:no-mission"}) {
@@ -144,7 +145,8 @@ class RestApiIT {
                     .as(own)
                     .isEqualTo(202);
             assertThat(running.broker().last())
-                    .contains(own.replace(":", "%3A") + "/attrs?options=forcedUpdate {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}");
+                    .contains(own.replace(":", "%3A")
+                            + "/attrs?options=forcedUpdate {\"cmd\":{\"type\":\"String\",\"value\":\"Stop\"}");
         }
         running.broker().refuse(404);
         running.refused("POST", "/api/devices/" + id + "/commands", "{\"command\":\"on\"}", 502, "context-broker");

@@ -85,8 +85,10 @@ public final class TopicHistory {
         private final KafkaConsumer<byte[], byte[]> consumer;
         private final LinkedHashMap<String, ConsumerRecord<byte[], byte[]>> kept = new LinkedHashMap<>();
         /** The ids of what is kept, the oldest first: partitions are read one after the other. */
-        private final TreeMap<Place, String> byTime = new TreeMap<>(
-                Comparator.comparingLong(Place::time).thenComparingInt(Place::partition).thenComparingLong(Place::offset));
+        private final TreeMap<Place, String> byTime = new TreeMap<>(Comparator.comparingLong(Place::time)
+                .thenComparingInt(Place::partition)
+                .thenComparingLong(Place::offset));
+
         private final Map<TopicPartition, Long> starts = new HashMap<>();
         private final Map<TopicPartition, Long> ends = new HashMap<>();
         /** Partitions of whose stretch the oldest is not there, or is not read. */

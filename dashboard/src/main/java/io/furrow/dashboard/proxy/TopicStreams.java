@@ -48,6 +48,7 @@ public final class TopicStreams implements AutoCloseable {
     private final StreamCounters counters = new StreamCounters();
     /** Of two threads: one may wait for the control plane while the other pings. */
     private final ScheduledExecutorService clock = Executors.newScheduledThreadPool(2, daemon("streams-clock"));
+
     private final ExecutorService beginners = Executors.newFixedThreadPool(BEGINNERS, daemon("streams-begin"));
 
     public TopicStreams(Properties client, TopicRules rules, ProxyLimits limits, Users users) {

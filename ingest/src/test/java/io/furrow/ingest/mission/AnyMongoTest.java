@@ -130,13 +130,15 @@ class AnyMongoTest {
     void appliesAnotherRetentionToAMissionThatIsOverAndKeepsItAtAnImport() throws Exception {
         keeping(Retention.of(null, Map.of(mission, Duration.ofDays(30)))).prepared(collection);
         send(readings(10));
-        Optional<Duration> kept =
-                collections.serverExpires() ? Optional.of(Duration.ofDays(3650)) : Optional.empty();
+        Optional<Duration> kept = collections.serverExpires() ? Optional.of(Duration.ofDays(3650)) : Optional.empty();
 
         MongoAccess access = new MongoAccess(uri, MongoAccess.Waits.of(Duration.ofSeconds(5)));
-        try (ExpiredDocumentsPurger purge =
-                ExpiredDocumentsPurger.start(access, Retention.of(null, Map.of(mission, Duration.ofDays(3650))))) {
+        ExpiredDocumentsPurger purger =
+                ExpiredDocumentsPurger.start(access, Retention.of(null, Map.of(mission, Duration.ofDays(3650))));
+        try {
             await().untilAsserted(() -> assertThat(retention()).isEqualTo(kept));
+        } finally {
+            purger.close();
         }
         try (StoredMissions missions = StoredMissions.open(uri)) {
             byte[] exported = exported(missions, mission);

@@ -110,8 +110,7 @@ public final class MissionCollections {
         MongoCollection<RawBsonDocument> collection = get(name);
         if (!prepared.contains(name)) {
             IndexOptions byTime = new IndexOptions().name(BY_TIME);
-            Optional<Duration> kept =
-                    retention != null && serverExpires() ? retention.of(name) : Optional.empty();
+            Optional<Duration> kept = retention != null && serverExpires() ? retention.of(name) : Optional.empty();
             kept.ifPresent(time -> byTime.expireAfter(time.toSeconds(), TimeUnit.SECONDS));
             ensureIndex(collection, Indexes.ascending(EventDocumentCodec.TIME), byTime);
             ensureIndex(
