@@ -19,6 +19,7 @@ import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
 
 import io.furrow.model.event.DeadLetter;
+import io.furrow.model.event.HeaderNames;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.simulators.load.LoadFleet;
@@ -85,8 +86,9 @@ class BadInputIT {
         try (KafkaProducer<String, String> producer = new KafkaProducer<>(
                 running.suite().kafka().clientProperties(), new StringSerializer(), new StringSerializer())) {
             for (String text : List.of("(refused)", "accepted")) {
-                producer.send(new ProducerRecord<>("data.context", 0, text, result(text)))
-                        .get();
+                ProducerRecord<String, String> result = new ProducerRecord<>("data.context", 0, text, result(text));
+                result.headers().add(HeaderNames.SERVICE, "farm".getBytes(StandardCharsets.UTF_8));
+                producer.send(result).get();
             }
         }
 

@@ -184,6 +184,9 @@ final class FarmPage implements AutoCloseable {
 
     @Override
     public void close() {
+        if (!page.isClosed()) {
+            page.unrouteAll(); // a request that comes while the page closes would otherwise fail the test
+        }
         context.close();
     }
 }
