@@ -9,7 +9,7 @@ import io.furrow.model.event.FiwareScope;
 
 import static org.assertj.core.api.Assertions.assertThat;
 
-class NgsiLdTest {
+class NgsiLdQueryTest {
     private static final FiwareScope SCOPE = new FiwareScope("farm", "/");
 
     private final NgsiLd api = new NgsiLd("");
