@@ -391,7 +391,7 @@ class ControlTopologyTest {
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
                                 ManagedFarm.REMEMBERED,
-                                new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT),
+                                new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT, false),
                                 ReplaySettings.DEFAULT)
                         .describe()
                         .toString())

@@ -157,7 +157,7 @@ class SilenceDetectorTest {
 
     private void want(Duration period) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", 0, null, 1, null);
-        WantedDevice device = new WantedDevice(
+        WantedDevice device = WantedDevice.simulated(
                 version, "T", ID, true, period, NgsiJson.mapper().createObjectNode());
         wanted.put(KEY, device.toBytes());
     }

@@ -8,6 +8,7 @@ import java.util.Properties;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.embedded.EmbeddedMqtt;
@@ -70,8 +71,10 @@ final class SuiteControl implements AutoCloseable {
         this.client = kafka.clientProperties();
         Properties streams = kafka.clientProperties();
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
+        SuiteSettings.Missions missions = suite.farm().missions();
+        FiwareScope scope = FiwareScope.of(suite.fiwareService(), "/");
         this.settings = ControlSettings.of(streams)
-                .withTenant(suite.fiwareService())
+                .with(new MissionOptions(missions.startTimeout(), scope, missions.simulatedByDefault()))
                 .with(ReplaySettings.DEFAULT.withMongo(mongo));
         this.service = new ControlService(settings);
     }
@@ -85,7 +88,7 @@ final class SuiteControl implements AutoCloseable {
     URI join(Endpoints ends) throws IOException {
         SuiteSettings.Farm farm = suite.farm();
         SecretFile source = FarmSecretFile.open(secret, client, farm.secret().replaced());
-        boolean simulates = ends.mqtt() != null && farm.simulates();
+        boolean simulates = ends.mqtt() != null && farm.missions().simulates();
         FiwareScope scope = settings.missions().scope();
         api = service.serve(
                 RestSettings.on(suite.ports().control())
