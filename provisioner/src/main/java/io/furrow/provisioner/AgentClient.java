@@ -121,7 +121,7 @@ final class AgentClient {
                 .put("resource", group.resource())
                 .put("entity_type", "Thing")
                 .put("autoprovision", false);
-        Registration.fix(json, group.domain(), group.mission());
+        Registration.fix(json, new Registration.Fixed(group.domain(), group.mission(), null));
         Answer answer = send(scope, "POST", GROUPS, list("services", List.of(json)));
         if (answer.status() == CONFLICT) {
             return false;

@@ -6,7 +6,10 @@ import java.util.Set;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.MissingNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+
+import io.furrow.model.device.MeasuredAttribute;
 
 /**
  * The registration of a device at the IoT Agent, actual or desired; two are equal if devices need not be provisioned
@@ -17,8 +20,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  * @param entity id of the entity that carries its measures
  * @param type of that entity
  * @param attributes how members of a measure become attributes
- * @param domain static attribute {@code Domain}; null if it has none
- * @param mission static attribute {@code Mission}; null if it has none
+ * @param fixed its static attributes
  * @param commands the commands that it accepts
  */
 record Registration(
@@ -26,24 +28,43 @@ record Registration(
         String apiKey,
         String entity,
         String type,
-        Set<Attribute> attributes,
-        String domain,
-        String mission,
+        Set<MeasuredAttribute> attributes,
+        Fixed fixed,
         Set<String> commands) {
     private static final String DOMAIN = "Domain";
     private static final String MISSION = "Mission";
+    private static final String LATITUDE = "Latitude";
+    private static final String LONGITUDE = "Longitude";
 
-    /** Member {@code objectId} of a measure becomes the attribute {@code name} of NGSI type {@code type}. */
-    record Attribute(String objectId, String name, String type) {}
+    /**
+     * Static attributes, which every measure gets.
+     *
+     * @param domain {@code Domain}; null if it has none
+     * @param mission {@code Mission}; null if it has none
+     * @param place null if it has none
+     */
+    record Fixed(String domain, String mission, Place place) {}
+
+    /** {@code Latitude} and {@code Longitude}, degrees. */
+    record Place(double latitude, double longitude) {}
+
+    String domain() {
+        return fixed.domain();
+    }
+
+    String mission() {
+        return fixed.mission();
+    }
 
     /** As the agent shows it; what we never set is skipped. */
     static Registration read(JsonNode json) {
-        Set<Attribute> attributes = new LinkedHashSet<>();
+        Set<MeasuredAttribute> attributes = new LinkedHashSet<>();
         for (JsonNode each : json.path("attributes")) {
-            attributes.add(new Attribute(
+            attributes.add(new MeasuredAttribute(
                     each.path("object_id").asText(),
                     each.path("name").asText(),
-                    each.path("type").asText()));
+                    each.path("type").asText(),
+                    each.at("/metadata/unitCode/value").textValue()));
         }
         Set<String> commands = new LinkedHashSet<>();
         json.path("commands")
@@ -54,23 +75,30 @@ record Registration(
                 json.path("entity_name").asText(),
                 json.path("entity_type").asText(),
                 attributes,
-                fixed(json, DOMAIN),
-                mission(json),
+                new Fixed(fixed(json, DOMAIN).textValue(), mission(json), place(json)),
                 commands);
     }
 
     /** The mission that a device or a service group belongs to, as the agent shows it; null if it says none. */
     static String mission(JsonNode json) {
-        return fixed(json, MISSION);
+        return fixed(json, MISSION).textValue();
     }
 
-    private static String fixed(JsonNode json, String name) {
+    private static Place place(JsonNode json) {
+        JsonNode latitude = fixed(json, LATITUDE);
+        JsonNode longitude = fixed(json, LONGITUDE);
+        return latitude.isNumber() && longitude.isNumber()
+                ? new Place(latitude.doubleValue(), longitude.doubleValue())
+                : null;
+    }
+
+    private static JsonNode fixed(JsonNode json, String name) {
         for (JsonNode each : json.path("static_attributes")) {
             if (name.equals(each.path("name").textValue())) {
-                return each.path("value").textValue();
+                return each.path("value");
             }
         }
-        return null;
+        return MissingNode.getInstance();
     }
 
     ObjectNode toJson() {
@@ -82,20 +110,38 @@ record Registration(
                 .put("entity_type", type)
                 .put("transport", "MQTT");
         ArrayNode mapped = json.putArray("attributes");
-        attributes.forEach(attribute -> mapped.addObject()
-                .put("object_id", attribute.objectId())
-                .put("name", attribute.name())
-                .put("type", attribute.type()));
-        fix(json, domain, mission);
+        attributes.forEach(attribute -> {
+            ObjectNode one = mapped.addObject()
+                    .put("object_id", attribute.objectId())
+                    .put("name", attribute.name())
+                    .put("type", attribute.type());
+            if (attribute.unit() != null) {
+                one.putObject("metadata")
+                        .putObject("unitCode")
+                        .put("type", "Text")
+                        .put("value", attribute.unit());
+            }
+        });
+        fix(json, fixed);
         ArrayNode orders = json.putArray("commands");
         commands.forEach(name -> orders.addObject().put("name", name).put("type", "command"));
         return json;
     }
 
     /** Adds the attributes that every measure gets. */
-    static void fix(ObjectNode json, String domain, String mission) {
-        ArrayNode fixed = json.putArray("static_attributes");
-        fixed.addObject().put("name", DOMAIN).put("type", "String").put("value", domain);
-        fixed.addObject().put("name", MISSION).put("type", "String").put("value", mission);
+    static void fix(ObjectNode json, Fixed fixed) {
+        ArrayNode all = json.putArray("static_attributes");
+        all.addObject().put("name", DOMAIN).put("type", "String").put("value", fixed.domain());
+        all.addObject().put("name", MISSION).put("type", "String").put("value", fixed.mission());
+        if (fixed.place() != null) {
+            all.addObject()
+                    .put("name", LATITUDE)
+                    .put("type", "Float")
+                    .put("value", fixed.place().latitude());
+            all.addObject()
+                    .put("name", LONGITUDE)
+                    .put("type", "Float")
+                    .put("value", fixed.place().longitude());
+        }
     }
 }

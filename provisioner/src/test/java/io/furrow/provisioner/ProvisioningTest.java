@@ -10,7 +10,9 @@ import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.provisioner.Provisioning.Outcome;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -227,25 +229,38 @@ class ProvisioningTest extends ProvisioningFixture {
     }
 
     @Test
-    void takesTheAttributesOfOwnTypesFromTheirParameters() throws Exception {
-        ObjectNode settings = JsonNodeFactory.instance.objectNode();
-        settings.putObject("parameters")
-                .putArray("attributes")
-                .addObject()
-                .put("object_id", "ph")
-                .put("name", "Acidity")
-                .put("type", "Float");
-        want(Wanted.device("SoilProbe", "hoeing", "probe", 1, settings));
-        ObjectNode wrong = JsonNodeFactory.instance.objectNode();
-        wrong.putObject("parameters").put("attributes", "ph");
-        WantedDevice other = Wanted.device("SoilProbe", "hoeing", "other", 1, wrong);
-        want(other);
+    void mapsTheNamesThatRealDevicesSendAndFixesTheirPlace() throws Exception {
+        ObjectNode settings = (ObjectNode) NgsiJson.mapper().readTree("""
+                {"at": {"latitude": 40.3, "longitude": -3.5}, "attributes": [
+                  {"object_id": "t", "name": "Temperature", "unit": "CEL"}, {"object_id": "ph", "name": "Acidity", "type": "Float"}]}""");
+        DeviceVersion version = Wanted.thermometer("hoeing", 1).version();
+        want(new WantedDevice(version, "Thermometer", "probe", true, null, false, settings, null, 0));
+        want(new WantedDevice(
+                Wanted.thermometer("hoeing", 2).version(),
+                "Thermometer",
+                "simulated",
+                true,
+                null,
+                true,
+                settings,
+                null,
+                0));
 
-        Outcome outcome = provisioning.step();
+        assertThat(provisioning.step()).isEqualTo(DONE);
 
-        assertThat(agent.devices.get("probe").path("attributes").findValuesAsText("name"))
-                .contains("Acidity", "battery");
-        assertThat(outcome.refused()).containsOnlyKeys(other.version().key());
-        assertThat(outcome.refused().values().iterator().next()).contains("'attributes' of its parameters");
+        JsonNode probe = agent.devices.get("probe");
+        assertThat(probe.path("attributes").findValuesAsText("object_id"))
+                .containsExactlyInAnyOrder("t", "ph", "stat", "time", "where", "bat");
+        assertThat(probe.at("/attributes/0").toString())
+                .isEqualTo("{\"object_id\":\"t\",\"name\":\"Temperature\",\"type\":\"Number\","
+                        + "\"metadata\":{\"unitCode\":{\"type\":\"Text\",\"value\":\"CEL\"}}}");
+        assertThat(probe.path("static_attributes").toString())
+                .contains("{\"name\":\"Latitude\",\"type\":\"Float\",\"value\":40.3}");
+        assertThat(agent.devices.get("simulated").path("attributes").findValuesAsText("object_id"))
+                .contains("temp", "lat", "lon");
+        provisioning.lookAgain();
+        int changes = agent.changes.size();
+        assertThat(provisioning.step()).isEqualTo(DONE);
+        assertThat(agent.changes).as("the agent has it as desired").hasSize(changes);
     }
 }

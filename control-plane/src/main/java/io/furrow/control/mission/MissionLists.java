@@ -47,7 +47,7 @@ final class MissionLists {
         List<GroupRef> refs = new ArrayList<>();
         for (MissionDeviceList part : parts(mission)) {
             for (int index = 0; index < part.devices().size(); index++) {
-                refs.add(new GroupRef(part.part(), index, part.sequence()));
+                refs.add(new GroupRef(part.part(), index, 0, part.sequence()));
             }
         }
         List<DeviceGroup> groups = of(mission).groups();

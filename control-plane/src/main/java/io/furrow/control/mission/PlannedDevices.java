@@ -85,7 +85,15 @@ final class PlannedDevices {
             String device = group.type() != null ? ids.get(i).replace("+", "%2B") : null;
             ObjectNode none = JsonNodeFactory.instance.objectNode();
             devices.add(new WantedDevice(
-                    version, group.type(), device, true, group.period(), isSimulated(group), none, ref, 0));
+                    version,
+                    group.type(),
+                    device,
+                    true,
+                    group.period(),
+                    isSimulated(group),
+                    none,
+                    ref == null ? null : ref.ofMember(i),
+                    0));
         }
     }
 }

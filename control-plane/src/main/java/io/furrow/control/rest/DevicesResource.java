@@ -5,7 +5,6 @@ import java.io.InputStream;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.RejectedExecutionException;
-import java.util.function.Supplier;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
@@ -26,14 +25,14 @@ import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.mission.DeviceGroup;
-import io.furrow.model.device.FarmSecret;
-import io.furrow.model.device.MissionDeviceList;
+import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.topic.Topics;
 
@@ -48,6 +47,7 @@ public final class DevicesResource {
     private static final Pattern COMMAND = Pattern.compile("[A-Za-z][A-Za-z0-9_-]{0,63}");
 
     private final ServiceView view;
+    private final DesiredDevices devices;
     private final CommandClient managers;
     private final Means means;
 
@@ -55,12 +55,13 @@ public final class DevicesResource {
      * What devices are reached by.
      *
      * @param commands null if none go to devices
-     * @param secret null if no credentials are given out
+     * @param credentials null if none are given out
      */
-    record Means(FiwareScope scope, DeviceCommands commands, Supplier<FarmSecret> secret) {}
+    record Means(FiwareScope scope, DeviceCommands commands, DeviceCredentials credentials) {}
 
     DevicesResource(ServiceView view, CommandClient managers, Means means) {
         this.view = view;
+        this.devices = new DesiredDevices(view);
         this.managers = managers;
         this.means = means;
     }
@@ -88,13 +89,22 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        ObjectNode device = provisioned(id);
-        audit(
-                Caller.user(request),
-                "credentials",
-                JsonNodeFactory.instance.objectNode().put(DEVICE, id),
-                null);
-        return credentials(device, device.path(GENERATION).asInt());
+        WantedDevice device = provisioned(id);
+        audit(Caller.user(request), "credentials", about(id), null);
+        return secret(means.credentials().of(device));
+    }
+
+    /** The credentials as a QR code, for what has a camera. */
+    @GET
+    @RolesAllowed(Role.ADMINS)
+    @Path("{device}/credentials/qr")
+    @Produces("image/svg+xml")
+    public Response qr(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
+        WantedDevice device = provisioned(id);
+        audit(Caller.user(request), "credentials", about(id), null);
+        return Response.ok(means.credentials().qr(device))
+                .header("Cache-Control", "no-store")
+                .build();
     }
 
     /** Gives the device a new password, and refuses the old one from then on. */
@@ -102,46 +112,49 @@ public final class DevicesResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{device}/credentials")
     public CompletionStage<Response> rotate(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
-        ObjectNode device = provisioned(id);
-        ObjectNode members = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+        WantedDevice device = provisioned(id);
         return managers.ask(
-                        new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", members),
+                        new CommandClient.CommandRequest(Topics.MISSION_MANAGER, "rotate-credentials", about(id)),
                         Caller.of(request))
                 .thenApply(answer -> answer.error().isPresent()
                         ? JsonResponses.of(answer, 0)
-                        : credentials(device, answer.json().path(GENERATION).asInt()));
+                        : secret(means.credentials()
+                                .of(device.withGeneration(
+                                        answer.json().path(GENERATION).asInt()))));
     }
 
-    private Response credentials(ObjectNode device, int generation) {
-        String mission = device.path("mission").asText();
-        FarmSecret secret = means.secret().get();
-        FarmSecret.Login login = secret.device(mission, device.path(DEVICE).textValue(), generation);
-        return JsonResponses.json(
-                        200,
-                        JsonNodeFactory.instance
-                                .objectNode()
-                                .put("apiKey", secret.apiKey(mission))
-                                .put("user", login.user())
-                                .put("password", login.password())
-                                .put("key", secret.newestKey())
-                                .put(GENERATION, generation))
+    static Response secret(JsonNode credentials) {
+        return JsonResponses.json(200, credentials)
                 .header("Cache-Control", "no-store")
                 .build();
     }
 
+    private static ObjectNode about(String id) {
+        return JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+    }
+
     /** A device that has credentials, which can be shown here. */
-    private ObjectNode provisioned(String id) {
-        ObjectNode device = find(id);
-        if (device.path(DEVICE).textValue() == null) {
+    private WantedDevice provisioned(String id) {
+        find(id);
+        WantedDevice device = devices.find(means.scope().identity(id))
+                .filter(DeviceCredentials::has)
+                .orElse(null);
+        if (device == null) {
             throw new ProblemException(
                     ErrorCode.NO_CREDENTIALS,
-                    "device '%s' reports by itself, with credentials of its own".formatted(id));
+                    "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
+                            .formatted(id));
         }
-        if (means.secret() == null) {
-            throw new ProblemException(
-                    ErrorCode.NO_CREDENTIALS, "this control plane does not know the secret of the farm");
-        }
+        requireSecret(means.credentials());
         return device;
+    }
+
+    static void requireSecret(DeviceCredentials credentials) {
+        if (credentials == null) {
+            throw new ProblemException(
+                    ErrorCode.NO_CREDENTIALS,
+                    "this control plane does not know the secret of the farm; start it with --farm-secret");
+        }
     }
 
     /** Answers once the context broker has taken it, which does not say that the device obeyed. */
@@ -159,7 +172,7 @@ public final class DevicesResource {
         String value = members.path("value").asText("");
         String type = device.path("type").asText(members.path("type").asText());
         check(members, command, type);
-        ObjectNode about = JsonNodeFactory.instance.objectNode().put(DEVICE, id);
+        ObjectNode about = about(id);
         if (!value.isEmpty()) {
             about.put("value", value.substring(0, Math.min(value.length(), MAX_AUDITED_LENGTH)));
         }
@@ -234,14 +247,9 @@ public final class DevicesResource {
 
     /** The device with the settings of its group, which may be large: lists of devices leave them out. */
     private ObjectNode withSettings(ObjectNode device) {
-        JsonNode group = device.path("group");
-        String key = MissionDeviceList.key(
-                device.path("mission").asText(), group.path("part").asInt());
-        view.find(Topics.MISSION_DEVICES, key)
-                .filter(list -> list.path("sequence").equals(group.path("sequence")))
-                .map(list -> list.path("devices").path(group.path("index").asInt()))
-                .filter(ObjectNode.class::isInstance)
-                .ifPresent(found -> device.set("settings", DeviceGroup.settings((ObjectNode) found)));
+        devices.find(means.scope().identity(device.path("id").asText()))
+                .filter(found -> !found.settings().isEmpty())
+                .ifPresent(found -> device.set("settings", found.settings()));
         return device;
     }
 }

@@ -8,6 +8,7 @@ import java.util.concurrent.CompletionStage;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
+import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
 import jakarta.ws.rs.DELETE;
 import jakarta.ws.rs.GET;
@@ -21,8 +22,12 @@ import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
+import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
+import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.device.MissionDeviceList;
@@ -38,10 +43,13 @@ public final class MissionsResource {
 
     private final ServiceView view;
     private final CommandClient managers;
+    private final DeviceCredentials credentials;
 
-    MissionsResource(ServiceView view, CommandClient managers) {
+    /** @param credentials null if none are given out */
+    MissionsResource(ServiceView view, CommandClient managers, DeviceCredentials credentials) {
         this.view = view;
         this.managers = managers;
+        this.credentials = credentials;
     }
 
     /** Without their devices. @param domain null for all */
@@ -66,6 +74,23 @@ public final class MissionsResource {
         return JsonResponses.ok(withDevices(withStatus(view.find(Topics.MISSIONS, mission)
                 .orElseThrow(() -> new ProblemException(
                         ErrorCode.UNKNOWN_MISSION, "there is no mission '%s'".formatted(mission))))));
+    }
+
+    /** The credentials of all its real devices, while it is started. */
+    @GET
+    @RolesAllowed(Role.ADMINS)
+    @Path("{mission}/credentials")
+    public Response credentials(@Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
+        get(mission);
+        DevicesResource.requireSecret(credentials);
+        ArrayNode all = JsonNodeFactory.instance.arrayNode();
+        new DesiredDevices(view)
+                .of(mission).stream()
+                        .filter(device -> DeviceCredentials.has(device) && !device.simulated())
+                        .forEach(device -> all.add(credentials.of(device)));
+        managers.audit(AuditEntry.ofDevice(
+                System.currentTimeMillis(), Caller.user(request), "credentials", named(mission), null));
+        return DevicesResource.secret(all);
     }
 
     /** Appends to the device list of a mission that is not active. */

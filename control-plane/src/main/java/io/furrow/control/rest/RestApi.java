@@ -31,6 +31,7 @@ import org.slf4j.LoggerFactory;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.ServiceTopics;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.readiness.Readiness;
 import io.furrow.control.rest.access.ApiAccess;
 import io.furrow.control.rest.access.BearerTokens;
@@ -123,13 +124,15 @@ public final class RestApi implements AutoCloseable {
         DeviceCommands commands = rest.contextBroker() == null
                 ? null
                 : new DeviceCommands(rest.contextBroker(), control.missions().scope());
+        DeviceCredentials credentials =
+                rest.secret() == null ? null : new DeviceCredentials(rest.secret(), rest.mqtt());
         DevicesResource.Means means =
-                new DevicesResource.Means(control.missions().scope(), commands, rest.secret());
+                new DevicesResource.Means(control.missions().scope(), commands, credentials);
         ResourceConfig config = new ResourceConfig();
         config.property(ServerProperties.WADL_FEATURE_DISABLE, true);
         List<Object> resources = List.of(
                 new DomainsResource(view, managers),
-                new MissionsResource(view, managers),
+                new MissionsResource(view, managers, credentials),
                 new TemplatesResource(view, managers),
                 new DevicesResource(view, managers, means),
                 new ReplaysResource(replays, managers),

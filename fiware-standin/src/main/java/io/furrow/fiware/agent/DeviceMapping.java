@@ -32,8 +32,16 @@ record DeviceMapping(
     private static final String TIME_INSTANT = "TimeInstant";
     private static final JsonNodeFactory NODES = JsonNodeFactory.instance;
 
-    /** The attribute of a measure. */
-    record Target(String name, String type) {}
+    /** The attribute of a measure; {@code metadata} is an object, or missing. */
+    record Target(String name, String type, JsonNode metadata) {
+        AttributeInput input(JsonNode value) {
+            AttributeInput input = AttributeInput.of(type, value);
+            for (Map.Entry<String, JsonNode> each : metadata.properties()) {
+                input = input.withMetadata(each.getKey(), (ObjectNode) each.getValue());
+            }
+            return input;
+        }
+    }
 
     static DeviceMapping read(JsonNode json) throws NgsiError {
         Map<String, Target> active = new LinkedHashMap<>();
@@ -41,7 +49,7 @@ record DeviceMapping(
             String name = text(attribute, "name");
             active.put(
                     attribute.path("object_id").asText(name),
-                    new Target(name, attribute.path("type").asText("Text")));
+                    new Target(name, attribute.path("type").asText("Text"), attribute.path("metadata")));
         }
         Map<String, AttributeInput> fixed = new LinkedHashMap<>();
         for (JsonNode attribute : json.path("static_attributes")) {
@@ -86,7 +94,7 @@ record DeviceMapping(
             Target target = active.get(member.getKey());
             JsonNode value = EntityReader.canonical(member.getValue());
             if (target != null) {
-                attributes.put(target.name(), AttributeInput.of(target.type(), value));
+                attributes.put(target.name(), target.input(value));
             } else if (member.getKey().equals(TIME_INSTANT)) {
                 attributes.put(TIME_INSTANT, AttributeInput.of("DateTime", value));
             } else if (!explicit) {

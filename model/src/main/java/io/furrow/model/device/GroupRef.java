@@ -8,9 +8,10 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
  *
  * @param part number of the part, from 0
  * @param index of the group in that part, from 0
+ * @param member number of the device in that group, from 0
  * @param sequence of the part; another one has other settings
  */
-public record GroupRef(int part, int index, long sequence) {
+public record GroupRef(int part, int index, int member, long sequence) {
     /** Null if the node is no such object. */
     static GroupRef read(JsonNode json) {
         boolean complete = json.path("part").canConvertToInt()
@@ -20,11 +21,17 @@ public record GroupRef(int part, int index, long sequence) {
                 ? new GroupRef(
                         json.path("part").intValue(),
                         json.path("index").intValue(),
+                        json.path("member").intValue(),
                         json.path("sequence").longValue())
                 : null;
     }
 
+    /** That of another device of the group. */
+    public GroupRef ofMember(int number) {
+        return new GroupRef(part, index, number, sequence);
+    }
+
     void describe(ObjectNode json) {
-        json.put("part", part).put("index", index).put("sequence", sequence);
+        json.put("part", part).put("index", index).put("member", member).put("sequence", sequence);
     }
 }

@@ -49,11 +49,15 @@ public record MissionDeviceList(String mission, int part, long sequence, ArrayNo
                 devices);
     }
 
-    /** The settings of a group; none if there is no group of that index. */
-    ObjectNode settings(int index) {
-        return devices.get(index) instanceof ObjectNode group
+    /** The settings of a device, {@code at} its own place; none if there is no such group. */
+    ObjectNode settings(GroupRef ref) {
+        ObjectNode settings = devices.get(ref.index()) instanceof ObjectNode group
                 ? DeviceGroup.settings(group)
                 : JsonNodeFactory.instance.objectNode();
+        if (settings.path("at").isArray()) {
+            settings.set("at", settings.path("at").path(ref.member()));
+        }
+        return settings;
     }
 
     public byte[] toBytes() {

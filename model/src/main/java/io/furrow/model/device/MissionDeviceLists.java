@@ -57,7 +57,7 @@ public final class MissionDeviceLists {
         if (part == null || part.sequence() != group.sequence()) {
             return Optional.empty();
         }
-        ObjectNode settings = part.settings(group.index());
+        ObjectNode settings = part.settings(group);
         return Optional.of(device.with(settings));
     }
 

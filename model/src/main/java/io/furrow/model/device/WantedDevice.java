@@ -62,6 +62,12 @@ public record WantedDevice(
         return new WantedDevice(version, type, device, running, period, simulated, settings, group, other);
     }
 
+    /** Where a real device stands that does not tell it: {@code {latitude, longitude}}, degrees; null if it tells it. */
+    public JsonNode place() {
+        JsonNode at = settings.path("at");
+        return at.isObject() && !simulated ? at : null;
+    }
+
     /** The same after another version of it. */
     public WantedDevice with(DeviceVersion other, boolean shallRun) {
         return new WantedDevice(other, type, device, shallRun, period, simulated, settings, group, generation);

@@ -24,23 +24,23 @@ class MissionDeviceListsTest {
         take(0, 7, "['urn:own',{'type':'Camera','count':2,'area':'field-1','period':'PT5S','speed':null}]");
         take(1, 8, "[{'type':'Robot','path':[[1,2]]}]");
 
-        assertThat(settings(new GroupRef(0, 1, 7))).contains("{\"area\":\"field-1\"}");
-        assertThat(settings(new GroupRef(1, 0, 8))).contains("{\"path\":[[1,2]]}");
-        assertThat(settings(new GroupRef(0, 0, 7))).contains("{}");
-        assertThat(settings(new GroupRef(0, 9, 7))).contains("{}");
+        assertThat(settings(new GroupRef(0, 1, 0, 7))).contains("{\"area\":\"field-1\"}");
+        assertThat(settings(new GroupRef(1, 0, 0, 8))).contains("{\"path\":[[1,2]]}");
+        assertThat(settings(new GroupRef(0, 0, 0, 7))).contains("{}");
+        assertThat(settings(new GroupRef(0, 9, 0, 7))).contains("{}");
     }
 
     /** The record of the device may come before that of the part, and may be older than the part. */
     @Test
     void knowsNothingOfAPartOfAnotherSequence() throws Exception {
-        assertThat(settings(new GroupRef(0, 0, 7))).isEmpty();
+        assertThat(settings(new GroupRef(0, 0, 0, 7))).isEmpty();
         take(0, 7, "[{'type':'Camera','area':'a'}]");
-        assertThat(settings(new GroupRef(0, 0, 7))).isPresent();
+        assertThat(settings(new GroupRef(0, 0, 0, 7))).isPresent();
         take(0, 9, "[{'type':'Camera','area':'b'}]");
-        assertThat(settings(new GroupRef(0, 0, 7))).isEmpty();
-        assertThat(settings(new GroupRef(0, 0, 9))).contains("{\"area\":\"b\"}");
+        assertThat(settings(new GroupRef(0, 0, 0, 7))).isEmpty();
+        assertThat(settings(new GroupRef(0, 0, 0, 9))).contains("{\"area\":\"b\"}");
         lists.take("m.0", null);
-        assertThat(settings(new GroupRef(0, 0, 9))).isEmpty();
+        assertThat(settings(new GroupRef(0, 0, 0, 9))).isEmpty();
     }
 
     @Test
@@ -55,15 +55,16 @@ class MissionDeviceListsTest {
         MissionDeviceList list = new MissionDeviceList("m", 3, 9, devices);
         assertThat(list.key()).isEqualTo("m.3");
         assertThat(MissionDeviceList.read(list.toBytes())).isEqualTo(list);
-        WantedDevice device = device(new GroupRef(3, 0, 9));
+        WantedDevice device = device(new GroupRef(3, 0, 0, 9));
         assertThat(WantedDevice.read(device.toBytes())).isEqualTo(device);
         assertThat(new String(device.toBytes(), StandardCharsets.UTF_8))
-                .endsWith("\"group\":{\"part\":3,\"index\":0,\"sequence\":9}}");
+                .endsWith("\"group\":{\"part\":3,\"index\":0,\"member\":0,\"sequence\":9}}");
         for (String wrong : new String[] {"{}", "[]", "{'mission':'m','part':0,'sequence':1,'devices':{}}"}) {
             assertThatThrownBy(() -> MissionDeviceList.read(bytes(wrong))).isInstanceOf(UnreadableException.class);
         }
         lists.take("m.0", bytes("{}"));
-        assertThatThrownBy(() -> lists.resolve(device(new GroupRef(0, 0, 1)))).isInstanceOf(UnreadableException.class);
+        assertThatThrownBy(() -> lists.resolve(device(new GroupRef(0, 0, 0, 1))))
+                .isInstanceOf(UnreadableException.class);
     }
 
     private Optional<String> settings(GroupRef group) throws Exception {

@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Map;
+import java.util.Set;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
@@ -27,8 +28,21 @@ public final class WantedDeviceReader {
     private static final Map<String, Duration> PERIODS =
             Map.of("Robot", Duration.ofSeconds(1), "Camera", Duration.ofSeconds(10));
     private static final String ROBOT = "Robot";
+    private static final Set<String> KNOWN = Set.of("Thermometer", "WeatherStation", "Camera", ROBOT);
     private static final List<String> NO_PARAMETERS = List.of(
-            "type", "id", "entity", "count", "period", "area", "at", "route", "path", "speed", "faults", "carriedBy");
+            "type",
+            "id",
+            "entity",
+            "count",
+            "period",
+            "area",
+            "at",
+            "route",
+            "path",
+            "speed",
+            "faults",
+            "carriedBy",
+            "attributes");
     private static final Pattern NUMBERED = Pattern.compile(".*-(\\d{1,9})");
 
     private final PlaceReader places;
@@ -62,6 +76,13 @@ public final class WantedDeviceReader {
         entry.put("period", period.toString());
         if (wanted.settings().has("faults")) {
             entry.set("faults", wanted.settings().get("faults"));
+        }
+        if (!KNOWN.contains(wanted.type()) && wanted.settings().has("attributes")) {
+            ArrayNode attributes = entry.putArray("attributes");
+            wanted.settings()
+                    .get("attributes")
+                    .forEach(each ->
+                            attributes.add(((ObjectNode) each).deepCopy().without("unit")));
         }
         PlaceReader where = place(wanted, entry);
         FaultReader faults =
@@ -103,12 +124,16 @@ public final class WantedDeviceReader {
             }
             return places;
         }
+        if (settings.path("at").isObject()) {
+            entry.putArray("route").add(settings.get("at"));
+            return places;
+        }
         if (!settings.has("area")) {
             throw new UnusableScenarioException(
                     "area",
                     robot
                             ? "is missing; a robot needs an area, which it works row by row, or a path"
-                            : "is missing; say where it is with one of area, path or carriedBy");
+                            : "is missing; say where it is with one of at, area, path or carriedBy");
         }
         return area(settings, entry, robot);
     }

@@ -130,7 +130,7 @@ class FleetReconcilerTest {
                 device.period(),
                 true,
                 device.settings(),
-                new GroupRef(0, 0, sequence),
+                new GroupRef(0, 0, 0, sequence),
                 device.generation());
     }
 

@@ -98,7 +98,7 @@ class WantedDeviceReaderTest {
     @Test
     void measuresWhatATypeOfTheFarmsOwnSays() throws Exception {
         Sensor probe = (Sensor) read("SoilProbe", 1, """
-                {"path": [[0, 0]], "parameters": {"attributes": [{"object_id": "m", "name": "Moisture", "type": "Float", "low": 10, "high": 40}]}}
+                {"at": {"latitude": 0, "longitude": 0}, "attributes": [{"object_id": "m", "name": "Moisture", "unit": "P1", "low": 10, "high": 40}]}
                 """);
 
         assertThat(probe.quantities()).singleElement().satisfies(moisture -> {

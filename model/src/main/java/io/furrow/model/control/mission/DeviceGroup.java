@@ -13,6 +13,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.RequestMembers;
+import io.furrow.model.device.MeasuredAttribute;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -28,8 +29,9 @@ import io.furrow.model.ngsi.NgsiJson;
  * @param period between two measures; null if it is not known
  * @param simulated whether a host of simulated devices runs them; null for the default of the control plane
  * @param settings {@code area} (id of a field or GeoJSON), {@code path} (list of [longitude, latitude]), {@code speed} (m/s),
- *     {@code faults} (objects with {@code kind} stuck, drift, spikes or silent) and {@code parameters} (anything the host
- *     understands), as they were given; owned by the group, not to be changed by readers
+ *     {@code faults} (objects with {@code kind} stuck, drift, spikes or silent), {@code parameters} (anything the host
+ *     understands), {@code attributes} (see {@link MeasuredAttribute}) and {@code at} ({@code {latitude, longitude}}, or one for
+ *     each device), as they were given; owned by the group, not to be changed by readers
  */
 public record DeviceGroup(
         String name,
@@ -46,10 +48,12 @@ public record DeviceGroup(
     /** What the context broker takes as an entity id, some signs shorter. */
     public static final Pattern ENTITY_ID = Pattern.compile("[!-~&&[^&?/#<>\"'=;()|%]]{1,200}");
 
+    private static final String AT = "at";
     private static final Pattern TYPE = Pattern.compile("[A-Za-z][A-Za-z0-9]{0,63}");
     private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
     private static final Set<String> FAULTS = Set.of("stuck", "drift", "spikes", "silent");
-    private static final List<String> SETTINGS = List.of("area", "path", "speed", "faults", "parameters");
+    private static final List<String> SETTINGS =
+            List.of("area", "path", "speed", "faults", "parameters", "attributes", AT);
     private static final double FASTEST = 100;
 
     /** An entity that reports with a login of its own. */
@@ -80,6 +84,8 @@ public record DeviceGroup(
             throw RequestMembers.wrong("count", "1 where the device has an 'id'");
         }
         check(members);
+        MeasuredAttribute.check(members);
+        checkPlaces(object.path(AT), count);
         ObjectNode settings = settings(object);
         return new DeviceGroup(
                 members.nameOrNull("name"),
@@ -107,7 +113,7 @@ public record DeviceGroup(
     long settingsBytes() {
         ObjectNode own = JsonNodeFactory.instance.objectNode();
         own.setAll(settings);
-        own.remove("area");
+        own.remove(List.of("area", AT));
         return own.isEmpty() ? 0 : (long) count * NgsiJson.write(own).length;
     }
 
@@ -138,6 +144,25 @@ public record DeviceGroup(
                 throw RequestMembers.wrong("faults", "a list of objects with 'kind' stuck, drift, spikes or silent");
             }
         }
+    }
+
+    private static void checkPlaces(JsonNode at, int count) throws RefusedException {
+        boolean fits = at.isMissingNode() || at.isNull() || isPlace(at);
+        if (at.isArray() && at.size() == count) {
+            fits = true;
+            for (JsonNode each : at) {
+                fits &= isPlace(each);
+            }
+        }
+        if (!fits) {
+            throw RequestMembers.wrong(
+                    AT,
+                    "an object with 'latitude' and 'longitude' in degrees, or a list of one for each of the devices");
+        }
+    }
+
+    private static boolean isPlace(JsonNode at) {
+        return at.isObject() && isDegrees(at.get("latitude"), 90) && isDegrees(at.get("longitude"), 180);
     }
 
     private static boolean isDegrees(JsonNode value, double most) {

@@ -1,0 +1,133 @@
+package io.furrow.control.device;
+
+import java.net.URI;
+import java.nio.charset.StandardCharsets;
+import java.util.ArrayList;
+import java.util.List;
+import java.util.function.Supplier;
+import java.util.stream.Stream;
+
+import com.fasterxml.jackson.databind.node.ArrayNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
+import io.nayuki.qrcodegen.QrCode;
+
+import io.furrow.model.device.FarmSecret;
+import io.furrow.model.device.MeasuredAttribute;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.ngsi.NgsiJson;
+
+/**
+ * What somebody needs who sets up a device: where the MQTT broker is, its login, its topics, what it may send, and a command that sends
+ * one measure.
+ *
+ * @param secret of the farm
+ * @param broker as devices reach it, {@code mqtt://host:port} or {@code mqtts://host:port}; null if it is not known here
+ */
+public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
+    private static final String ROBOT = "Robot";
+    private static final List<String> QR =
+            List.of("host", "port", "tls", "user", "password", "measures", "commands", "results");
+    /** Width of the border, in modules. */
+    private static final int QUIET = 4;
+
+    private static final int TLS_PORT = 8883;
+    private static final int PORT = 1883;
+
+    /** Whether a device gets a login: those that only their ids are known of have one already, simulated robots need none. */
+    public static boolean has(WantedDevice device) {
+        return device.device() != null && !(device.simulated() && ROBOT.equals(device.type()));
+    }
+
+    /** Where the broker is, login and topics as a QR code of JSON, in SVG. */
+    public String qr(WantedDevice device) {
+        ObjectNode json = of(device).retain(QR);
+        QrCode code = QrCode.encodeText(new String(NgsiJson.write(json), StandardCharsets.UTF_8), QrCode.Ecc.LOW);
+        StringBuilder path = new StringBuilder();
+        for (int y = 0; y < code.size; y++) {
+            for (int x = 0; x < code.size; x++) {
+                if (code.getModule(x, y)) {
+                    path.append("M%d %dh1v1h-1z".formatted(x + QUIET, y + QUIET));
+                }
+            }
+        }
+        return """
+                <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %1$d %1$d" shape-rendering="crispEdges">\
+                <rect width="100%%" height="100%%" fill="#fff"/><path d="%2$s"/></svg>
+                """.formatted(code.size + 2 * QUIET, path);
+    }
+
+    /** @param device with its settings */
+    public ObjectNode of(WantedDevice device) {
+        String mission = device.version().mission();
+        FarmSecret now = secret.get();
+        FarmSecret.Login login = now.device(mission, device.device(), device.generation());
+        String topic = "/%s/%s/".formatted(now.apiKey(mission), device.device());
+        List<MeasuredAttribute> attributes = MeasuredAttribute.of(device);
+        ObjectNode json = JsonNodeFactory.instance
+                .objectNode()
+                .put("device", device.version().id())
+                .put("deviceId", device.device())
+                .put("mission", mission);
+        if (broker != null) {
+            json.put("host", broker.getHost()).put("port", port()).put("tls", isTls());
+        }
+        json.put("user", login.user())
+                .put("password", login.password())
+                .put("apiKey", now.apiKey(mission))
+                .put("measures", topic + "attrs")
+                .put("commands", topic + "cmd")
+                .put("results", topic + "cmdexe")
+                .put("key", now.newestKey())
+                .put("generation", device.generation());
+        ArrayNode sent = json.putArray("attributes");
+        attributes.forEach(each -> {
+            ObjectNode one = sent.addObject()
+                    .put("object_id", each.objectId())
+                    .put("name", each.name())
+                    .put("type", each.type());
+            if (each.unit() != null) {
+                one.put("unit", each.unit());
+            }
+        });
+        return json.put("example", example(topic + "attrs", login, attributes));
+    }
+
+    private boolean isTls() {
+        return Stream.of("mqtts", "ssl").anyMatch(broker.getScheme()::equals);
+    }
+
+    private int port() {
+        int usual = isTls() ? TLS_PORT : PORT;
+        return broker.getPort() < 0 ? usual : broker.getPort();
+    }
+
+    private String example(String topic, FarmSecret.Login login, List<MeasuredAttribute> attributes) {
+        List<String> words = new ArrayList<>(List.of("mosquitto_pub"));
+        if (broker != null) {
+            words.addAll(List.of("-h", broker.getHost(), "-p", Integer.toString(port())));
+            if (isTls()) {
+                words.add("--tls-use-os-certs");
+            }
+        }
+        words.addAll(List.of("-u", quoted(login.user()), "-P", quoted(login.password()), "-q", "1"));
+        words.addAll(List.of("-t", quoted(topic), "-m", quoted(measure(attributes))));
+        return String.join(" ", words);
+    }
+
+    /** Its first attribute, which is what it measures. */
+    private static String measure(List<MeasuredAttribute> attributes) {
+        MeasuredAttribute first = attributes.get(0);
+        ObjectNode measure = JsonNodeFactory.instance.objectNode();
+        switch (first.type()) {
+            case "Float", "Number", "Integer" -> measure.put(first.objectId(), 21);
+            case "Boolean" -> measure.put(first.objectId(), true);
+            default -> measure.put(first.objectId(), "");
+        }
+        return new String(NgsiJson.write(measure), StandardCharsets.UTF_8);
+    }
+
+    private static String quoted(String word) {
+        return "'" + word.replace("'", "'\\''") + "'";
+    }
+}
