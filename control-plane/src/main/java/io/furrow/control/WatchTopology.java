@@ -42,8 +42,8 @@ final class WatchTopology {
 
         AnalyticsAlarms.addClocks(observed(builder, Topics.CLOCKS, "clocks"), types);
 
-        KStream<String, byte[]> statuses =
-                ManagerInput.observed(builder, Topics.MISSIONS_STATUS, "mission-statuses", AutoOffsetReset.earliest());
+        KStream<String, byte[]> statuses = ManagerInput.observed(
+                builder, Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
         AnalyticsAlarms.addStarts(statuses, types);
 
         ContextWatch.add(builder, new ContextWatch.Shared(collisions, temperatures, statuses), scope);

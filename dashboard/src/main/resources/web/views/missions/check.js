@@ -36,11 +36,11 @@ function checkGroup(group, domain, farm) {
   const rest = count - made.length;
   return [
     ...made.map((id) => checkDevice(id, group, domain, farm)),
-    ...(rest > 0 ? [judged(group.name ?? group.type, [made(group, rest), place(group, null, domain, farm)])] : []),
+    ...(rest > 0 ? [judged(group.name ?? group.type, [atStart(group, rest), place(group, null, domain, farm)])] : []),
   ];
 }
 
-function made(group, count) {
+function atStart(group, count) {
   return { level: 'ok', what: 'reach', text: group.simulated ? 'simulated' : 'made', values: { count } };
 }
 
@@ -48,7 +48,7 @@ function checkDevice(id, group, domain, farm) {
   const known = farm.devices.get(id);
   const entity = farm.entities.get(id);
   if (!known && !entity && !group.outside) {
-    return judged(id, [made(group, 1), place(group, null, domain, farm)]);
+    return judged(id, [atStart(group, 1), place(group, null, domain, farm)]);
   }
   return judged(id, [use(known, farm), reach(known, entity, group, farm), battery(known, entity), place(group, entity, domain, farm)].filter(Boolean));
 }

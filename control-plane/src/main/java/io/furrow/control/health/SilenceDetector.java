@@ -2,9 +2,12 @@ package io.furrow.control.health;
 
 import java.time.Duration;
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 import java.util.Optional;
 import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.Entity;
@@ -112,14 +115,17 @@ final class SilenceDetector {
         return true;
     }
 
+    /** Whether the context broker notified about something else than what was assigned to the device or asked of it. */
     private static boolean isMeasured(Entity entity) {
-        return entity.attributes().stream()
-                .map(Map.Entry::getKey)
-                .filter(name -> !ASSIGNED.matcher(name).matches() && !Entity.BUILT_INS.contains(name))
-                .anyMatch(name -> entity.value(name)
-                        .filter(value ->
-                                !value.isTextual() || !value.textValue().isBlank())
-                        .isPresent());
+        List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
+        return attributes.isEmpty()
+                || attributes.stream()
+                        .map(Map.Entry::getKey)
+                        .filter(name -> !ASSIGNED.matcher(name).matches() && !Entity.BUILT_INS.contains(name))
+                        .anyMatch(name -> entity.value(name)
+                                .filter(value ->
+                                        !value.isTextual() || !value.textValue().isBlank())
+                                .isPresent());
     }
 
     /** Whether the device has reported. */

@@ -82,7 +82,7 @@ public final class ProvisioningOptions {
     @Option(
             names = "--start-timeout",
             paramLabel = "DURATION",
-            defaultValue = "1m",
+            defaultValue = "1min",
             description =
                     "How long devices of a mission may take to come up. Then those that are missing are named, and an alarm is "
                             + "raised; the mission waits for them. Default: ${DEFAULT-VALUE}.")
