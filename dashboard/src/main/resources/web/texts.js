@@ -118,6 +118,11 @@ export const texts = {
 
   // ------------------------------------------------------------------------------------------------------------------
 
+  credentials: {
+    title: 'Logins of {mission}', hint: 'What its real devices need to report over MQTT. They hold until the mission is stopped. Whoever has a login reports as that device.', none: 'None of its devices is real, or has a login of Furrow.',
+    download: 'All {count} as CSV', code: 'Login of {device} as a code for a camera', sends: 'It may send: {names}',
+    facts: { host: 'Broker', port: 'Port', tls: 'TLS', user: 'User', password: 'Password', measures: 'Publishes to', commands: 'Subscribes to', results: 'Answers commands on' },
+  },
   missions: {
     tabs: { missions: 'Missions', domains: 'Domains and fields', audit: 'Who commanded what' },
     new: 'New mission', create: 'Create', cancel: 'Cancel', name: 'Name', nameHint: '1 to 64 of A–Z a–z 0–9 _ -', domain: 'Domain', template: 'Template', chooseTemplate: 'Choose a template …', templateVersion: '{template}, version {version}',
@@ -126,7 +131,7 @@ export const texts = {
     states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
     confirmed: '{confirmed} of {devices} devices', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices that are as wanted',
     startedAt: 'started {time}', lasts: 'for {duration}', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
-    startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Simulated devices are switched off; the logins of real ones end until it is started again. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
+    credentials: 'Logins', startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Simulated devices are switched off; the logins of real ones end until it is started again. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
     viewer: 'You can look at everything. To command takes the role of an operator', noDevicesYet: 'Its devices are being made.', planned: '{count} devices are planned; they are made when it starts.', moreDevices: 'and {count} more',
     check: 'Check of each device', unnamed: 'Device', levels: { ok: 'in order', unknown: 'not known', warning: 'needs a look', problem: 'in the way' },

@@ -9,6 +9,7 @@ import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { auditTable } from './audit.js';
 import { checkPlan, farmNow } from './check.js';
+import { showCredentials } from './credentials.js';
 import { openDialog } from './dialog.js';
 import { findingsList, summaryOf } from './findings.js';
 import { statePill } from './list.js';
@@ -69,6 +70,7 @@ export class MissionDetail {
     const recorded = store.recordings.has(this.name);
     return [
       running ? button('stop', 'stop', t('missions.stop'), () => this.confirmStop()) : button('start', 'play', t('missions.start'), () => this.confirmStart(mission), 'primary'),
+      running && store.may('administer') && button('credentials', 'link', t('missions.credentials'), () => showCredentials(this.name)),
       recorded && h('a.button', { href: linkTo('replays', { mission: this.name }), data: { act: 'replay' } }, icon('history', 16), t('missions.replay')),
       !running && button('delete', 'trash', t('missions.delete'), () => this.confirmDelete(), 'danger'),
     ];

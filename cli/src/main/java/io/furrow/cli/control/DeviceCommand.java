@@ -59,9 +59,21 @@ public final class DeviceCommand extends CommandGroup {
 
     @Command(
             name = "credentials",
-            description = "Shows the API key, user and password with which a device reaches the MQTT broker.")
-    int credentials(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return control.showOne(DEVICES + ControlApi.part(device) + "/credentials");
+            description = {
+                "Shows what a device needs to report over MQTT: broker, login, topics, what it may send, and an example. Of all real "
+                        + "devices of a mission with --mission, also as csv or env."
+            })
+    int credentials(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "DEVICE", description = ID, arity = "0..1") String device,
+            @Option(names = "--mission", paramLabel = "MISSION", description = "All real devices of this mission.")
+                    String mission) {
+        if ((device == null) == (mission == null)) {
+            throw control.refused("Name a device, or a mission with --mission.");
+        }
+        return control.showCredentials(
+                (device == null ? "/api/missions" + ControlApi.part(mission) : DEVICES + ControlApi.part(device))
+                        + "/credentials");
     }
 
     @Command(

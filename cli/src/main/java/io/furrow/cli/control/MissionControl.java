@@ -29,8 +29,12 @@ public class MissionControl extends CommandGroup {
         @Option(names = "--template", paramLabel = "NAME", description = "Template, NAME or NAME@VERSION.")
         private String template;
 
-        @Option(names = "--devices", paramLabel = "FILE", description = "JSON list of its devices.")
-        private Path devices;
+        @Option(
+                names = "--devices",
+                paramLabel = "FILE|JSON",
+                description =
+                        "JSON list of its devices: a file, or the list itself, as '[{\"type\": \"Thermometer\"}]'.")
+        private String devices;
 
         ObjectNode json(String mission, String domain) throws IOException {
             ObjectNode json = NgsiJson.mapper().createObjectNode().put("mission", mission);
@@ -41,7 +45,7 @@ public class MissionControl extends CommandGroup {
                 json.put("template", template);
             }
             if (devices != null) {
-                json.set("devices", JsonFile.read(devices));
+                json.set("devices", JsonFile.readOrParse(devices));
             }
             return json;
         }

@@ -162,6 +162,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                 .withInsecure(tls.insecure)
                 .withContextBroker(orion)
                 .withSecret(secret)
+                .withMqtt(provisioning.mqttPublic)
                 .withAllowed(access.allowed());
         return runUntilStopped(rest, secret);
     }

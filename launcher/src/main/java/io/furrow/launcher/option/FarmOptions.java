@@ -47,6 +47,7 @@ public final class FarmOptions {
         return new SuiteSettings.Farm(
                 provisioning.agent(fiwareService),
                 mqtt,
+                provisioning.mqttPublic,
                 mqttTrusted,
                 provisioning.accounts(),
                 provisioning.secret(),

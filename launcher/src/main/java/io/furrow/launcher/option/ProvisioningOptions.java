@@ -80,6 +80,14 @@ public final class ProvisioningOptions {
     public boolean gateways;
 
     @Option(
+            names = "--mqtt-public-url",
+            paramLabel = "URL",
+            description =
+                    "MQTT broker as devices reach it, for their credentials: mqtt://host[:port], or mqtts:// with TLS. Default of up: "
+                            + "its own broker, else that of --mqtt; of control-plane: none.")
+    public URI mqttPublic;
+
+    @Option(
             names = "--start-timeout",
             paramLabel = "DURATION",
             defaultValue = "1min",

@@ -94,6 +94,10 @@ final class SuiteControl implements AutoCloseable {
                 RestSettings.on(suite.ports().control())
                         .withContextBroker(ends.contextBroker())
                         .withSecret(source)
+                        .withMqtt(
+                                farm.mqttPublic() != null || ends.mqtt() == null
+                                        ? farm.mqttPublic()
+                                        : ends.mqtt().broker())
                         .withTokens(farm.tokens())
                         .withAllowed(suite.allowed()),
                 suite.ports().health(),

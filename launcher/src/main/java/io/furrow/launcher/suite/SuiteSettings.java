@@ -68,6 +68,7 @@ public record SuiteSettings(
      *
      * @param iotAgent one that already runs, beside a context broker that does; null for none, or for the stand-in
      * @param mqtt MQTT broker that already runs, likewise
+     * @param mqttPublic the MQTT broker as devices reach it; null for as it is reached here
      * @param mqttTrusted PEM file with the certificates to trust there; null for those that Java trusts
      * @param accounts files in which that broker finds the accounts of devices
      * @param secret of the farm
@@ -77,6 +78,7 @@ public record SuiteSettings(
     public record Farm(
             AgentSettings iotAgent,
             URI mqtt,
+            URI mqttPublic,
             Path mqttTrusted,
             AccountFiles accounts,
             Secret secret,
@@ -84,6 +86,7 @@ public record SuiteSettings(
             Missions missions) {
         /** Simulated devices on the stand-in and the suite's own MQTT broker. */
         public static final Farm SIMULATED = new Farm(
+                null,
                 null,
                 null,
                 null,

@@ -17,6 +17,7 @@ import picocli.CommandLine.ParameterException;
 import picocli.CommandLine.Spec;
 
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.control.table.CredentialList;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.model.ngsi.NgsiJson;
 
@@ -24,7 +25,9 @@ import io.furrow.model.ngsi.NgsiJson;
 public final class ControlOptions {
     private enum Output {
         TABLE,
-        JSON
+        JSON,
+        CSV,
+        ENV
     }
 
     @Spec(Spec.Target.MIXEE)
@@ -59,7 +62,7 @@ public final class ControlOptions {
             names = "--output",
             paramLabel = "FORM",
             defaultValue = "table",
-            description = "table or json. Default: ${DEFAULT-VALUE}.")
+            description = "table or json; of credentials also csv and env. Default: ${DEFAULT-VALUE}.")
     private Output output;
 
     /** A use of the API. */
@@ -90,6 +93,28 @@ public final class ControlOptions {
         } else {
             members(object);
         }
+    }
+
+    /** Prints the credentials that a path has, of one device or of many. */
+    public int showCredentials(String path) {
+        return runWith(api -> {
+            JsonNode answer = api.get(path);
+            JsonNode devices = answer.isArray()
+                    ? answer
+                    : JsonNodeFactory.instance.arrayNode().add(answer);
+            switch (output) {
+                case JSON -> print(answer);
+                case CSV -> CredentialList.csv(devices).forEach(out()::println);
+                case ENV -> CredentialList.env(devices).forEach(out()::println);
+                case TABLE -> {
+                    if (answer.isArray()) {
+                        CredentialList.table().lines(answer).forEach(out()::println);
+                    } else {
+                        members(answer);
+                    }
+                }
+            }
+        });
     }
 
     /** Sends a command and prints what was answered. */
@@ -128,6 +153,13 @@ public final class ControlOptions {
 
     /** Runs it and prints a sentence if it fails. @return the exit code */
     public int run(Work work) {
+        if (output == Output.CSV || output == Output.ENV) {
+            throw refused("--output csv and env are for 'device credentials'; use table or json");
+        }
+        return runWith(work);
+    }
+
+    private int runWith(Work work) {
         try {
             work.with(new ControlApi(api, token(), trust()));
             out().flush();

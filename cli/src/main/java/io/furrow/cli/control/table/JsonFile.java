@@ -1,6 +1,7 @@
 package io.furrow.cli.control.table;
 
 import java.io.IOException;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
@@ -12,6 +13,18 @@ import io.furrow.model.ngsi.UnreadableException;
 /** JSON that a user has in a file. */
 public final class JsonFile {
     private JsonFile() {}
+
+    /** Reads JSON that begins with a bracket as it stands, anything else as the name of a file. */
+    public static JsonNode readOrParse(String fileOrJson) throws IOException {
+        if (!fileOrJson.stripLeading().startsWith("[")) {
+            return read(Path.of(fileOrJson));
+        }
+        try {
+            return NgsiJson.read(fileOrJson.getBytes(StandardCharsets.UTF_8));
+        } catch (UnreadableException e) {
+            throw new IOException("the list of devices is no JSON: " + e.getMessage(), e);
+        }
+    }
 
     /** @throws IOException if there is none; the message names the file */
     public static JsonNode read(Path file) throws IOException {

@@ -1,0 +1,83 @@
+package io.furrow.cli.control.table;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Locale;
+import java.util.stream.Collectors;
+import java.util.stream.StreamSupport;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+/** Credentials of devices as text: as a table, as CSV (RFC 4180), and as variables of a shell. */
+public final class CredentialList {
+    private static final List<String> COLUMNS = List.of(
+            "device",
+            "deviceId",
+            "host",
+            "port",
+            "tls",
+            "user",
+            "password",
+            "apiKey",
+            "measures",
+            "commands",
+            "results");
+
+    private CredentialList() {}
+
+    /** The table of many devices; what else there is of one, its example among it, the other forms have. */
+    public static ControlTable table() {
+        return new ControlTable(
+                        "The mission has no real device with a login; its devices have theirs while it is started.")
+                .text("DEVICE", "/device")
+                .text("HOST", "/host")
+                .text("PORT", "/port")
+                .text("USER", "/user")
+                .text("PASSWORD", "/password")
+                .text("MEASURES", "/measures");
+    }
+
+    /** A line of titles, and one per device. */
+    public static List<String> csv(JsonNode devices) {
+        List<String> lines = new ArrayList<>();
+        lines.add(String.join(",", COLUMNS) + ",attributes,example");
+        for (JsonNode device : devices) {
+            List<String> cells = new ArrayList<>();
+            COLUMNS.forEach(column -> cells.add(device.path(column).asText()));
+            cells.add(attributes(device));
+            cells.add(device.path("example").asText());
+            lines.add(cells.stream().map(CredentialList::quoted).collect(Collectors.joining(",")));
+        }
+        return lines;
+    }
+
+    /** Variables of each device, as {@code . file} reads them, devices apart from each other by an empty line. */
+    public static List<String> env(JsonNode devices) {
+        List<String> lines = new ArrayList<>();
+        for (JsonNode device : devices) {
+            if (!lines.isEmpty()) {
+                lines.add("");
+            }
+            COLUMNS.stream()
+                    .filter(device::has)
+                    .forEach(column -> lines.add("MQTT_%s='%s'"
+                            .formatted(
+                                    column.replaceAll("([A-Z])", "_$1").toUpperCase(Locale.ROOT),
+                                    device.path(column).asText().replace("'", "'\\''"))));
+            lines.add("MQTT_ATTRIBUTES='%s'".formatted(attributes(device)));
+        }
+        return lines;
+    }
+
+    /** {@code temp=Temperature lat=Latitude}. */
+    private static String attributes(JsonNode device) {
+        return StreamSupport.stream(device.path("attributes").spliterator(), false)
+                .map(each -> each.path("object_id").asText() + "="
+                        + each.path("name").asText())
+                .collect(Collectors.joining(" "));
+    }
+
+    private static String quoted(String cell) {
+        return cell.matches("[^\",\r\n]*") ? cell : '"' + cell.replace("\"", "\"\"") + '"';
+    }
+}
