@@ -5,6 +5,7 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.Map;
 import java.util.concurrent.TimeUnit;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -25,13 +26,17 @@ final class Command implements AutoCloseable {
 
     /** Starts it and goes on; the words are its name and arguments. */
     static Command start(String... words) {
+        return start(Map.of(), words);
+    }
+
+    /** The same with further variables of its environment. */
+    static Command start(Map<String, String> variables, String... words) {
         try {
             Path output = Files.createTempFile("command", ".out");
-            Process process = new ProcessBuilder(words)
-                    .redirectErrorStream(true)
-                    .redirectOutput(output.toFile())
-                    .start();
-            return new Command(List.of(words), process, output);
+            ProcessBuilder builder =
+                    new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(output.toFile());
+            builder.environment().putAll(variables);
+            return new Command(List.of(words), builder.start(), output);
         } catch (IOException e) {
             throw new IllegalStateException(
                     words[0] + " is missing; install the Debian packages mosquitto-clients and curl", e);

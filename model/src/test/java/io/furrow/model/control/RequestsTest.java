@@ -129,6 +129,15 @@ class RequestsTest {
             {'command':'start','mission':'m','devices':[{'type':'T','faults':[{'kind':'tired'}]}]} | wrong-member
             {'command':'start','mission':'m','devices':[{'type':'T','path':[[200,1]]}]} | wrong-member
             {'command':'start','mission':'m','devices':[{'type':'T','speed':1e999}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','simulated':'yes'}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','at':[1,2]}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','at':{'latitude':91,'longitude':0}}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','count':2,'at':[{'latitude':1,'longitude':1}]}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','attributes':{}}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','attributes':[{'object_id':'t'}]}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','attributes':[{'name':'a b'}]}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','attributes':[{'name':'T','unit':'celsius'}]}]} | wrong-member
+            {'command':'start','mission':'m','devices':[{'type':'T','attributes':['T']}]} | wrong-member
             {'command':'delete','mission':'m m'}                             | illegal-name
             """)
     void answersWhatIsNoRequestToAMission(String request, String code) {

@@ -110,7 +110,7 @@ class WantedDeviceReaderTest {
 
     @ParameterizedTest
     @CsvSource(delimiter = '|', quoteCharacter = '`', textBlock = """
-            Thermometer | {}                                                              | area: is missing; say where it is with one of area, path or carriedBy
+            Thermometer | {}                                                              | area: is missing; say where it is with one of at, area, path or carriedBy
             Robot       | {}                                                              | area: is missing; a robot needs an area, which it works row by row, or a path
             Robot       | {"carriedBy": "urn:r"}                                          | carriedBy: a robot goes by itself; leave it out
             Thermometer | {"area": "meadow"}                                              | area: there is no field 'meadow'; there are: orchard

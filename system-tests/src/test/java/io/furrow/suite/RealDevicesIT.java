@@ -1,0 +1,192 @@
+package io.furrow.suite;
+
+import java.net.URI;
+import java.net.http.HttpClient;
+import java.net.http.HttpRequest;
+import java.net.http.HttpResponse;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.LinkedHashMap;
+import java.util.Map;
+
+import com.fasterxml.jackson.databind.JsonNode;
+import org.junit.jupiter.api.AfterAll;
+import org.junit.jupiter.api.BeforeAll;
+import org.junit.jupiter.api.Tag;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.http.AllowedNames;
+import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.model.ngsi.NgsiJson;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
+
+/** Devices that have nothing but their credentials and an MQTT client, beside simulated ones. */
+class RealDevicesIT {
+    private static final Duration TIMEOUT = Duration.ofSeconds(60);
+    private static final HttpClient HTTP = HttpClient.newHttpClient();
+    private static final String PLACE = "{\"latitude\": 40.3134, \"longitude\": -3.4831}";
+
+    private static RunningSuite running;
+
+    @BeforeAll
+    static void startAFarmThatSimulatesNothingUnasked() throws Exception {
+        SuiteSettings usual = SuiteSettings.onFreePorts("2s");
+        SuiteSettings.Farm farm = usual.farm();
+        running = RunningSuite.start(
+                null,
+                new SuiteSettings(
+                        null,
+                        "farm",
+                        "2s",
+                        null,
+                        usual.ports(),
+                        null,
+                        null,
+                        null,
+                        new SuiteSettings.Farm(
+                                null,
+                                null,
+                                null,
+                                null,
+                                farm.accounts(),
+                                farm.secret(),
+                                null,
+                                new SuiteSettings.Missions(Duration.ofSeconds(3), true, false)),
+                        SuiteSettings.Watch.DEFAULT,
+                        AllowedNames.NONE));
+        await().atMost(TIMEOUT)
+                .until(() -> send("GET", "/ready", "").path("status").asText().equals("ready"));
+        send("POST", "/api/domains", "{\"domain\":\"home\"}");
+    }
+
+    @AfterAll
+    static void stop() {
+        if (running != null) {
+            running.close();
+        }
+    }
+
+    @Test
+    void reportsByTheExampleOfItsCredentialsAsPrinted() throws Exception {
+        start("first", """
+                {"type": "Thermometer", "count": 2, "period": "PT15M", "at": [%1$s, %1$s], "attributes": [
+                  {"object_id": "t", "name": "Temperature", "unit": "CEL"}]}""".formatted(PLACE));
+        await().atMost(TIMEOUT)
+                .until(() -> mission("first").at("/status/reason").asText().startsWith("2 of 2 devices are not up"));
+        await().atMost(TIMEOUT)
+                .until(() -> send("GET", "/api/alarms", "")
+                        .findValuesAsText("text")
+                        .contains("mission first: "
+                                + mission("first").at("/status/reason").asText()));
+        JsonNode logins = send("GET", "/api/missions/first/credentials", "");
+        assertThat(logins).hasSize(2);
+
+        Command.run("sh", "-c", logins.path(0).path("example").asText());
+
+        await().atMost(TIMEOUT)
+                .until(() -> mission("first").at("/status/state").asText().equals("running"));
+        assertThat(mission("first").at("/status/missing/0/reason").asText()).isEqualTo("it has not reported yet");
+        JsonNode entity = running.ngsi()
+                .entities("id=" + logins.path(0).path("device").asText())
+                .path(0);
+        assertThat(entity.at("/Temperature/value").asInt()).isEqualTo(21);
+        assertThat(entity.at("/Temperature/metadata/unitCode/value").asText()).isEqualTo("CEL");
+        assertThat(entity.at("/Latitude/value").asDouble()).isEqualTo(40.3134);
+        await().atMost(TIMEOUT)
+                .untilAsserted(() -> assertThat(running.ngsi()
+                                .entities("id=Analytics:FieldTemperature:field-1")
+                                .at("/0/averageTemperature/value")
+                                .asInt())
+                        .isEqualTo(21));
+        send("POST", "/api/missions/first/stop", "{}");
+        await().atMost(TIMEOUT)
+                .until(() -> mission("first").at("/status/state").asText().equals("stopped"));
+    }
+
+    @Tag("full")
+    @Test
+    void runsTheProgramOfTheDocumentationAndAnswersItsCommands() throws Exception {
+        start("program", "{\"type\": \"Thermometer\", \"at\": %s}".formatted(PLACE));
+        await().atMost(TIMEOUT)
+                .until(() ->
+                        send("GET", "/api/missions/program/credentials", "").size() == 1);
+        JsonNode login = send("GET", "/api/missions/program/credentials", "").path(0);
+        Map<String, String> variables = new LinkedHashMap<>();
+        Map.of(
+                        "MQTT_HOST", "host",
+                        "MQTT_PORT", "port",
+                        "MQTT_USER", "user",
+                        "MQTT_PASSWORD", "password",
+                        "MQTT_DEVICE_ID", "deviceId",
+                        "MQTT_MEASURES", "measures",
+                        "MQTT_COMMANDS", "commands",
+                        "MQTT_RESULTS", "results")
+                .forEach(
+                        (name, member) -> variables.put(name, login.path(member).asText()));
+        variables.put("PERIOD", "0.5");
+        String device = login.path("device").asText();
+        String program = Path.of("..", "docs", "examples", "thermometer.py").toString();
+        try (Command thermometer = Command.start(variables, "python3", program)) {
+            await().atMost(TIMEOUT)
+                    .until(() -> mission("program").at("/status/state").asText().equals("running"));
+            send("POST", "/api/devices/" + device + "/commands", "{\"command\":\"off\"}");
+            await().atMost(TIMEOUT).until(() -> thermometer.printed().contains("asked: {'off'"));
+            await().atMost(TIMEOUT)
+                    .until(() -> running.ngsi()
+                            .entities("id=" + device)
+                            .at("/0/off_status/value")
+                            .asText()
+                            .equals("OK"));
+        }
+        send("POST", "/api/missions/program/stop", "{}");
+    }
+
+    @Tag("full")
+    @Test
+    void simulatesThoseOfAMissionThatAreSimulatedAlone() throws Exception {
+        start("mixed", """
+                {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "at": %1$s},
+                {"name": "real", "type": "WeatherStation", "count": 40, "at": %1$s}""".formatted(PLACE));
+        await().atMost(TIMEOUT)
+                .until(() -> mission("mixed").at("/status/confirmed").asInt() == 40);
+        JsonNode logins = send("GET", "/api/missions/mixed/credentials", "");
+        assertThat(logins).hasSize(40);
+        for (JsonNode login : logins) {
+            assertThat(login.path("device").asText()).contains("WeatherStation");
+            Command.run("sh", "-c", login.path("example").asText());
+        }
+        await().atMost(TIMEOUT)
+                .until(() -> mission("mixed").at("/status/confirmed").asInt() == 80);
+        JsonNode stations = running.ngsi().entities("type=WeatherStation&idPattern=.*mixed.*");
+        assertThat(stations)
+                .hasSize(40)
+                .allMatch(each -> each.at("/Temperature/value").asInt() == 21
+                        && each.path("Humidity").isMissingNode());
+        send("POST", "/api/missions/mixed/stop", "{}");
+    }
+
+    private static void start(String mission, String devices) throws Exception {
+        String body = "{\"domain\":\"home\",\"devices\":[%s]}".formatted(devices);
+        assertThat(send("POST", "/api/missions/" + mission + "/start", body)
+                        .path("status")
+                        .asText())
+                .isEqualTo("created");
+    }
+
+    private static JsonNode mission(String name) throws Exception {
+        return send("GET", "/api/missions/" + name, "");
+    }
+
+    private static JsonNode send(String method, String path, String body) throws Exception {
+        HttpRequest.BodyPublisher content =
+                method.equals("GET") ? HttpRequest.BodyPublishers.noBody() : HttpRequest.BodyPublishers.ofString(body);
+        HttpRequest request = HttpRequest.newBuilder(URI.create(running.suite().control() + path))
+                .header("Content-Type", "application/json")
+                .method(method, content)
+                .build();
+        return NgsiJson.read(
+                HTTP.send(request, HttpResponse.BodyHandlers.ofByteArray()).body());
+    }
+}
