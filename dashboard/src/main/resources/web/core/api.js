@@ -19,6 +19,7 @@ const signedOut = new Set();
 export const api = {
   get: (path, options) => request('GET', path, undefined, options),
   post: (path, body, options) => request('POST', path, body ?? {}, options),
+  patch: (path, body, options) => request('PATCH', path, body, options),
   del: (path, options) => request('DELETE', path, undefined, options),
   /** The bare response, for pictures and streams. @throws {ApiError} */
   fetch: send,

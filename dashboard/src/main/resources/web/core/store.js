@@ -31,6 +31,7 @@ class Store extends Taking(Object) {
     /** What was reported before the page was opened has been read. */
     this.pastKnown = false;
     this.fields = new Map();
+    this.fieldVersions = new Map();
     this.clearShown();
     // the frame that was waited for is not drawn in a hidden tab
     document.addEventListener('visibilitychange', () => document.hidden && this.scheduled && setTimeout(() => this.flush(), 1000));
@@ -145,6 +146,7 @@ class Store extends Taking(Object) {
         this.tell('entities', entity.id);
       }
     }
+    this.fieldVersions.forEach((versions, id) => this.showField(id));
     const now = this.now();
     for (const [pair, encounter] of this.encounters) {
       const timeout = encounter.phase === 'ended' || encounter.phase === 'crossed' ? ENDED_SHOWN : 60_000;

@@ -135,22 +135,36 @@ export const Taking = (Base) => class extends Base {
     }
   }
 
-  /** A version of a field; of several the one that holds now. */
-  takeField(record) {
-    const [id, from] = String(record.key).split('@');
-    const validFrom = Date.parse(from) || 0;
-    const known = this.fields.get(id);
-    if ((known && known.validFrom > validFrom) || validFrom > this.now()) {
+  /** A version of a field, or that it is taken back; a key without a time stands for all of them. */
+  takeField({ key, value }) {
+    const [, id, time] = /^(.+)@([^@]*)$/s.exec(key) ?? [null, key, null];
+    const versions = this.fieldVersions.get(id) ?? new Map();
+    if (value) {
+      versions.set(Date.parse(time) || 0, value);
+    } else {
+      time === null ? versions.clear() : versions.delete(Date.parse(time) || 0);
+    }
+    this.fieldVersions.set(id, versions);
+    this.showField(id);
+  }
+
+  /** Of the versions of a field the one that holds at the time of what is shown. */
+  showField(id) {
+    const now = this.now();
+    const versions = this.fieldVersions.get(id);
+    const validFrom = Math.max(...[...versions.keys()].filter((from) => from <= now));
+    const version = versions.get(validFrom);
+    if (this.fields.get(id)?.version === version) {
       return;
     }
-    if (!record.value?.geometry) {
-      this.fields.delete(id);
-    } else {
-      const properties = record.value.properties ?? {};
+    if (version?.geometry) {
+      const properties = version.properties ?? {};
       this.fields.set(id, {
-        id, validFrom, properties, geometry: record.value.geometry, name: typeof properties.name === 'string' ? properties.name : id,
+        id, version, validFrom, properties, geometry: version.geometry, name: typeof properties.name === 'string' ? properties.name : id,
         exclusion: properties.kind === 'exclusion' || properties.zone !== undefined,
       });
+    } else if (!this.fields.delete(id)) {
+      return;
     }
     this.tell('fields');
   }

@@ -90,6 +90,8 @@ public final class ServiceTopics {
             REQUESTS.forEach(name -> wanted.add(topic(name, settings, requestConfigs())));
             COMPACTED.forEach(name -> wanted.add(topic(name, settings, stateConfigs(name))));
             wanted.add(topic(Topics.AUDIT, settings, KEPT_LONG));
+            wanted.add(
+                    topic(Topics.FIELDS, settings, Map.of(POLICY, "compact"))); // as an import makes it, never altered
             Stream.concat(DATA.stream(), DEAD.stream())
                     .forEach(name -> wanted.add(
                             topic(name, settings, Map.of(MAX_BYTES, Integer.toString(Limits.DEAD_LETTER_BYTES)))));

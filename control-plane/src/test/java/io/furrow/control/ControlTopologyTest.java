@@ -6,6 +6,8 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Set;
 
+import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.apache.kafka.streams.test.TestRecord;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
@@ -19,6 +21,7 @@ import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -73,6 +76,26 @@ class ControlTopologyTest {
         farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','requestId':'r-1','user':'ann','domain':'north'}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER)).isEmpty();
         assertThat(farm.read(Topics.DOMAINS)).hasSize(1);
+    }
+
+    @Test
+    void endsTheFieldsOfADomainThatIsDeletedAndSaysSo() throws Exception {
+        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        FieldVersion field = new FieldVersion(
+                "f",
+                0,
+                (ObjectNode) NgsiJson.read("{\"type\":\"Polygon\"}".getBytes(StandardCharsets.UTF_8)),
+                (ObjectNode) NgsiJson.read("{\"Domain\":\"north\"}".getBytes(StandardCharsets.UTF_8)));
+        farm.pipe(Topics.FIELDS, field.key(), field.toBytes());
+        farm.pipe(Topics.FIELDS, "g", new byte[] {'?'});
+        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+
+        TestRecord<String, byte[]> end = farm.only(Topics.FIELDS);
+        assertThat(end.key()).isEqualTo("f@2026-03-01T08:00:00.000Z");
+        assertThat(FieldVersion.read(end.value()).isEnd()).isTrue();
+        JsonNode audit = NgsiJson.read(farm.read(Topics.AUDIT).get(1).value());
+        assertThat(audit.path("about").toString())
+                .isEqualTo("{\"domain\":\"north\",\"missionCount\":0,\"fieldCount\":1,\"fields\":\"f\"}");
     }
 
     @Test
@@ -142,16 +165,20 @@ class ControlTopologyTest {
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
 
+        farm.ask(Topics.MISSION_MANAGER, null, "{'type':'request','command':'stop','mission':'m'}");
         farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
-        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north','force':true}");
         assertThat(farm.read(Topics.DOMAIN_MANAGER))
                 .extracting(record -> ManagedFarm.response(record)
                         .error()
                         .orElse(ManagedFarm.response(record).status()))
-                .containsExactly("created", "missions-running", "deleted");
+                .containsExactly("created", "missions-running");
         assertThat(farm.state("m")).isEqualTo("stopping");
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("stopped");
+
+        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','command':'delete','domain':'north'}");
+        assertThat(farm.only(Topics.MISSIONS_STATUS).value()).isNull();
+        assertThat(farm.read(Topics.DEVICES)).extracting(TestRecord::value).containsOnlyNulls();
     }
 
     @Test
@@ -436,6 +463,7 @@ class ControlTopologyTest {
                         "replays",
                         "replay-reports",
                         "recordings",
+                        "fields",
                         "replay-sequence",
                         "replay-answers",
                         "replay-positions",

@@ -1,12 +1,12 @@
 /** Domains, and the fields that were imported. */
 import { api } from '../../core/api.js';
-import { dateTime } from '../../core/format.js';
 import { h } from '../../core/dom.js';
 import { icon } from '../../core/icons.js';
 import { navigate } from '../../core/router.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
 import { formRow, openDialog } from './dialog.js';
+import { fieldTable } from './fields.js';
 import { importFields } from './import.js';
 import { redraw } from './redraw.js';
 
@@ -39,19 +39,13 @@ export class Domains {
       h('div.row', null, h('h2', null, t('missions.fields')), h('span.spacer'), allowed && h('button.button.small', { type: 'button', data: { act: 'import' }, on: { click: () => importFields() } }, icon('upload', 16), t('missions.importFields'))),
       fields.length === 0
         ? h('div.empty', null, h('h3', null, t('missions.noFields')), allowed && h('p', null, t('missions.noFieldsHint')))
-        : h('div.table-frame', { tabindex: '0', role: 'group', 'aria-label': t('missions.fields') }, h('table.table', null,
-          h('thead', null, h('tr', null, ['field', 'domain', 'kind', 'from'].map((name) => h('th', { scope: 'col', class: name === 'from' ? 'numbers' : '' }, t(`missions.fieldColumns.${name}`))))),
-          h('tbody', null, fields.map((each) => h('tr', null,
-            h('th', { scope: 'row' }, each.name, each.name !== each.id && h('span.small.muted', null, ` ${each.id}`)),
-            h('td', null, each.properties.Domain ?? '–'),
-            h('td', null, t(each.exclusion ? 'missions.zone' : 'missions.field')),
-            h('td.numbers', null, each.validFrom > 0 ? dateTime(each.validFrom) : t('missions.always'))))))));
+        : fieldTable(fields));
   }
 
   domain(domain) {
-    const missions = [...store.missions.values()].filter((each) => each.domain === domain.domain);
+    const missions = missionsOf(domain.domain);
     return h('li.card.row', null,
-      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${counted('missions.countMission', missions.length)}, ${counted('missions.countField', domain.fields?.length ?? 0)}`)),
+      h('div.cut', null, h('strong', null, domain.name ?? domain.domain), h('p.small.muted.cut', null, [domain.domain, domain.description].filter(Boolean).join(' · ')), h('p.small.muted', null, `${counted('missions.countMission', missions.length)}, ${counted('missions.countField', fieldsOf(domain).length)}`)),
       h('span.spacer'),
       h('button.button.quiet.square', { type: 'button', 'aria-label': t('topics.showOnly', { name: domain.domain }), title: t('topics.showOnly', { name: domain.domain }), data: { act: `map ${domain.domain}` }, on: { click: () => { store.setScope({ domain: domain.domain }); navigate('map'); } } }, icon('map', 18)),
       store.may('administer') && h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.deleteDomain', { domain: domain.domain }), title: t('missions.deleteDomain', { domain: domain.domain }), data: { act: `delete ${domain.domain}` }, on: { click: () => deleteDomain(domain.domain) } }, icon('trash', 18)));
@@ -82,9 +76,28 @@ function newDomain() {
   id.focus();
 }
 
+function missionsOf(domain) {
+  return [...store.missions.values()].filter((each) => each.domain === domain);
+}
+
+/** Those that name the domain, and those that it lists. */
+function fieldsOf({ domain, fields }) {
+  return [...store.fields.values()].filter((each) => each.properties.Domain === domain || fields?.includes(each.id));
+}
+
 function deleteDomain(domain) {
+  const missions = missionsOf(domain);
+  const fields = fieldsOf({ domain });
+  const running = missions.filter((each) => ['starting', 'running', 'stopping'].includes(each.status?.state));
+  const force = h('input', { type: 'checkbox', required: true });
   openDialog({
-    title: t('missions.deleteDomain', { domain }), body: [h('p', null, t('missions.deleteDomainText'))], submit: t('missions.delete'), danger: true,
-    work: () => api.del(`/api/domains/${encodeURIComponent(domain)}`),
+    title: t('missions.deleteDomain', { domain }), submit: t('missions.delete'), danger: true,
+    body: [
+      h('p', null, missions.length + fields.length === 0
+        ? t('missions.deleteDomainEmpty')
+        : t('missions.deleteDomainText', { missions: counted('missions.countMission', missions.length), fields: counted('missions.countField', fields.length) })),
+      running.length > 0 && h('label.check', null, force, t('missions.deleteDomainForce', { missions: running.map((each) => each.mission).join(', ') })),
+    ],
+    work: () => api.del(`/api/domains/${encodeURIComponent(domain)}${running.length ? '?force=true' : ''}`),
   });
 }

@@ -69,8 +69,12 @@ async function previewOf(file) {
 
 function showResult(place, answer) {
   const refused = answer.refused ?? [];
+  const mended = answer.fields.filter((each) => each.mended?.length);
   replace(place,
     h('p.row', { class: refused.length ? 'warn' : 'good' }, icon(refused.length ? 'warning' : 'check', 18), h('strong', null, t('missions.imported', { imported: answer.imported, unchanged: answer.unchanged }))),
+    mended.length > 0 && h('h3', null, t('missions.mendedFields', { count: mended.length })),
+    mended.length > 0 && h('ul.findings', null, mended.map((each) => h('li.finding.is-warning', null, icon('warning', 18),
+      h('div', null, h('strong', null, each.name || each.id), h('p.small.muted', null, each.mended.join('; ')))))),
     refused.length > 0 && h('h3', null, t('missions.refusedFields', { count: refused.length })),
     refused.length > 0 && h('ul.findings', null, refused.map((each) => h('li.finding.is-problem', null, icon('close', 18),
       h('div', null, h('strong', null, t('missions.feature', { number: each.feature, id: each.id ?? '' })), h('p.small.muted', null, each.reason))))));

@@ -4,9 +4,9 @@ import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
-import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.function.Predicate;
 import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -18,8 +18,12 @@ import io.furrow.model.ngsi.UnreadableException;
  * The effect of a field version compared with the existing versions.
  *
  * @param version the version to write; not written if {@link Kind#UNCHANGED}
+ * @param before the version valid at that time; null if there is none
  */
-public record FieldChange(Kind kind, FieldVersion version) {
+public record FieldChange(Kind kind, FieldVersion version, FieldVersion before) {
+    /** Of which fields none ends. */
+    public static final Predicate<FieldVersion> NONE = field -> false;
+
     /** How the version differs from the one valid at that time. */
     public enum Kind {
         ADDED,
@@ -29,26 +33,29 @@ public record FieldChange(Kind kind, FieldVersion version) {
     }
 
     /**
-     * Returns the change for each version, in order; then, if they {@code replace} all, the end of each field that is
-     * not among them.
+     * Returns the change for each version, in order; then the end of each field that they replace without holding it.
      *
      * @param known every version of {@code service.fields}
+     * @param replaced the fields that the versions replace
      * @param validFrom end of the fields that are not among them, epoch ms
      */
     public static List<FieldChange> of(
-            List<FieldVersion> versions, List<FieldVersion> known, boolean replace, long validFrom) {
+            List<FieldVersion> versions, List<FieldVersion> known, Predicate<FieldVersion> replaced, long validFrom) {
         List<FieldChange> changes = new ArrayList<>();
         for (FieldVersion version : versions) {
-            changes.add(new FieldChange(kind(version, known), version));
+            FieldVersion before = asOf(version.validFrom(), known).get(version.id());
+            changes.add(new FieldChange(kind(version, before), version, before));
         }
-        if (replace) {
-            Set<String> kept = versions.stream().map(FieldVersion::id).collect(Collectors.toSet());
-            asOf(validFrom, known).values().stream()
-                    .filter(field -> !kept.contains(field.id()))
-                    .map(field -> new FieldVersion(field.id(), validFrom, null, JsonNodeFactory.instance.objectNode()))
-                    .forEach(end -> changes.add(new FieldChange(Kind.ENDED, end)));
-        }
+        Set<String> held = versions.stream().map(FieldVersion::id).collect(Collectors.toSet());
+        asOf(validFrom, known).values().stream()
+                .filter(field -> replaced.test(field) && !held.contains(field.id()))
+                .forEach(field -> changes.add(new FieldChange(Kind.ENDED, end(field.id(), validFrom), field)));
         return changes;
+    }
+
+    /** The version with which a field ends. */
+    static FieldVersion end(String id, long time) {
+        return new FieldVersion(id, time, null, JsonNodeFactory.instance.objectNode());
     }
 
     /** Returns the fields valid at a time, by id. */
@@ -62,10 +69,11 @@ public record FieldChange(Kind kind, FieldVersion version) {
         return fields;
     }
 
-    private static Kind kind(FieldVersion version, List<FieldVersion> known) {
-        return Optional.ofNullable(asOf(version.validFrom(), known).get(version.id()))
-                .map(before -> isSame(before, version) ? Kind.UNCHANGED : Kind.CHANGED)
-                .orElse(Kind.ADDED);
+    private static Kind kind(FieldVersion version, FieldVersion before) {
+        if (before == null) {
+            return Kind.ADDED;
+        }
+        return isSame(before, version) ? Kind.UNCHANGED : Kind.CHANGED;
     }
 
     /** Compares versions as read back from JSON, so that 1 and 1.0 are normalized as on the topic. */

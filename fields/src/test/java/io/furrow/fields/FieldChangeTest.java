@@ -23,7 +23,7 @@ class FieldChangeTest {
         List<FieldChange> changes = FieldChange.of(
                 List.of(field("same", 50, 1), field("moved", 50, 2), field("ended", 50, 1), field("later", 50, 1)),
                 known,
-                false,
+                FieldChange.NONE,
                 50);
 
         assertThat(changes)
@@ -40,13 +40,35 @@ class FieldChangeTest {
         List<FieldVersion> known =
                 List.of(field("gone", 10, 1), field("past", 10, 1), end("past", 20), field("to come", 90, 1));
 
-        assertThat(FieldChange.of(List.of(), known, false, 50)).isEmpty();
-        assertThat(FieldChange.of(List.of(), known, true, 50)).singleElement().satisfies(change -> {
-            assertThat(change.kind()).isEqualTo(FieldChange.Kind.ENDED);
-            assertThat(change.version().id()).isEqualTo("gone");
-            assertThat(change.version().validFrom()).isEqualTo(50);
-            assertThat(change.version().isEnd()).isTrue();
-        });
+        assertThat(FieldChange.of(List.of(), known, FieldChange.NONE, 50)).isEmpty();
+        assertThat(FieldChange.of(List.of(), known, field -> true, 50))
+                .singleElement()
+                .satisfies(change -> {
+                    assertThat(change.kind()).isEqualTo(FieldChange.Kind.ENDED);
+                    assertThat(change.version().id()).isEqualTo("gone");
+                    assertThat(change.version().validFrom()).isEqualTo(50);
+                    assertThat(change.version().isEnd()).isTrue();
+                });
+    }
+
+    @Test
+    void endsNoFieldOfAnotherDomain() {
+        List<FieldVersion> known =
+                List.of(of("gone", "north"), of("held", "north"), of("other", "south"), of("no", ""));
+
+        List<FieldChange> changes = FieldChange.of(
+                List.of(of("held", "north")), known, field -> field.domain().equals("north"), 50);
+
+        assertThat(changes)
+                .extracting(change -> change.kind() + " " + change.version().id() + " of "
+                        + change.before().domain())
+                .containsExactly("UNCHANGED held of north", "ENDED gone of north");
+    }
+
+    private static FieldVersion of(String id, String domain) {
+        FieldVersion field = field(id, 10, 1);
+        field.properties().put("Domain", domain);
+        return field;
     }
 
     private static FieldVersion field(String id, long validFrom, double size) {

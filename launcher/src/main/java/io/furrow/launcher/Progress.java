@@ -12,6 +12,12 @@ public final class Progress {
         this.out = out;
     }
 
+    /** Prints what somebody should know of a part. */
+    public void note(String what) {
+        out.println("  " + what);
+        out.flush();
+    }
+
     /** Runs one step; it may run beside others. */
     public <T> T step(String what, Callable<T> work) throws Exception {
         long start = System.nanoTime();

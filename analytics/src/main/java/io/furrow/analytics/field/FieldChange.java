@@ -3,6 +3,7 @@ package io.furrow.analytics.field;
 import java.nio.charset.StandardCharsets;
 
 import io.furrow.flink.record.TopicRecord;
+import io.furrow.model.field.FieldArea;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;

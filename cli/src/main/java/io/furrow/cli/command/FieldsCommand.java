@@ -1,71 +1,45 @@
 package io.furrow.cli.command;
 
 import java.io.IOException;
-import java.io.PrintWriter;
-import java.nio.file.Path;
 import java.time.DateTimeException;
 import java.time.Instant;
 import java.time.OffsetDateTime;
+import java.time.temporal.ChronoUnit;
 import java.util.List;
 
-import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.databind.JsonNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.ITypeConverter;
-import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
-import picocli.CommandLine.ScopeType;
-import picocli.CommandLine.Spec;
+import picocli.CommandLine.Parameters;
 import picocli.CommandLine.TypeConversionException;
 
 import io.furrow.cli.CommandException;
-import io.furrow.cli.KafkaClient;
+import io.furrow.cli.control.client.ControlApi;
+import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.field.FieldReport;
+import io.furrow.cli.field.FieldsOptions;
 import io.furrow.fields.FieldChange;
-import io.furrow.fields.FieldsTopic;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** {@code ./furrow fields}. */
 @Command(
         name = "fields",
-        description = "Imports and lists the fields of the farm, the topic service.fields.",
+        description = {
+            "Imports, lists, renames, ends and deletes the fields of the farm.",
+            "list and import use the topic service.fields itself (--kafka); rename, end and delete ask the control plane (--api)."
+        },
         synopsisSubcommandLabel = "COMMAND",
         subcommands = FieldsImportCommand.class)
 public final class FieldsCommand extends CommandGroup {
-    private enum Output {
-        TABLE,
-        JSON
-    }
-
-    @Spec
-    private CommandSpec spec;
-
-    @Option(
-            names = "--kafka",
-            paramLabel = "HOST:PORT",
-            scope = ScopeType.INHERIT,
-            defaultValue = "127.0.0.1:9092",
-            description = "Kafka that holds service.fields. Default: ${DEFAULT-VALUE}.")
-    private String kafka;
-
-    @Option(
-            names = "--kafka-properties",
-            paramLabel = "FILE",
-            scope = ScopeType.INHERIT,
-            description = "Properties for the Kafka clients, for instance security settings.")
-    private Path kafkaProperties;
-
-    @Option(
-            names = "--output",
-            paramLabel = "FORM",
-            scope = ScopeType.INHERIT,
-            defaultValue = "table",
-            description = "table or json. Default: ${DEFAULT-VALUE}.")
-    private Output output;
+    private static final String FIELDS = "/api/fields";
+    private static final String ID = "Id of the field; ./furrow fields list shows it.";
 
     @Command(name = "list", description = "Prints the fields as of a time.")
     int list(
+            @Mixin FieldsOptions fields,
             @Option(
                             names = "--at",
                             paramLabel = "TIME",
@@ -74,42 +48,73 @@ public final class FieldsCommand extends CommandGroup {
                     Instant at,
             @Option(names = "--versions", description = "All versions of all times, ends too.") boolean versions) {
         try {
-            List<FieldVersion> known = topic().read();
+            List<FieldVersion> known = fields.topic().read();
             Instant time = at == null ? Instant.now() : at;
             List<FieldVersion> shown = versions
                     ? known
                     : List.copyOf(FieldChange.asOf(time.toEpochMilli(), known).values());
-            print(FieldReport.lines(shown), FieldReport.json(shown));
+            fields.print(FieldReport.lines(shown), FieldReport.json(shown));
             return 0;
         } catch (IOException e) {
             throw new CommandException(e.getMessage(), e);
         }
     }
 
-    /** As the option says: lines or JSON. */
-    void print(List<String> lines, JsonNode json) {
-        if (output == Output.JSON) {
-            out().println(pretty(json));
-        } else {
-            lines.forEach(out()::println);
-        }
-        out().flush();
+    @Command(name = "rename", description = "Gives a field another name, in all its versions; its id stays.")
+    int rename(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ID", description = ID) String id,
+            @Option(names = "--name", paramLabel = "NAME", required = true, description = "Name for people.")
+                    String name) {
+        return control.run(api -> control.answered(
+                api.send("PATCH", path(id), NgsiJson.mapper().createObjectNode().put("name", name)),
+                "Field %s is now called %s.".formatted(id, name)));
     }
 
-    private static String pretty(JsonNode json) {
-        try {
-            return NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json);
-        } catch (JsonProcessingException e) {
-            throw new IllegalStateException("a tree of JSON cannot be written", e);
-        }
+    @Command(
+            name = "end",
+            description = {
+                "Ends a field: from a time on there are no averages and no stays of it.",
+                "What was found before stays, and a replay of an earlier time has the field as it was. Versions that were to"
+                        + " begin after that time are taken back."
+            })
+    int end(
+            @Mixin ControlOptions control,
+            @Parameters(paramLabel = "ID", description = ID) String id,
+            @Option(
+                            names = "--at",
+                            paramLabel = "TIME",
+                            converter = TimeConverter.class,
+                            description =
+                                    "Event time from which on it is no more, for instance 2026-10-01T00:00:00Z. Default: now.")
+                    Instant at) {
+        String time =
+                (at == null ? Instant.now() : at).truncatedTo(ChronoUnit.MILLIS).toString();
+        return control.run(api -> control.answered(
+                api.send("PATCH", path(id), NgsiJson.mapper().createObjectNode().put("validTo", time)),
+                "Field %s ends at %s.".formatted(id, time)));
     }
 
-    FieldsTopic topic() {
-        return new FieldsTopic(KafkaClient.settings(kafka, kafkaProperties));
+    @Command(
+            name = "delete",
+            description = {
+                "Deletes a field with all its versions, as if it had never been; this cannot be undone.",
+                "Averages and stays that were found of it stay where they are stored, under its id; a replay of an earlier time"
+                        + " finds no new ones. To keep the past, end it instead."
+            })
+    int delete(@Mixin ControlOptions control, @Parameters(paramLabel = "ID", description = ID) String id) {
+        return control.run(api -> {
+            JsonNode answer = api.send("DELETE", path(id), null);
+            int versions = answer.path("versions").asInt();
+            control.answered(
+                    answer,
+                    "Field %s is deleted, with %s."
+                            .formatted(id, versions == 1 ? "its one version" : "its %d versions".formatted(versions)));
+        });
     }
 
-    private PrintWriter out() {
-        return spec.commandLine().getOut();
+    private static String path(String id) {
+        return FIELDS + ControlApi.part(id);
     }
 
     /** ISO 8601 with an offset. */

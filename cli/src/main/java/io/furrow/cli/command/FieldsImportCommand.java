@@ -3,18 +3,20 @@ package io.furrow.cli.command;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.time.Instant;
+import java.time.temporal.ChronoUnit;
 import java.util.List;
 import java.util.concurrent.Callable;
 
 import picocli.CommandLine.Command;
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Model.CommandSpec;
 import picocli.CommandLine.Option;
 import picocli.CommandLine.Parameters;
-import picocli.CommandLine.ParentCommand;
 import picocli.CommandLine.Spec;
 
 import io.furrow.cli.CommandException;
 import io.furrow.cli.field.FieldReport;
+import io.furrow.cli.field.FieldsOptions;
 import io.furrow.fields.FieldChange;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.fields.ImportOptions;
@@ -34,8 +36,8 @@ import io.furrow.model.field.FieldVersion;
                     + " code is 1. A field that is as it was is not written again."
         })
 final class FieldsImportCommand implements Callable<Integer> {
-    @ParentCommand
-    private FieldsCommand fields;
+    @Mixin
+    private FieldsOptions fields;
 
     @Spec
     private CommandSpec spec;
@@ -67,7 +69,7 @@ final class FieldsImportCommand implements Callable<Integer> {
             converter = FieldsCommand.TimeConverter.class,
             description =
                     "Event time from which on the fields are so, for instance 2026-03-01T00:00:00Z. Default: now.")
-    private Instant validFrom = Instant.now();
+    private Instant validFrom = Instant.now().truncatedTo(ChronoUnit.MILLIS);
 
     @Option(names = "--layer", paramLabel = "NAME", description = "Layer of a GeoPackage that has several.")
     private String layer;
@@ -80,7 +82,11 @@ final class FieldsImportCommand implements Callable<Integer> {
                             + " or longitude come first, whatever the system defines.")
     private String crs;
 
-    @Option(names = "--replace", description = "Ends each field that the file does not hold.")
+    @Option(
+            names = "--replace",
+            description =
+                    "Ends each field that the file does not hold: of the domain of --domain, or without that option of"
+                            + " the whole farm, whatever its domain. --dry-run names them.")
     private boolean replace;
 
     @Option(names = "--dry-run", description = "Shows what would be done, and writes nothing.")
@@ -120,7 +126,11 @@ final class FieldsImportCommand implements Callable<Integer> {
     private List<FieldChange> changes(FieldFile read) throws IOException {
         List<FieldVersion> versions =
                 read.fields().stream().map(ImportedField::version).toList();
-        return FieldChange.of(versions, fields.topic().read(), replace, validFrom.toEpochMilli());
+        return FieldChange.of(
+                versions,
+                fields.topic().read(),
+                field -> replace && (domain == null || domain.equals(field.domain())),
+                validFrom.toEpochMilli());
     }
 
     private void write(List<FieldChange> changes) throws IOException {

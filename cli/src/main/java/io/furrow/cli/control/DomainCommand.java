@@ -3,7 +3,9 @@ package io.furrow.cli.control;
 import java.io.IOException;
 import java.nio.file.Path;
 import java.util.List;
+import java.util.StringJoiner;
 
+import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -97,11 +99,43 @@ public final class DomainCommand extends CommandGroup {
                 api -> control.answered(api.send("PATCH", DOMAINS + ControlApi.part(domain), details.json())));
     }
 
-    @Command(name = "delete", description = "Deletes a domain with its missions; refused while missions run in it.")
+    @Command(
+            name = "delete",
+            description = {
+                "Deletes a domain with its missions and their devices, and ends its fields; refused while missions run in it.",
+                "What was recorded of the missions stays as long as missions are kept, and what was found of the fields too."
+            })
     int delete(
             @Mixin ControlOptions control,
             @Parameters(paramLabel = "DOMAIN", description = NAME) String domain,
-            @Option(names = "--force", description = "Stop missions that run in it.") boolean force) {
-        return control.command("DELETE", DOMAINS + ControlApi.part(domain) + (force ? "?force=true" : ""), null);
+            @Option(names = "--force", description = "Also where missions run in it, which are stopped.")
+                    boolean force) {
+        return control.run(api -> {
+            JsonNode answer =
+                    api.send("DELETE", DOMAINS + ControlApi.part(domain) + (force ? "?force=true" : ""), null);
+            control.answered(
+                    answer,
+                    "deleted: domain %s; missions deleted: %s%s; fields ended: %s"
+                            .formatted(
+                                    domain,
+                                    counted(answer, "missionCount", "missions"),
+                                    answer.path("stopped").isEmpty()
+                                            ? ""
+                                            : ", of which ran: " + names(answer.path("stopped")),
+                                    counted(answer, "fieldCount", "fields")));
+        });
+    }
+
+    /** A count, and the names that the answer has room for. */
+    private static String counted(JsonNode answer, String count, String member) {
+        int all = answer.path(count).asInt();
+        int named = answer.path(member).size();
+        return all == 0 ? "none" : "%d (%s%s)".formatted(all, names(answer.path(member)), named < all ? ", …" : "");
+    }
+
+    private static String names(JsonNode list) {
+        StringJoiner names = new StringJoiner(", ");
+        list.forEach(name -> names.add(name.asText()));
+        return names.toString();
     }
 }

@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
+import java.util.TreeMap;
 import java.util.function.Function;
 import java.util.stream.Collectors;
 
@@ -13,6 +14,7 @@ import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.util.RawValue;
 
+import io.furrow.cli.control.table.ControlTable;
 import io.furrow.fields.FieldChange;
 import io.furrow.fields.ImportedField;
 import io.furrow.fields.RefusedFeature;
@@ -22,8 +24,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /** What an import did, field by field, and what it did not; lists of fields too. */
 public final class FieldReport {
-    private static final String LINE = "%-10s %-24s %-24s %10s  %s";
-    private static final String LISTED = "%-24s %-24s %-16s %-24s  %s";
+    private static final String NO_DOMAIN = "no domain";
 
     private final FieldFile file;
     private final List<FieldChange> changes;
@@ -49,37 +50,81 @@ public final class FieldReport {
                 Double.isNaN(file.accuracyMeters()) ? "unknown" : file.accuracyMeters() + " m",
                 edgeError()));
         lines.addAll(file.notes());
-        lines.add(line(LINE, "", "ID", "NAME", "AREA ha", "MENDED"));
-        for (FieldChange change : changes) {
-            ImportedField field = fields.get(change.version().id());
-            lines.add(line(
-                    LINE,
-                    change.kind().name().toLowerCase(Locale.ROOT),
-                    change.version().id(),
-                    change.version().name(),
-                    field == null ? "" : String.format(Locale.ROOT, "%.4f", field.hectares()),
-                    field == null ? "" : String.join("; ", field.notes())));
-        }
-        for (RefusedFeature refused : file.refused()) {
-            lines.add(line(
-                    LINE,
-                    "REFUSED",
-                    refused.id().isEmpty() ? "–" : refused.id(),
-                    "feature " + refused.number(),
-                    "",
-                    refused.reason()));
-        }
+        lines.addAll(new ControlTable("The file has no features.")
+                .text("CHANGE", "/change")
+                .text("ID", "/id")
+                .text("NAME", "/name")
+                .text("DOMAIN", "/domain")
+                .text("AREA ha", "/hectares")
+                .text("MENDED", "/notes")
+                .lines(rows()));
         lines.add(String.format(
                 Locale.ROOT,
-                "%s: %d added, %d changed, %d unchanged, %d ended, %d refused; valid from %s",
+                "%s: %d added, %d changed, %d unchanged, %d ended%s, %d refused; valid from %s",
                 written ? "Written" : "Not written",
                 count(FieldChange.Kind.ADDED),
                 count(FieldChange.Kind.CHANGED),
                 count(FieldChange.Kind.UNCHANGED),
                 count(FieldChange.Kind.ENDED),
+                endedByDomain(),
                 file.refused().size(),
                 validFrom));
         return lines;
+    }
+
+    private ArrayNode rows() {
+        ArrayNode rows = NgsiJson.mapper().createArrayNode();
+        for (FieldChange change : changes) {
+            FieldVersion shown = shown(change);
+            ObjectNode row = rows.addObject().put("change", word(change)).put("id", shown.id());
+            row.put("name", nullIfEmpty(shown.name())).put("domain", nullIfEmpty(shown.domain()));
+            if (change.before() != null && !change.before().domain().equals(shown.domain())) {
+                row.put("domain", named(change.before().domain()) + " → " + named(shown.domain()));
+            }
+            ImportedField field = fields.get(shown.id());
+            if (field != null) {
+                row.put("hectares", String.format(Locale.ROOT, "%.4f", field.hectares()))
+                        .put("notes", nullIfEmpty(String.join("; ", field.notes())));
+            }
+        }
+        for (RefusedFeature refused : file.refused()) {
+            rows.addObject()
+                    .put("change", "REFUSED")
+                    .put("id", nullIfEmpty(refused.id()))
+                    .put("name", "feature " + refused.number())
+                    .put("notes", refused.reason());
+        }
+        return rows;
+    }
+
+    /** Of a field that ends the one that it was. */
+    private static FieldVersion shown(FieldChange change) {
+        return change.kind() == FieldChange.Kind.ENDED ? change.before() : change.version();
+    }
+
+    private static String word(FieldChange change) {
+        return change.kind().name().toLowerCase(Locale.ROOT);
+    }
+
+    private static String nullIfEmpty(String text) {
+        return text.isEmpty() ? null : text;
+    }
+
+    private static String named(String domain) {
+        return domain.isEmpty() ? NO_DOMAIN : domain;
+    }
+
+    /** For instance {@code  (north 2, south 1)}; empty if none ends. */
+    private String endedByDomain() {
+        Map<String, Long> ended = changes.stream()
+                .filter(change -> change.kind() == FieldChange.Kind.ENDED)
+                .collect(Collectors.groupingBy(
+                        change -> named(change.before().domain()), TreeMap::new, Collectors.counting()));
+        return ended.isEmpty()
+                ? ""
+                : ended.entrySet().stream()
+                        .map(each -> each.getKey() + " " + each.getValue())
+                        .collect(Collectors.joining(", ", " (", ")"));
     }
 
     public ObjectNode json() {
@@ -91,10 +136,11 @@ public final class FieldReport {
         file.notes().forEach(report.putArray("notes")::add);
         ArrayNode all = report.putArray("fields");
         for (FieldChange change : changes) {
+            FieldVersion shown = shown(change);
             ObjectNode one = all.addObject();
-            one.put("id", change.version().id()).put("name", change.version().name());
-            one.put("change", change.kind().name().toLowerCase(Locale.ROOT));
-            ImportedField field = fields.get(change.version().id());
+            one.put("id", shown.id()).put("name", shown.name()).put("domain", shown.domain());
+            one.put("change", word(change));
+            ImportedField field = fields.get(shown.id());
             if (field != null) {
                 one.put("feature", field.number()).put("hectares", field.hectares());
                 one.put("edgeErrorMeters", field.edgeErrorMeters());
@@ -112,21 +158,26 @@ public final class FieldReport {
 
     /** A table of versions. */
     public static List<String> lines(List<FieldVersion> versions) {
-        if (versions.isEmpty()) {
-            return List.of("There are no fields. Bring some with: ./furrow fields import FILE");
-        }
-        List<String> lines = new ArrayList<>();
-        lines.add(line(LISTED, "ID", "NAME", "DOMAIN", "VALID FROM", "SHAPE"));
+        ArrayNode rows = NgsiJson.mapper().createArrayNode();
         for (FieldVersion version : versions) {
-            lines.add(line(
-                    LISTED,
-                    version.id(),
-                    version.name(),
-                    version.domain(),
-                    Instant.ofEpochMilli(version.validFrom()),
-                    version.isEnd() ? "ends" : version.geometry().path("type").asText()));
+            rows.addObject()
+                    .put("id", version.id())
+                    .put("name", nullIfEmpty(version.name()))
+                    .put("domain", nullIfEmpty(version.domain()))
+                    .put("validFrom", version.validFrom())
+                    .put(
+                            "shape",
+                            version.isEnd()
+                                    ? "ends"
+                                    : version.geometry().path("type").asText());
         }
-        return lines;
+        return new ControlTable("There are no fields. Bring some with: ./furrow fields import FILE")
+                .text("ID", "/id")
+                .text("NAME", "/name")
+                .text("DOMAIN", "/domain")
+                .time("VALID FROM", "/validFrom")
+                .text("SHAPE", "/shape")
+                .lines(rows);
     }
 
     /** The versions as they lie in the topic: a GeoJSON FeatureCollection. */
@@ -147,9 +198,5 @@ public final class FieldReport {
 
     private long count(FieldChange.Kind kind) {
         return changes.stream().filter(change -> change.kind() == kind).count();
-    }
-
-    private static String line(String format, Object... cells) {
-        return String.format(Locale.ROOT, format, cells).stripTrailing();
     }
 }

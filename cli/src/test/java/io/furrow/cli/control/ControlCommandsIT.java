@@ -94,8 +94,37 @@ class ControlCommandsIT {
                         () -> assertThat(run("domain", "list")).containsPattern("north +North +Behind the hill +2 "));
         assertThat(json("domain", "show", "north").at("/area/type").asText()).isEqualTo("Polygon");
         assertThat(refused("domain", "create", "north")).contains("north", "domain-exists");
-        assertThat(run("domain", "delete", "north")).contains("deleted: domain north");
+        assertThat(run("domain", "delete", "north"))
+                .contains("deleted: domain north; missions deleted: none; fields ended: none");
         assertThat(refused("domain", "delete", "north")).contains("there is no domain 'north'", "unknown-domain");
+    }
+
+    /** One of many ways to the manager: the others are tested without a control plane. */
+    @Test
+    void renamesEndsAndDeletesFields() throws Exception {
+        Path file = Files.writeString(
+                directory.resolve("fields.geojson"),
+                "{\"type\":\"FeatureCollection\",\"features\":[%s,%s]}".formatted(field("west"), field("east")));
+        onKafka("fields", "import", file.toString(), "--domain", "hill");
+        run("domain", "create", "hill");
+
+        assertThat(run("fields", "rename", "west", "--name", "Behind the barn"))
+                .contains("Field west is now called Behind the barn.");
+        assertThat(onKafka("fields", "list")).containsPattern("west +Behind the barn +hill +\\S+ +Polygon");
+        assertThat(run("fields", "end", "west", "--at", "2999-01-01T00:00:00+01:00"))
+                .contains("Field west ends at 2998-12-31T23:00:00Z.");
+        assertThat(run("domain", "delete", "hill")).contains("fields ended: 2 (east, west)");
+        assertThat(onKafka("fields", "list")).startsWith("There are no fields.");
+        assertThat(refused("fields", "end", "west")).contains("field 'west' ended at", "wrong-state");
+        assertThat(refused("fields", "end", "nosuch")).contains("there is no field 'nosuch'; there are: east, west");
+        assertThat(run("fields", "delete", "west")).contains("Field west is deleted, with its");
+        assertThat(refused("fields", "delete", "west")).contains("unknown-field");
+        assertThat(onKafka("fields", "list", "--versions")).doesNotContain("west");
+    }
+
+    private static String field(String id) {
+        return "{\"type\":\"Feature\",\"id\":\"%s\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\",".formatted(id)
+                + "\"coordinates\":[[[0,0],[0.01,0],[0.01,0.01],[0,0]]]}}";
     }
 
     @Test
@@ -244,6 +273,14 @@ class ControlCommandsIT {
     private String run(String... words) {
         out.getBuffer().setLength(0);
         assertThat(furrow().execute(withAccess(words))).as("%s", err).isZero();
+        return out.toString();
+    }
+
+    private String onKafka(String... words) {
+        out.getBuffer().setLength(0);
+        List<String> all = new ArrayList<>(List.of(words));
+        all.addAll(List.of("--kafka", kafka.bootstrapServers()));
+        assertThat(furrow().execute(all.toArray(String[]::new))).as("%s", err).isZero();
         return out.toString();
     }
 

@@ -2,6 +2,7 @@ package io.furrow.control.audit;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Map;
+import java.util.StringJoiner;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
@@ -18,7 +19,8 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param user user who issued it; {@value #KAFKA} if a record on Kafka did not name one
  * @param target its recipient: the topic of a manager, or {@value #DEVICE}
  * @param command name of the command; null if unreadable
- * @param about members of the command that are strings, numbers or booleans, for instance mission and device
+ * @param about members of the command that are strings, numbers or booleans, for instance mission and device; and what the answer counts
+ *     and names
  * @param result {@code error} if it was rejected or failed
  * @param error code of the error; null if none
  * @param reason of the error, a sentence; null if none
@@ -57,6 +59,7 @@ public record AuditEntry(
         JsonNode command = about.remove("command");
         about.remove("requestId");
         about.remove("type");
+        addEffects(about, answer.json());
         return new AuditEntry(
                 now,
                 user == null || user.asText().isBlank() ? KAFKA : user.asText(),
@@ -86,6 +89,21 @@ public record AuditEntry(
                 failed ? "context-broker" : null,
                 reason,
                 null);
+    }
+
+    /** Counts of the answer, and lists of names as one text. */
+    private static void addEffects(ObjectNode about, ObjectNode answer) {
+        answer.properties().forEach(member -> {
+            JsonNode value = member.getValue();
+            if (value.isIntegralNumber() && value.canConvertToLong()) {
+                about.set(member.getKey(), value);
+            } else if (value.isArray() && !value.isEmpty()) {
+                StringJoiner names = new StringJoiner(", ");
+                value.forEach(name -> names.add(name.asText()));
+                String all = names.toString();
+                about.put(member.getKey(), all.length() <= MAX_LENGTH ? all : all.substring(0, MAX_LENGTH - 1) + "…");
+            }
+        });
     }
 
     private static JsonNode read(byte[] request) {

@@ -1,21 +1,27 @@
 package io.furrow.control.domain;
 
 import java.util.List;
+import java.util.function.Supplier;
 
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.Sequence;
+import io.furrow.fields.FieldEdit;
 import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
+import io.furrow.model.field.FieldVersion;
 import io.furrow.model.topic.Topics;
 
 /** Executes or rejects commands on domains. A rejected command changes nothing. */
 public final class DomainCommandHandler {
+    private static final int MAX_NAMED = 100;
+
     private final Records<Domain> domains;
     private final DomainMissions missions;
+    private final Supplier<List<FieldVersion>> fields;
     private final Sequence sequence;
     private final Quota quota;
     private final EventPublisher outbox;
@@ -25,14 +31,16 @@ public final class DomainCommandHandler {
      *
      * @param sequence of the desired state
      * @param quota for the size of all definitions
+     * @param fields every version of {@code service.fields}
      */
-    record Means(Sequence sequence, Quota quota) {}
+    record Means(Sequence sequence, Quota quota, Supplier<List<FieldVersion>> fields) {}
 
     DomainCommandHandler(Records<Domain> domains, DomainMissions missions, Means means, EventPublisher outbox) {
         this.domains = domains;
         this.missions = missions;
         this.sequence = means.sequence();
         this.quota = means.quota();
+        this.fields = means.fields();
         this.outbox = outbox;
     }
 
@@ -49,8 +57,7 @@ public final class DomainCommandHandler {
             keep(known, known.changed(change.details(), now, sequence.next()));
             return about(known.domain(), "changed");
         }
-        delete(known, ((DomainCommand.Delete) command).force(), now);
-        return CommandResult.of("deleted").with("domain", known.domain());
+        return delete(known, ((DomainCommand.Delete) command).force(), now);
     }
 
     private CommandResult create(DomainCommand.Create create, long now) throws RefusedException {
@@ -63,7 +70,8 @@ public final class DomainCommandHandler {
         return about(create.domain(), "created");
     }
 
-    private void delete(Domain known, boolean force, long now) throws RefusedException {
+    /** With its missions; its fields end. What is stored of them stays. */
+    private CommandResult delete(Domain known, boolean force, long now) throws RefusedException {
         String domain = known.domain();
         List<String> active = missions.activeIn(domain);
         if (!active.isEmpty() && !force) {
@@ -72,10 +80,26 @@ public final class DomainCommandHandler {
                     "%d missions run in domain '%s', '%s' among them; stop them first, or delete with force"
                             .formatted(active.size(), domain, active.get(0)));
         }
-        active.forEach(mission -> missions.stop(mission, now));
+        List<String> gone = missions.in(domain);
+        gone.forEach(missions::remove);
+        FieldEdit ends = FieldEdit.endOfDomain(domain, now, fields.get());
+        ends.written().forEach(end -> outbox.put(Topics.FIELDS, end.key(), end.toBytes()));
+        ends.removed().forEach(key -> outbox.put(Topics.FIELDS, key, null));
         quota.use(-known.toBytes().length);
         domains.put(domain, null);
         outbox.put(Topics.DOMAINS, domain, null);
+        return CommandResult.of("deleted")
+                .with("domain", domain)
+                .with("missionCount", gone.size())
+                .with("missions", named(gone))
+                .with("stopped", named(active))
+                .with("fieldCount", ends.ids().size())
+                .with("fields", named(ends.ids()));
+    }
+
+    /** As many as an answer has room for. */
+    private static List<String> named(List<String> names) {
+        return names.subList(0, Math.min(MAX_NAMED, names.size()));
     }
 
     /** @param before null if there was none */

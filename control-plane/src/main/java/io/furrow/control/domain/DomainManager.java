@@ -1,11 +1,14 @@
 package io.furrow.control.domain;
 
 import java.time.Duration;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.function.BiFunction;
 import java.util.stream.Stream;
 
+import org.apache.kafka.common.serialization.Serdes;
 import org.apache.kafka.streams.StreamsBuilder;
+import org.apache.kafka.streams.kstream.Consumed;
 import org.apache.kafka.streams.kstream.Named;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 
@@ -17,11 +20,15 @@ import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.RequestLog;
+import io.furrow.control.manager.record.GlobalStoreProcessor;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.Sequence;
 import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.Limits;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.topic.Topics;
 
 /**
  * Processes requests on {@code service.domainmanager} and maintains {@code service.domains}. It shares its stores with
@@ -30,6 +37,9 @@ import io.furrow.model.control.Limits;
 public final class DomainManager {
     private static final String DOMAINS = "domains";
     private static final String SEQUENCE = "farm-sequence";
+    /** A global store, which processors need not name. */
+    private static final String FIELDS = "fields";
+
     private static final ManagerTopic<DomainCommand> TOPIC = ManagerTopic.DOMAIN;
 
     private DomainManager() {}
@@ -37,8 +47,30 @@ public final class DomainManager {
     /** Creates a handler on the stores of a processor. */
     public static DomainCommandHandler handler(
             ProcessorContext<?, ?> context, DomainMissions missions, EventPublisher outbox) {
-        return new DomainCommandHandler(
-                domains(context), missions, new DomainCommandHandler.Means(sequence(context), quota(context)), outbox);
+        Records<FieldVersion> fields =
+                StoredRecords.of(context, FIELDS, FieldVersion::toBytes, DomainManager::readable);
+        DomainCommandHandler.Means means =
+                new DomainCommandHandler.Means(sequence(context), quota(context), () -> all(fields));
+        return new DomainCommandHandler(domains(context), missions, means, outbox);
+    }
+
+    private static List<FieldVersion> all(Records<FieldVersion> fields) {
+        List<FieldVersion> all = new ArrayList<>();
+        fields.forEach(field -> {
+            if (field != null) {
+                all.add(field);
+            }
+        });
+        return all;
+    }
+
+    /** Null of what is no version of a field; the jobs report it. */
+    private static FieldVersion readable(byte[] value) {
+        try {
+            return FieldVersion.read(value);
+        } catch (UnreadableException e) {
+            return null;
+        }
     }
 
     /** Names of the stores that other processors may use. */
@@ -71,6 +103,11 @@ public final class DomainManager {
             Duration remembered,
             BiFunction<ProcessorContext<?, ?>, EventPublisher, DomainMissions> missions,
             List<String> storesOfMissions) {
+        builder.addGlobalStore(
+                StoredRecords.builder(FIELDS).withLoggingDisabled(),
+                Topics.FIELDS,
+                Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("fields-in"),
+                () -> new GlobalStoreProcessor(FIELDS));
         builder.addStateStore(RequestLog.builder(TOPIC.answers(), remembered));
         BiFunction<ProcessorContext<?, ?>, EventPublisher, CommandHandler<DomainCommand>> opening =
                 (context, outbox) -> handler(context, missions.apply(context, outbox), outbox)::answer;

@@ -4,9 +4,12 @@ import java.util.List;
 
 /** Gives the domain manager access to the missions of a domain. */
 public interface DomainMissions {
-    /** Names of the missions that are starting, running or stopping. */
+    /** Names of all missions of a domain. */
+    List<String> in(String domain);
+
+    /** Names of those that are starting, running or stopping. */
     List<String> activeIn(String domain);
 
-    /** Stops a mission that is starting or running; has no effect on one that is stopping already. */
-    void stop(String mission, long now);
+    /** Removes a mission with its devices, also one that runs: whoever hosts devices stops those that are gone. */
+    void remove(String mission);
 }

@@ -139,8 +139,7 @@ public final class MissionCommandHandler implements DomainMissions {
         return CommandResult.of("deleted").with("mission", stop.mission());
     }
 
-    @Override
-    public void stop(String name, long now) {
+    private void stop(String name, long now) {
         MissionStatus status = records.statuses().get(name);
         if (status.state() != MissionState.STOPPING) {
             Mission mission = records.missions().get(name).unwanted(sequence.next());
@@ -150,14 +149,24 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     @Override
+    public List<String> in(String domain) {
+        return missions(status -> status.domain().equals(domain));
+    }
+
+    @Override
     public List<String> activeIn(String domain) {
-        List<String> active = new ArrayList<>();
+        return missions(
+                status -> status.domain().equals(domain) && status.state().isActive());
+    }
+
+    private List<String> missions(Predicate<MissionStatus> which) {
+        List<String> missions = new ArrayList<>();
         records.statuses().forEach(status -> {
-            if (status.domain().equals(domain) && status.state().isActive()) {
-                active.add(status.mission());
+            if (which.test(status)) {
+                missions.add(status.mission());
             }
         });
-        return active;
+        return missions;
     }
 
     private CommandResult delete(MissionCommand.Delete delete) throws RefusedException {
@@ -171,15 +180,20 @@ public final class MissionCommandHandler implements DomainMissions {
                     "mission '%s' is %s; stop it first"
                             .formatted(delete.mission(), status.state().word()));
         }
-        Mission mission = records.missions().get(delete.mission());
+        remove(delete.mission());
+        return CommandResult.of("deleted").with("mission", delete.mission());
+    }
+
+    @Override
+    public void remove(String name) {
+        Mission mission = records.missions().get(name);
         devices.forget(mission);
         lists.forget(mission);
         quota.use(-Limits.MISSION_OVERHEAD_BYTES);
-        records.missions().put(delete.mission(), null);
-        records.statuses().put(delete.mission(), null);
-        outbox.put(Topics.MISSIONS, delete.mission(), null);
-        outbox.put(Topics.MISSIONS_STATUS, delete.mission(), null);
-        return CommandResult.of("deleted").with("mission", delete.mission());
+        records.missions().put(name, null);
+        records.statuses().put(name, null);
+        outbox.put(Topics.MISSIONS, name, null);
+        outbox.put(Topics.MISSIONS_STATUS, name, null);
     }
 
     /**

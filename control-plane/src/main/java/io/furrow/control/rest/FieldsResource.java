@@ -7,51 +7,67 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Instant;
 import java.util.List;
+import java.util.Locale;
 import java.util.Properties;
 import java.util.concurrent.Semaphore;
-import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 import com.fasterxml.jackson.databind.util.RawValue;
+import jakarta.annotation.security.RolesAllowed;
 import jakarta.ws.rs.Consumes;
+import jakarta.ws.rs.DELETE;
 import jakarta.ws.rs.GET;
+import jakarta.ws.rs.PATCH;
 import jakarta.ws.rs.POST;
+import jakarta.ws.rs.PathParam;
 import jakarta.ws.rs.Produces;
 import jakarta.ws.rs.QueryParam;
 import jakarta.ws.rs.container.ContainerRequestContext;
 import jakarta.ws.rs.core.Context;
 import jakarta.ws.rs.core.MediaType;
+import jakarta.ws.rs.core.MultivaluedMap;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.rest.access.Caller;
+import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.fields.FieldChange;
+import io.furrow.fields.FieldEdit;
 import io.furrow.fields.FieldsTopic;
 import io.furrow.fields.ImportOptions;
 import io.furrow.fields.ImportedField;
 import io.furrow.fields.RefusedFeature;
 import io.furrow.fields.file.FieldFile;
 import io.furrow.fields.file.UnusableFileException;
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.control.RefusedException;
+import io.furrow.model.control.RequestMembers;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.topic.TopicName;
 import io.furrow.model.topic.Topics;
 
-/** {@code /api/fields}: the fields as they are now, and those of a file, as {@code ./furrow fields import} takes them, valid from now. */
+/**
+ * {@code /api/fields}: the fields as they are now, and those of a file, as {@code ./furrow fields import} takes them, valid from now; one
+ * field is renamed, ended or deleted.
+ */
 @jakarta.ws.rs.Path("/api/fields")
 @Consumes({"application/geo+json", MediaType.APPLICATION_JSON, "application/geopackage+sqlite3"})
 @Produces(MediaType.APPLICATION_JSON)
 public final class FieldsResource {
     static final int LARGEST = 16 << 20;
 
-    private static final Pattern DOMAIN = Pattern.compile("[A-Za-z0-9_-]{1,64}");
-    private static final String FILE_NAME = "fields";
+    private static final String FIELD = "field";
+    private static final String NAME = "name";
+    private static final String END = "validTo";
     private static final int READERS = 4;
 
     private final FieldsTopic topic;
     private final CommandClient managers;
-    /** Files are read whole: one at a time. */
+    /** Files are read whole, and what is changed is read before: one at a time. */
     private final Semaphore free = new Semaphore(1);
     /** Each reads the whole topic. */
     private final Semaphore readers = new Semaphore(READERS);
@@ -78,8 +94,8 @@ public final class FieldsResource {
                     .filter(field -> domain == null || domain.equals(field.domain()))
                     .forEach(field ->
                             features.addRawValue(new RawValue(new String(field.toBytes(), StandardCharsets.UTF_8))));
-        } catch (IOException e) { // says what is unavailable, and what to do
-            throw new ProblemException(503, "kafka-away", e.getMessage());
+        } catch (IOException e) {
+            throw away(e);
         } finally {
             readers.release();
         }
@@ -89,105 +105,194 @@ public final class FieldsResource {
     /**
      * What cannot be mended is refused by feature, the rest is written; a field that is as it was is not written again.
      *
-     * @param domain of all of them; null for what each feature says
+     * @param domain of all of them; null for what each feature says. Further parameters are the options of the same names of
+     *     {@code ./furrow fields import}: {@code crs}, {@code layer}, {@code id-property}, {@code name-property}
      */
     @POST
     public Response add(@Context ContainerRequestContext request, @QueryParam("domain") String domain, InputStream body)
             throws IOException {
-        if (domain != null && !DOMAIN.matcher(domain).matches()) {
+        if (domain != null && !TopicName.isLegal(domain)) {
             throw new ProblemException(ErrorCode.WRONG_MEMBER, "'domain' must be 1 to 64 of A-Z a-z 0-9 _ -");
         }
         if (!free.tryAcquire()) {
             throw ProblemException.overloaded();
         }
         Caller caller = Caller.of(request);
+        ObjectNode about = JsonNodeFactory.instance.objectNode().put("fields", 0);
+        if (domain != null) {
+            about.put("domain", domain);
+        }
         try {
-            FieldFile file = read(Body.bytes(body, LARGEST), domain);
-            Changed changed = write(file);
-            audit(caller, domain, changed.written(), null);
-            return JsonResponses.json(200, answer(file, changed)).build();
+            FieldFile file =
+                    read(Body.bytes(body, LARGEST), domain, request.getUriInfo().getQueryParameters());
+            ObjectNode answer = answer(file, write(file));
+            about.set("fields", answer.path("imported"));
+            audit(caller, "import-fields", about, "imported", null);
+            return JsonResponses.ok(answer);
         } catch (ProblemException problem) {
-            audit(caller, domain, 0, problem);
+            audit(caller, "import-fields", about, null, problem);
             throw problem;
         } finally {
             free.release();
         }
     }
 
-    private static FieldFile read(byte[] bytes, String domain) throws IOException {
+    /** Renames a field or ends it: the body has either {@code name} or {@code validTo}, a time. */
+    @PATCH
+    @jakarta.ws.rs.Path("{field}")
+    @Consumes(MediaType.APPLICATION_JSON)
+    public Response change(@Context ContainerRequestContext request, @PathParam(FIELD) String id, InputStream body)
+            throws IOException {
+        ObjectNode members = Body.read(body);
+        ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
+        if (members.size() == 1 && members.hasNonNull(END)) {
+            return edit(Caller.of(request), "end-field", about, () -> {
+                Instant end = new RequestMembers(members).time(END);
+                about.put(END, end.toString());
+                FieldEdit edit = FieldEdit.end(id, end.toEpochMilli(), topic.read());
+                topic.write(edit);
+                return CommandResult.of("ended").with("removed", edit.removed().size());
+            });
+        }
+        return edit(Caller.of(request), "rename-field", about, () -> {
+            if (members.size() != 1 || members.path(NAME).asText("").isBlank()) {
+                throw RequestMembers.wrong("body", "either {\"name\": a text} or {\"validTo\": a time}");
+            }
+            RequestMembers.checkReadable(members);
+            String name = new RequestMembers(members).text(NAME);
+            about.put(NAME, name);
+            FieldEdit edit = FieldEdit.rename(id, name, topic.read());
+            topic.write(edit);
+            return CommandResult.of("changed").with("versions", edit.written().size());
+        });
+    }
+
+    /** Takes back all versions of a field, as if it had never been. */
+    @RolesAllowed(Role.ADMINS)
+    @DELETE
+    @jakarta.ws.rs.Path("{field}")
+    public Response delete(@Context ContainerRequestContext request, @PathParam(FIELD) String id) {
+        ObjectNode about = JsonNodeFactory.instance.objectNode().put(FIELD, id);
+        return edit(Caller.of(request), "delete-field", about, () -> {
+            List<String> keys = topic.keys(id);
+            if (keys.isEmpty()) {
+                throw FieldEdit.unknown(id, topic.read());
+            }
+            topic.write(new FieldEdit(List.of(), keys));
+            return CommandResult.of("deleted").with("versions", keys.size());
+        });
+    }
+
+    private interface Edit {
+        CommandResult apply() throws RefusedException, IOException;
+    }
+
+    /** @param about what the edit adds to is audited and answered */
+    private Response edit(Caller caller, String command, ObjectNode about, Edit edit) {
+        if (!free.tryAcquire()) {
+            throw ProblemException.overloaded();
+        }
+        ProblemException problem;
+        try {
+            CommandResult result = edit.apply();
+            result.json().setAll(about);
+            audit(caller, command, result.json().deepCopy().without(List.of("type", "status")), result.status(), null);
+            return JsonResponses.ok(result.json());
+        } catch (RefusedException e) {
+            problem = new ProblemException(e.code(), e.getMessage());
+        } catch (IOException e) {
+            problem = away(e);
+        } finally {
+            free.release();
+        }
+        audit(caller, command, about, null, problem);
+        throw problem;
+    }
+
+    /** Says what is unavailable, and what to do. */
+    private static ProblemException away(IOException cause) {
+        return new ProblemException(503, "kafka-away", cause.getMessage());
+    }
+
+    private static FieldFile read(byte[] bytes, String domain, MultivaluedMap<String, String> options)
+            throws IOException {
         Path folder = Files.createTempDirectory("furrow-fields");
-        Path file = folder.resolve(FILE_NAME);
+        Path file = folder.resolve("fields");
         try {
             Files.write(file, bytes);
-            return FieldFile.read(file, new ImportOptions(null, null, null, null, domain, Instant.now()));
+            return FieldFile.read(
+                    file,
+                    new ImportOptions(
+                            options.getFirst("layer"),
+                            options.getFirst("crs"),
+                            options.getFirst("id-property"),
+                            options.getFirst("name-property"),
+                            domain,
+                            Instant.now()));
         } catch (UnusableFileException e) {
-            throw new ProblemException(400, "unusable-file", e.getMessage().replace(file.toString(), "the file"));
+            throw new ProblemException(
+                    400, "unusable-file", withParameters(e.getMessage().replace(file.toString(), "the file")));
         } finally {
             Files.deleteIfExists(file);
             Files.deleteIfExists(folder);
         }
     }
 
-    private record Changed(List<FieldChange> all) {
-        List<FieldChange> needed() {
-            return all.stream()
-                    .filter(each -> each.kind() != FieldChange.Kind.UNCHANGED)
-                    .toList();
-        }
-
-        int written() {
-            return needed().size();
-        }
+    /** A reason of the import: what are options there are parameters here. */
+    private static String withParameters(String reason) {
+        return reason.replaceAll("--([a-z-]+)", "'$1'");
     }
 
-    private Changed write(FieldFile file) {
+    private List<FieldChange> write(FieldFile file) {
         try {
-            Changed changed = new Changed(FieldChange.of(
-                    file.fields().stream().map(ImportedField::version).toList(),
-                    topic.read(),
-                    false,
-                    System.currentTimeMillis()));
-            if (changed.written() > 0) {
-                topic.write(changed.needed().stream().map(FieldChange::version).toList());
-            }
-            return changed;
-        } catch (IOException e) { // says what is unavailable, and what to do
-            throw new ProblemException(503, "kafka-away", e.getMessage());
+            List<FieldVersion> versions =
+                    file.fields().stream().map(ImportedField::version).toList();
+            List<FieldChange> changes =
+                    FieldChange.of(versions, topic.read(), FieldChange.NONE, System.currentTimeMillis());
+            topic.write(changes.stream()
+                    .filter(each -> each.kind() != FieldChange.Kind.UNCHANGED)
+                    .map(FieldChange::version)
+                    .toList());
+            return changes;
+        } catch (IOException e) {
+            throw away(e);
         }
     }
 
-    private static ObjectNode answer(FieldFile file, Changed changed) {
-        ObjectNode answer = io.furrow.model.control.CommandResult.of("imported").json();
-        answer.put("imported", changed.written()).put("unchanged", changed.all().size() - changed.written());
+    private static ObjectNode answer(FieldFile file, List<FieldChange> changes) {
+        ObjectNode answer = CommandResult.of("imported").json();
+        int unchanged = (int) changes.stream()
+                .filter(each -> each.kind() == FieldChange.Kind.UNCHANGED)
+                .count();
+        answer.put("imported", changes.size() - unchanged).put("unchanged", unchanged);
         ArrayNode fields = answer.putArray("fields");
-        for (FieldChange each : changed.all()) {
-            fields.addObject()
+        for (int field = 0; field < changes.size(); field++) {
+            FieldChange each = changes.get(field);
+            ObjectNode json = fields.addObject()
                     .put("id", each.version().id())
                     .put("name", each.version().name())
-                    .put("change", each.kind().name().toLowerCase(java.util.Locale.ROOT));
+                    .put("change", each.kind().name().toLowerCase(Locale.ROOT));
+            file.fields().get(field).notes().forEach(json.putArray("mended")::add);
         }
         ArrayNode refused = answer.putArray("refused");
         for (RefusedFeature each : file.refused()) {
             refused.addObject()
                     .put("feature", each.number())
                     .put("id", each.id())
-                    .put("reason", each.reason());
+                    .put("reason", withParameters(each.reason()));
         }
         return answer;
     }
 
-    private void audit(Caller caller, String domain, int written, ProblemException problem) {
-        ObjectNode about = JsonNodeFactory.instance.objectNode().put("fields", written);
-        if (domain != null) {
-            about.put("domain", domain);
-        }
+    /** @param problem null if there is none */
+    private void audit(Caller caller, String command, ObjectNode about, String result, ProblemException problem) {
         managers.audit(new AuditEntry(
                 System.currentTimeMillis(),
                 caller.user(),
                 Topics.FIELDS,
-                "import-fields",
+                command,
                 about,
-                problem == null ? "imported" : io.furrow.model.control.CommandResult.ERROR,
+                problem == null ? result : CommandResult.ERROR,
                 problem == null ? null : problem.error(),
                 problem == null ? null : problem.getMessage(),
                 caller.requestId()));

@@ -31,6 +31,7 @@ import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -42,9 +43,10 @@ import static org.assertj.core.api.Assertions.assertThatThrownBy;
 final class Farm {
     static final long TIMEOUT = 60_000;
 
-    private final TestStores stores = new TestStores(Stream.of(DomainManager.stores(), MissionManager.stores())
-            .flatMap(List::stream)
-            .toList());
+    private final TestStores stores =
+            new TestStores(Stream.of(DomainManager.stores(), MissionManager.stores(), List.of("fields"))
+                    .flatMap(List::stream)
+                    .toList());
 
     final KeptOutbox outbox = stores.outbox();
     final Records<Domain> domains = StoredRecords.of(stores.context(), "domains", Domain.class);
@@ -52,6 +54,9 @@ final class Farm {
     final Records<MissionStatus> statuses = StoredRecords.of(stores.context(), "mission-statuses", MissionStatus.class);
     final Records<DeviceState> devices = StoredRecords.of(stores.context(), "devices", DeviceState.class);
     final Records<Rollout> rollouts = StoredRecords.of(stores.context(), "mission-rollouts", Rollout.class);
+    final Records<FieldVersion> fields = StoredRecords.of(stores.context(), "fields", FieldVersion::toBytes, bytes -> {
+        throw new AssertionError("only the handler reads them");
+    });
     final MissionCommandHandler missionHandler;
     final DomainCommandHandler domainHandler;
     long now = 1_700_000_000_000L;
@@ -90,6 +95,16 @@ final class Farm {
 
     void domain(String name) throws RefusedException {
         ask(new DomainCommand.Create(name, DomainDetails.NONE));
+    }
+
+    /** A field as {@code service.fields} has it. */
+    void field(String id, long validFrom, String domain) {
+        FieldVersion version = new FieldVersion(
+                id,
+                validFrom,
+                instance.objectNode().put("type", "Polygon"),
+                instance.objectNode().put("Domain", domain));
+        run(() -> fields.put(version.key(), version));
     }
 
     CommandResult start(String mission, String domain, DeviceGroup... groups) throws RefusedException {

@@ -6,6 +6,7 @@ import java.time.Instant;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
 
+import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.MissionCommand;
@@ -15,6 +16,8 @@ import io.furrow.model.control.mission.MissionTemplate;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
+import io.furrow.model.field.FieldVersion;
+import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -201,7 +204,7 @@ class MissionLifeTest {
     void failsAtItsDateWhereItsDomainIsGone() throws Exception {
         Instant date = Instant.ofEpochMilli(farm.now + 10_000);
         farm.ask(new MissionCommand.Start("m", "north", Farm.devices(), date, null));
-        farm.ask(new DomainCommand.Delete("north", false));
+        farm.run(() -> farm.domains.put("north", null)); // as before domains were deleted with their missions
         farm.pass(10_000);
 
         assertThat(farm.status("m").state()).isEqualTo(MissionState.FAILED);
@@ -244,9 +247,38 @@ class MissionLifeTest {
         farm.refused(ErrorCode.MISSIONS_RUNNING, () -> farm.ask(new DomainCommand.Delete("north", false)));
 
         farm.ask(new DomainCommand.Delete("north", true));
-        assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPING);
         assertThat(farm.outbox.compacted(Topics.DOMAINS)).isEmpty();
         farm.refused(ErrorCode.UNKNOWN_DOMAIN, () -> farm.ask(new DomainCommand.Delete("north", true)));
+    }
+
+    @Test
+    void deletesADomainWithItsMissionsAndEndsItsFields() throws Exception {
+        farm.domain("south");
+        farm.start("runs", "north", Farm.group("Camera", 1));
+        farm.ask(new MissionCommand.Create("idle", "north", new MissionPlan.Unsaid()));
+        farm.start("theirs", "south", Farm.group("Camera", 1));
+        farm.field("a", 1, "north");
+        farm.field("b", 1, "south");
+        farm.field("planned", farm.now + 1, "north");
+
+        CommandResult answer = farm.ask(new DomainCommand.Delete("north", true));
+
+        assertThat(new String(NgsiJson.write(answer.json())))
+                .isEqualTo("{\"type\":\"response\",\"status\":\"deleted\",\"domain\":\"north\",\"missionCount\":2,"
+                        + "\"missions\":[\"idle\",\"runs\"],\"stopped\":[\"runs\"],\"fieldCount\":2,"
+                        + "\"fields\":[\"a\",\"planned\"]}");
+        assertThat(farm.all(farm.missions)).extracting(Mission::mission).containsExactly("theirs");
+        assertThat(farm.all(farm.statuses)).extracting(MissionStatus::mission).containsExactly("theirs");
+        assertThat(farm.outbox.compacted(Topics.MISSIONS)).containsOnlyKeys("theirs");
+        assertThat(farm.outbox.compacted(Topics.MISSIONS_STATUS)).containsOnlyKeys("theirs");
+        assertThat(farm.outbox.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:theirs-1");
+        assertThat(farm.outbox.compacted(Topics.FIELDS)).hasSize(1);
+        FieldVersion end = FieldVersion.read(
+                farm.outbox.compacted(Topics.FIELDS).values().iterator().next());
+        assertThat(end.key()).isEqualTo(new FieldVersion.Key("a", farm.now).toString());
+        assertThat(end.isEnd()).isTrue();
+        farm.domain("north");
+        farm.start("runs", "north", Farm.group("Camera", 1));
     }
 
     @Test

@@ -58,7 +58,7 @@ class MissionPropertyTest {
 
         int run() throws Exception {
             for (int i = 0; i < STEPS; i++) {
-                Map<String, MissionState> before = states();
+                Map<String, MissionStatus> before = statuses();
                 step();
                 checkStates(before);
                 checkDevices();
@@ -142,16 +142,17 @@ class MissionPropertyTest {
             }
         }
 
-        private Map<String, MissionState> states() {
-            Map<String, MissionState> states = new HashMap<>();
-            farm.all(farm.statuses).forEach(status -> states.put(status.mission(), status.state()));
-            return states;
+        private Map<String, MissionStatus> statuses() {
+            Map<String, MissionStatus> statuses = new HashMap<>();
+            farm.all(farm.statuses).forEach(status -> statuses.put(status.mission(), status));
+            return statuses;
         }
 
         /** Along the life only; a step may pass through several states. What is all as wanted has gone on. */
-        private void checkStates(Map<String, MissionState> before) {
+        private void checkStates(Map<String, MissionStatus> before) {
             for (MissionStatus status : farm.all(farm.statuses)) {
-                MissionState from = before.getOrDefault(status.mission(), MissionState.CREATED);
+                MissionStatus last = before.get(status.mission());
+                MissionState from = last == null ? MissionState.CREATED : last.state();
                 assertThat(reachable(from)).as(said + " " + status).contains(status.state());
                 if (status.state() == MissionState.STARTING || status.state() == MissionState.STOPPING) {
                     assertThat(status.confirmed()).as(said).isLessThan(status.devices());
@@ -169,9 +170,10 @@ class MissionPropertyTest {
                         .as(said)
                         .isEqualTo(farm.missions.get(status.mission()).sequence());
             }
-            assertThat(before.keySet().stream().filter(name -> farm.status(name) == null))
-                    .as("deleted though active, " + said)
-                    .noneMatch(name -> before.get(name).isActive());
+            assertThat(before.values().stream().filter(status -> farm.status(status.mission()) == null))
+                    .as("deleted though active in a domain that there is, " + said)
+                    .noneMatch(status -> status.state().isActive() && farm.domains.contains(status.domain()));
+            assertThat(farm.all(farm.statuses)).as(said).allMatch(status -> farm.domains.contains(status.domain()));
         }
 
         private static Set<MissionState> reachable(MissionState from) {

@@ -72,11 +72,12 @@ class OpenApiTest {
                 .containsEntry("POST /api/devices/{device}/credentials", "admin")
                 .containsEntry("DELETE /api/domains/{domain}", "admin")
                 .containsEntry("DELETE /api/templates/{template}", "admin")
+                .containsEntry("PATCH /api/fields/{field}", "operator")
                 .containsEntry("GET /api/devices", "viewer")
                 .containsEntry("DELETE /api/missions/{mission}", "operator");
     }
 
-    /** On the topic of a manager a command takes the role that it takes here. */
+    /** On the topic of a manager a command takes the role that it takes here; the topic of fields has none. */
     @Test
     void namesTheCommandsOfAllOperationsForAdmins() throws Exception {
         Set<String> operations = new TreeSet<>();
@@ -89,6 +90,7 @@ class OpenApiTest {
         assertThat(operations)
                 .containsExactlyInAnyOrder(
                         "DELETE /api/domains/{domain}",
+                        "DELETE /api/fields/{field}",
                         "DELETE /api/templates/{template}",
                         "POST /api/devices/{device}/credentials");
         assertThat(AdminCommands.contains(Topics.DOMAIN_MANAGER, "delete")).isTrue();

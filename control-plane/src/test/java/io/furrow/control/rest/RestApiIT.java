@@ -4,6 +4,7 @@ import java.net.http.HttpResponse;
 import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
+import java.time.Instant;
 import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
@@ -368,13 +369,58 @@ class RestApiIT {
                 .satisfies(
                         now -> assertThat(now.at("/properties/name").asText()).isEqualTo("Behind the barn"));
 
+        String bow = file.replace(square, "[[[10,50],[10.002,50.002],[10.002,50],[10,50.002],[10,50]]]");
+        assertThat(client.json(client.send("POST", "/api/fields?domain=north", bow))
+                        .at("/fields/0/mended"))
+                .anySatisfy(note -> assertThat(note.asText()).contains("Self-intersection"));
+        assertThat(running.get("/api/fields").at("/features/0/geometry/type").asText())
+                .isEqualTo("MultiPolygon");
+        assertThat(client.json(client.send("POST", "/api/fields?crs=EPSG:1", file))
+                        .path("reason")
+                        .asText())
+                .contains("specify it with 'crs'");
+        assertThat(client.json(client.send("POST", "/api/fields?name-property=nosuch", file))
+                        .path("reason")
+                        .asText())
+                .contains("'name-property' nosuch: no feature of the file has this attribute");
+
+        JsonNode renamed = client.json(client.send("PATCH", "/api/fields/a", "{\"name\":\"Hill\"}"));
+        assertThat(renamed.path("status").asText() + " " + renamed.path("name").asText())
+                .isEqualTo("changed Hill");
+        assertThat(running.get("/api/fields").at("/features/0/properties/name").asText())
+                .isEqualTo("Hill");
+        for (String body : new String[] {
+            "{}",
+            "{\"name\":\" \"}",
+            "{\"nmae\":\"x\"}",
+            "{\"name\":\"x\",\"validTo\":1}",
+            "{\"validTo\":\"soon\"}",
+            "{\"validTo\":null}",
+            "{\"name\":7}"
+        }) {
+            running.refused("PATCH", "/api/fields/a", body, 400, "wrong-member");
+        }
+        running.refused("PATCH", "/api/fields/z", "{\"name\":\"x\"}", 404, "unknown-field");
+        running.refused("DELETE", "/api/fields/z", null, 404, "unknown-field");
+        running.refused("PATCH", "/api/fields/a", "{\"validTo\":1}", 409, "wrong-state");
+        String now = Instant.now().toString();
+        assertThat(client.json(client.send("PATCH", "/api/fields/a", "{\"validTo\":\"%s\"}".formatted(now)))
+                        .path("status")
+                        .asText())
+                .isEqualTo("ended");
+        assertThat(running.get("/api/fields").path("features")).isEmpty();
+        assertThat(client.json(client.send("DELETE", "/api/fields/a", null))
+                        .path("versions")
+                        .asInt())
+                .isEqualTo(4);
+
         running.refused("POST", "/api/fields", "{\"type\":\"Feature", 400, "unusable-file");
         running.refused("POST", "/api/fields?domain=a.b", file, 400, "wrong-member");
         running.refused("POST", "/api/fields", " ".repeat(FieldsResource.LARGEST + 1), 413, "too-large");
         await().atMost(RunningApi.TIMEOUT)
                 .untilAsserted(
                         () -> assertThat(running.get("/api/audit?limit=1000").findValuesAsText("command"))
-                                .contains("import-fields"));
+                                .contains("import-fields", "rename-field", "end-field", "delete-field"));
     }
 
     @Test

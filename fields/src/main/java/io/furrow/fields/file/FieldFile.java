@@ -83,7 +83,7 @@ public record FieldFile(
         try (InputStream in = Files.newInputStream(file)) {
             first = in.readNBytes(FIRST_BYTES);
         } catch (IOException e) {
-            throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
+            throw new UnusableFileException(file, e);
         }
         int begin = GeoJsonFields.begin(first);
         String text = new String(first, begin, first.length - begin, StandardCharsets.ISO_8859_1);

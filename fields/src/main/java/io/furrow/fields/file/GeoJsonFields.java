@@ -58,7 +58,7 @@ final class GeoJsonFields {
             byte[] all = Files.readAllBytes(file);
             return NgsiJson.read(Arrays.copyOfRange(all, begin(all), all.length));
         } catch (IOException e) {
-            throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
+            throw new UnusableFileException(file, e);
         } catch (UnreadableException e) {
             throw new UnusableFileException(file + " is not JSON (" + e.getMessage() + ")", e);
         }

@@ -44,7 +44,7 @@ final class ShapeRecords {
         try {
             bytes = ByteBuffer.wrap(Files.readAllBytes(file));
         } catch (IOException e) {
-            throw new UnusableFileException(file + " cannot be read (" + e + "); name a readable file", e);
+            throw new UnusableFileException(file, e);
         }
         if (bytes.remaining() < FILE_HEADER || bytes.getInt(0) != FILE_CODE) {
             throw new UnusableFileException(file + " is not a Shapefile: it does not begin with the code 9994");

@@ -125,7 +125,7 @@ final class ShapefileFields {
         try {
             return new String(Files.readAllBytes(file), StandardCharsets.UTF_8);
         } catch (IOException e) {
-            throw new UnusableFileException(file + " cannot be read (" + e + ")", e);
+            throw new UnusableFileException(file, e);
         }
     }
 

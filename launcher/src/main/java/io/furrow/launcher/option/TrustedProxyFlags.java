@@ -15,6 +15,7 @@ import io.furrow.dashboard.auth.AddressRange;
 import io.furrow.dashboard.auth.Role;
 import io.furrow.dashboard.auth.TrustedProxy;
 import io.furrow.dashboard.page.PageSettings;
+import io.furrow.model.file.FileProblem;
 
 /** Options that say which proxy in front of the dashboard signs users in, and what it says of them. */
 public final class TrustedProxyFlags {
@@ -114,7 +115,9 @@ public final class TrustedProxyFlags {
             throw new ParameterException(spec.commandLine(), "--trusted-proxy: " + e.getMessage() + ".", e);
         } catch (IOException e) {
             throw new ParameterException(
-                    spec.commandLine(), "--proxy-token-file: %s cannot be read (%s).".formatted(token, e), e);
+                    spec.commandLine(),
+                    "--proxy-token-file: %s cannot be read: %s.".formatted(token, FileProblem.of(e)),
+                    e);
         }
     }
 

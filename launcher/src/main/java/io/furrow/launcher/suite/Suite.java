@@ -91,7 +91,7 @@ public final class Suite implements AutoCloseable {
     }
 
     private void start() throws Exception {
-        SuiteFields.requireUsable(settings);
+        SuiteFields.requireUsable(settings).forEach(progress::note);
         FarmSecretFile.requireLasting(directory, settings);
         PortCheck.free(settings);
         LogFile.writeTo(directory.resolve("furrow.log"));

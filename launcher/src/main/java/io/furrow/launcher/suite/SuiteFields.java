@@ -6,6 +6,7 @@ import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
 import java.time.Instant;
+import java.util.ArrayList;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Map;
@@ -36,6 +37,7 @@ final class SuiteFields {
     /** In the run directory. */
     static final String ZONES = "zones.geojson";
 
+    private static final int MAX_REPAIRS = 10;
     private static final String DEMO = "/io/furrow/simulators/demo/fields.geojson";
 
     private final FieldsTopic topic;
@@ -47,12 +49,26 @@ final class SuiteFields {
     /**
      * Reads the settings' file before anything is started for it.
      *
+     * @return what was repaired, field by field
      * @throws CommandException if the file cannot be used wholly
      */
-    static void requireUsable(SuiteSettings settings) {
-        if (settings.fields() != null) {
-            read(settings.fields());
+    static List<String> requireUsable(SuiteSettings settings) {
+        if (settings.fields() == null) {
+            return List.of();
         }
+        List<String> repairs = new ArrayList<>();
+        for (ImportedField field : read(settings.fields())) {
+            if (!field.notes().isEmpty()) {
+                repairs.add("--fields: field %s: %s".formatted(field.version().id(), String.join("; ", field.notes())));
+            }
+        }
+        if (repairs.size() > MAX_REPAIRS) {
+            String rest = "--fields: %d more fields were repaired; ./furrow fields import --dry-run lists them"
+                    .formatted(repairs.size() - MAX_REPAIRS);
+            repairs.subList(MAX_REPAIRS, repairs.size()).clear();
+            repairs.add(rest);
+        }
+        return repairs;
     }
 
     /**
@@ -68,11 +84,14 @@ final class SuiteFields {
         if (file == null && !(isOwnBroker && known.isEmpty())) {
             return List.of();
         }
-        List<FieldVersion> wanted = file == null ? read(demo(directory)) : read(file);
-        List<FieldVersion> changed = FieldChange.of(wanted, known, file != null, Instant.EPOCH.toEpochMilli()).stream()
-                .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
-                .map(FieldChange::version)
+        List<FieldVersion> wanted = read(file == null ? demo(directory) : file).stream()
+                .map(ImportedField::version)
                 .toList();
+        List<FieldVersion> changed =
+                FieldChange.of(wanted, known, field -> file != null, Instant.EPOCH.toEpochMilli()).stream()
+                        .filter(change -> change.kind() != FieldChange.Kind.UNCHANGED)
+                        .map(FieldChange::version)
+                        .toList();
         topic.write(changed);
         return changed;
     }
@@ -102,18 +121,23 @@ final class SuiteFields {
         return Optional.of(Files.write(file, NgsiJson.write(zones)));
     }
 
-    private static List<FieldVersion> read(Path file) {
+    private static List<ImportedField> read(Path file) {
         try {
             FieldFile read = FieldFile.read(file, new ImportOptions(null, null, null, null, null, Instant.EPOCH));
             if (!read.refused().isEmpty()) {
                 RefusedFeature first = read.refused().get(0);
                 throw new CommandException(
-                        "--fields %s: feature %d %s".formatted(file, first.number(), first.reason()));
+                        "--fields %s: feature %d %s".formatted(file, first.number(), withCommand(first.reason())));
             }
-            return read.fields().stream().map(ImportedField::version).toList();
+            return read.fields();
         } catch (UnusableFileException e) {
-            throw new CommandException("--fields " + e.getMessage(), e);
+            throw new CommandException("--fields " + withCommand(e.getMessage()), e);
         }
+    }
+
+    /** A reason of the import, whose options a suite has not. */
+    private static String withCommand(String reason) {
+        return reason.replaceFirst("--[a-z]+(-[a-z]+)*", "the option $0 of ./furrow fields import");
     }
 
     private static Path demo(RunDirectory directory) throws IOException {

@@ -122,6 +122,22 @@ class SuiteFieldsIT {
         }
     }
 
+    @Test
+    void saysWhatItRepairsAndWhichCommandHasTheOption() throws Exception {
+        Path crossing =
+                file("{\"type\":\"Feature\",\"id\":\"bow\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\","
+                        + "\"coordinates\":[[[0,0],[0.02,0.02],[0.02,0],[0,0.02],[0,0]]]}}");
+        assertThat(SuiteFields.requireUsable(ownBroker(crossing)))
+                .singleElement()
+                .asString()
+                .startsWith("--fields: field bow: ")
+                .contains("repaired: Self-intersection at longitude 0.01");
+
+        Path unnamed = file(FEATURE.formatted("", "0.01"));
+        assertThatThrownBy(() -> SuiteFields.requireUsable(ownBroker(unnamed)))
+                .hasMessageContaining("with the option --id-property of ./furrow fields import");
+    }
+
     private static SuiteSettings ownBroker(Path fields) {
         return settings(fields, null);
     }

@@ -12,7 +12,7 @@ import io.furrow.model.control.mission.DeviceGroup;
  * What is said of a domain. Null is what is not said.
  *
  * @param name for people
- * @param area GeoJSON of a Polygon or MultiPolygon, its coordinates not looked at
+ * @param area GeoJSON of a Polygon or MultiPolygon, valid
  * @param fields ids of fields, see {@code FieldVersion}
  */
 public record DomainDetails(String name, String description, ObjectNode area, List<String> fields) {
@@ -32,8 +32,8 @@ public record DomainDetails(String name, String description, ObjectNode area, Li
 
     static DomainDetails read(RequestMembers members) throws RefusedException {
         ObjectNode area = members.objectOrNull("area");
-        if (area != null && !DeviceGroup.isArea(area)) {
-            throw RequestMembers.wrong("area", "a GeoJSON Polygon or MultiPolygon");
+        if (area != null) {
+            RequestMembers.checkArea(area, "'area'");
         }
         return new DomainDetails(
                 members.textOrNull("name"),

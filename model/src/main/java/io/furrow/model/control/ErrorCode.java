@@ -34,11 +34,12 @@ public enum ErrorCode {
     UNKNOWN_DEVICE,
     /** The device is not provisioned: it reports by itself. */
     NO_CREDENTIALS,
+    UNKNOWN_FIELD,
     UNKNOWN_REPLAY,
     /** Another replay has the name or the topic. */
     REPLAY_EXISTS,
     UNKNOWN_ALARM,
-    /** The replay or alarm is not in the state that the command needs. */
+    /** The replay, alarm or field is not in the state that the command needs. */
     WRONG_STATE,
     /** More bytes than {@link Limits} allow, in the request or in what would come of it. */
     TOO_LARGE,

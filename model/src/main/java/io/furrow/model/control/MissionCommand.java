@@ -146,7 +146,11 @@ public sealed interface MissionCommand extends Command {
             case "stop" -> new Stop(members.name("mission"));
             case "delete" -> new Delete(members.name("mission"));
             case "add-devices" -> new AddDevices(members.name("mission"), added(members));
-            case "save-template" -> new SaveTemplate(MissionTemplate.read(members));
+            case "save-template" -> {
+                MissionTemplate template = MissionTemplate.read(members);
+                template.devices().withValidAreas();
+                yield new SaveTemplate(template);
+            }
             case "delete-template" ->
                 new DeleteTemplate(members.name("template"), members.wholeNumber("version", 1, Integer.MAX_VALUE, 0));
             case "rotate-credentials" -> new RotateCredentials(members.text("device"));
@@ -161,6 +165,6 @@ public sealed interface MissionCommand extends Command {
         if (!members.has("devices")) {
             throw new RefusedException(ErrorCode.MISSING_MEMBER, "the request needs a member 'devices'");
         }
-        return MissionDevices.readPart(members);
+        return MissionDevices.readPart(members).withValidAreas();
     }
 }

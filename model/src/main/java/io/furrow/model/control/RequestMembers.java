@@ -13,6 +13,8 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
+import io.furrow.model.field.FieldArea;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.TopicName;
 
 /** The members of a request, each read as what it must be or refused by name. Null counts as missing. */
@@ -174,6 +176,19 @@ public final class RequestMembers {
             throw wrong(member, "an object");
         }
         return has(member) ? (ObjectNode) json.get(member) : null;
+    }
+
+    /**
+     * Refuses an area whose inside is ambiguous.
+     *
+     * @param name what the message calls it
+     */
+    public static void checkArea(JsonNode area, String name) throws RefusedException {
+        try {
+            FieldArea.read(area, name);
+        } catch (UnreadableException e) {
+            throw new RefusedException(ErrorCode.WRONG_MEMBER, e.getMessage());
+        }
     }
 
     /** Those of an object; null if it is missing. */

@@ -96,6 +96,15 @@ class RequestsTest {
             {'type':'request','domain':'d','name':'\\ud800'}                 | not-json
             {'type':'request','domain':'d','area':'north'}                   | wrong-member
             {'type':'request','domain':'d','area':{'type':'Point'}}          | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':7}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[7]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[[{}]]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[[[]]]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[[[null,0],[1,0],[1,1],[null,0]]]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[[[0,0],[1],[1,1],[0,0]]]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon','coordinates':[[[0,0],[1e99,0],[1,1],[0,0]]]}} | wrong-member
+            {'type':'request','domain':'d','area':{'type':'Polygon'}} | wrong-member
             {'type':'request','domain':'d','fields':['a b']}                 | wrong-member
             {'type':'request','domain':'d','command':'delete','force':'yes'} | wrong-member
             """)
@@ -138,6 +147,10 @@ class RequestsTest {
             {'command':'start','mission':'m','devices':[{'type':'T','attributes':[{'name':'a b'}]}]} | wrong-member
             {'command':'start','mission':'m','devices':[{'type':'T','attributes':[{'name':'T','unit':'celsius'}]}]} | wrong-member
             {'command':'start','mission':'m','devices':[{'type':'T','attributes':['T']}]} | wrong-member
+            {'command':'create','mission':'m','domain':'d','devices':[{'type':'T','area':{'type':'Polygon','coordinates':[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}}]} | wrong-member
+            {'command':'start','mission':'m','devices':['a',{'type':'T','area':{'type':'Polygon','coordinates':[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}}]} | wrong-member
+            {'command':'add-devices','mission':'m','devices':[{'type':'T','area':{'type':'Polygon','coordinates':[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}}]} | wrong-member
+            {'command':'save-template','template':'t','devices':[{'type':'T','area':{'type':'Polygon','coordinates':[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}}]} | wrong-member
             {'command':'delete','mission':'m m'}                             | illegal-name
             """)
     void answersWhatIsNoRequestToAMission(String request, String code) {

@@ -147,6 +147,35 @@ class MissionsIT {
         assertThat(dialog).hasCount(0);
     }
 
+    /** A field of its own, of which nothing is left: other tests count them. */
+    @Tag("full")
+    @Test
+    void renamesEndsAndDeletesAField(PageSuite suite) throws Exception {
+        suite.rest("POST", "/api/fields?domain=farm", MEADOW);
+        FarmPage farm = suite.open("#/missions?tab=domains");
+        Locator dialog = farm.find("dialog[open]");
+        Locator action = dialog.locator("button[type=submit]");
+        Locator rows = farm.find(".field-table tbody tr");
+
+        rows.getByLabel("Rename Far meadow").click();
+        dialog.getByLabel("Name").fill("Behind the barn");
+        action.click();
+        assertThat(rows.filter(new Locator.FilterOptions().setHasText("Behind the barn")))
+                .containsText("meadow");
+
+        rows.getByLabel("End Behind the barn").click();
+        assertThat(dialog).containsText("a replay of an earlier time has the field as it was");
+        action.click();
+        assertThat(rows.getByLabel("End Behind the barn")).hasCount(0);
+
+        suite.rest("POST", "/api/fields?domain=farm", MEADOW);
+        rows.getByLabel("Delete Far meadow").click();
+        assertThat(dialog).containsText("this cannot be undone");
+        action.click();
+        assertThat(dialog).hasCount(0);
+        assertThat(rows.getByLabel("Delete Far meadow")).hasCount(0);
+    }
+
     @Tag("full")
     @Test
     void importsAFileThatIsDropped(PageSuite suite) {

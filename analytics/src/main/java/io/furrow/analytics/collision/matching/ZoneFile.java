@@ -9,7 +9,7 @@ import java.util.List;
 import com.fasterxml.jackson.databind.JsonNode;
 import org.locationtech.jts.geom.Geometry;
 
-import io.furrow.analytics.field.FieldArea;
+import io.furrow.model.field.FieldArea;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 

@@ -124,7 +124,10 @@ public final class ControlOptions {
 
     /** Sends a command and prints what was answered. @param done what it did, for people */
     public int commandDone(String method, String path, String done) {
-        return run(api -> answered(api.send(method, path, null), done));
+        return run(api -> {
+            JsonNode answer = api.send(method, path, null);
+            answered(answer, done + ": " + said(answer));
+        });
     }
 
     /** Sends a command and prints the object that is answered, a member a line. */
@@ -134,21 +137,25 @@ public final class ControlOptions {
 
     /** Prints the answer to a command. */
     public void answered(JsonNode answer) throws IOException {
-        answered(answer, answer.path("status").asText("done"));
+        answered(answer, answer.path("status").asText("done") + ": " + said(answer));
     }
 
-    private void answered(JsonNode answer, String done) throws IOException {
+    /** Prints the answer to a command. @param sentence what it did, for people */
+    public void answered(JsonNode answer, String sentence) throws IOException {
         if (isJson()) {
             print(answer);
-            return;
+        } else {
+            out().println(sentence);
         }
-        String members = answer.properties().stream()
+    }
+
+    private static String said(JsonNode answer) {
+        return answer.properties().stream()
                 .filter(each -> !each.getKey().equals("type")
                         && !each.getKey().equals("status")
                         && !each.getKey().equals("requestId"))
                 .map(each -> each.getKey() + " " + text(each.getValue()))
                 .collect(Collectors.joining(", "));
-        out().println(done + ": " + members);
     }
 
     /** Runs it and prints a sentence if it fails. @return the exit code */

@@ -2,11 +2,13 @@ package io.furrow.cli.control.table;
 
 import java.io.IOException;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.FileSystemException;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.model.file.FileProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -32,6 +34,8 @@ public final class JsonFile {
             return NgsiJson.read(Files.readAllBytes(file));
         } catch (UnreadableException e) {
             throw new IOException(file + " is no JSON: " + e.getMessage(), e);
+        } catch (FileSystemException e) {
+            throw new IOException(file + ": " + FileProblem.of(e), e);
         }
     }
 }

@@ -169,7 +169,7 @@ public record DeviceGroup(
         return value != null && value.isNumber() && Math.abs(value.doubleValue()) <= most;
     }
 
-    public static boolean isArea(JsonNode area) {
+    private static boolean isArea(JsonNode area) {
         return AREAS.contains(area.path("type").asText())
                 && area.path("coordinates").isArray();
     }

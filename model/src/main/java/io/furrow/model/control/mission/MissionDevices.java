@@ -131,6 +131,17 @@ public record MissionDevices(List<DeviceGroup> groups) {
         return this;
     }
 
+    /** The same of a request, whose areas must be valid; a list that was stored may be older than that rule. */
+    public MissionDevices withValidAreas() throws RefusedException {
+        for (int group = 0; group < groups.size(); group++) {
+            JsonNode area = groups.get(group).settings().path("area");
+            if (area.isObject()) {
+                RequestMembers.checkArea(area, "'area' of devices[" + group + "]");
+            }
+        }
+        return this;
+    }
+
     /** As {@code devices} has it. */
     public ArrayNode toJson() {
         ArrayNode array = JsonNodeFactory.instance.arrayNode();

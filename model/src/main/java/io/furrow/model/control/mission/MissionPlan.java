@@ -35,7 +35,9 @@ public sealed interface MissionPlan {
             String version = template.group(2);
             return new FromTemplate(template.group(1), version == null ? 0 : Integer.parseInt(version));
         }
-        return members.has("devices") ? new OfDevices(MissionDevices.read(members)) : new Unsaid();
+        return members.has("devices")
+                ? new OfDevices(MissionDevices.read(members).withValidAreas())
+                : new Unsaid();
     }
 
     /** Puts {@code template} or {@code devices}. */

@@ -6,6 +6,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Random;
 
+import com.fasterxml.jackson.databind.node.ArrayNode;
 import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
@@ -90,7 +91,10 @@ public final class MadeUpCommands {
 
     private DomainDetails details() {
         ObjectNode area = JsonNodeFactory.instance.objectNode().put("type", "Polygon");
-        area.putArray("coordinates");
+        ArrayNode ring = area.putArray("coordinates").addArray();
+        for (int corner : new int[] {0, 1, 3, 0}) {
+            ring.addArray().add(corner & 1).add(corner >> 1);
+        }
         return new DomainDetails(maybe("Nörd"), maybe(""), maybe(area), maybe(List.of("f-1", "f.2")));
     }
 

@@ -1,4 +1,4 @@
-package io.furrow.analytics.field;
+package io.furrow.model.field;
 
 import java.nio.charset.StandardCharsets;
 import java.util.Set;
@@ -15,7 +15,10 @@ import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Reads the area of a field, or of another place, from GeoJSON; rejects areas whose inside is ambiguous. */
+/**
+ * Reads the area of a field, or of another place, from GeoJSON; rejects areas whose inside is ambiguous. Every area that is not
+ * repaired, as those of files are, is read by it. Uses JTS, which callers have on their class path.
+ */
 public final class FieldArea {
     private static final Set<String> AREAS = Set.of("Polygon", "MultiPolygon");
     private static final Envelope EARTH = new Envelope(-180, 180, -90, 90);
@@ -30,8 +33,12 @@ public final class FieldArea {
         if (!AREAS.contains(geometry.path("type").asText())) {
             throw refused(field + " is no area; give it a geometry of type Polygon or MultiPolygon", null);
         }
+        int depth = geometry.path("type").asText().equals("Polygon") ? 2 : 3;
         Geometry area;
         try {
+            if (!hasCorners(geometry.path("coordinates"), depth)) {
+                throw new ParseException("a corner is no [longitude, latitude]");
+            }
             area = new GeoJsonReader().read(new String(NgsiJson.write(geometry), StandardCharsets.UTF_8));
         } catch (ParseException | NumberFormatException e) {
             throw refused(
@@ -54,6 +61,19 @@ public final class FieldArea {
                     null);
         }
         return area;
+    }
+
+    /** Whether each corner, so deep in the lists, has two numbers; JTS takes one that is missing for zero. */
+    private static boolean hasCorners(JsonNode coordinates, int depth) {
+        if (depth == 0) {
+            return coordinates.path(0).isNumber() && coordinates.path(1).isNumber();
+        }
+        for (JsonNode each : coordinates) {
+            if (!hasCorners(each, depth - 1)) {
+                return false;
+            }
+        }
+        return coordinates.isArray();
     }
 
     private static UnreadableException refused(String what, Throwable cause) {

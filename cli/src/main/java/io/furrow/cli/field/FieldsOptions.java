@@ -1,0 +1,67 @@
+package io.furrow.cli.field;
+
+import java.nio.file.Path;
+import java.util.List;
+
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonNode;
+import picocli.CommandLine.Model.CommandSpec;
+import picocli.CommandLine.Option;
+import picocli.CommandLine.Spec;
+
+import io.furrow.cli.KafkaClient;
+import io.furrow.fields.FieldsTopic;
+import io.furrow.model.ngsi.NgsiJson;
+
+/** Where the topic of fields is, for commands that read or write it themselves, and how they print. */
+public final class FieldsOptions {
+    private enum Output {
+        TABLE,
+        JSON
+    }
+
+    @Spec(Spec.Target.MIXEE)
+    private CommandSpec spec;
+
+    @Option(
+            names = "--kafka",
+            paramLabel = "HOST:PORT",
+            defaultValue = "127.0.0.1:9092",
+            description = "Kafka that holds service.fields. Default: ${DEFAULT-VALUE}.")
+    private String kafka;
+
+    @Option(
+            names = "--kafka-properties",
+            paramLabel = "FILE",
+            description = "Properties for the Kafka clients, for instance security settings.")
+    private Path kafkaProperties;
+
+    @Option(
+            names = "--output",
+            paramLabel = "FORM",
+            defaultValue = "table",
+            description = "table or json. Default: ${DEFAULT-VALUE}.")
+    private Output output;
+
+    public FieldsTopic topic() {
+        return new FieldsTopic(KafkaClient.settings(kafka, kafkaProperties));
+    }
+
+    /** Prints lines or JSON, as the option says. */
+    public void print(List<String> lines, JsonNode json) {
+        if (output == Output.JSON) {
+            spec.commandLine().getOut().println(pretty(json));
+        } else {
+            lines.forEach(spec.commandLine().getOut()::println);
+        }
+        spec.commandLine().getOut().flush();
+    }
+
+    private static String pretty(JsonNode json) {
+        try {
+            return NgsiJson.mapper().writerWithDefaultPrettyPrinter().writeValueAsString(json);
+        } catch (JsonProcessingException e) {
+            throw new IllegalStateException("a tree of JSON cannot be written", e);
+        }
+    }
+}

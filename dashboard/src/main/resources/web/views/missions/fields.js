@@ -1,0 +1,58 @@
+/** The fields of the farm: a table, and how one is renamed, ended or deleted. */
+import { api } from '../../core/api.js';
+import { dateTime } from '../../core/format.js';
+import { h } from '../../core/dom.js';
+import { icon } from '../../core/icons.js';
+import { store } from '../../core/store.js';
+import { t } from '../../texts.js';
+import { formRow, openDialog } from './dialog.js';
+
+/** @param {object[]} fields of the store, in the order of the rows */
+export function fieldTable(fields) {
+  const columns = ['field', 'domain', 'kind', 'from'];
+  return h('div.table-frame', { tabindex: '0', role: 'group', 'aria-label': t('missions.fields') }, h('table.table.field-table', null,
+    h('thead', null, h('tr', null, columns.map((name) => h('th', { scope: 'col', class: name === 'from' ? 'numbers' : '' }, t(`missions.fieldColumns.${name}`))), store.may('operate') && h('td'))),
+    h('tbody', null, fields.map(row))));
+}
+
+function row(field) {
+  return h('tr', null,
+    h('th', { scope: 'row' }, field.name, field.name !== field.id && h('span.small.muted', null, ` ${field.id}`)),
+    h('td', null, field.properties.Domain ?? '–'),
+    h('td', null, t(field.exclusion ? 'missions.zone' : 'missions.field')),
+    h('td.numbers', null, field.validFrom > 0 ? dateTime(field.validFrom) : t('missions.always')),
+    store.may('operate') && h('td.acts', null, act(field, 'rename', 'pencil', rename), act(field, 'end', 'stop', end), store.may('administer') && act(field, 'delete', 'trash', remove)));
+}
+
+function act(field, name, symbol, work) {
+  const words = t(`missions.fieldActs.${name}`, { field: field.name });
+  return h('button.button.quiet.square', { type: 'button', 'aria-label': words, title: words, data: { act: `${name} ${field.id}` }, on: { click: () => work(field, words) } }, icon(symbol, 18));
+}
+
+function rename(field, title) {
+  const name = h('input', { required: true, maxlength: 200, autocomplete: 'off', value: field.name });
+  openDialog({
+    title, submit: t('missions.rename'), body: [formRow(t('missions.name'), name, t('missions.renameHint'))],
+    work: () => api.patch(path(field), { name: name.value }),
+  });
+  name.select();
+}
+
+function end(field, title) {
+  const time = h('input', { type: 'datetime-local', step: 1 });
+  openDialog({
+    title: `${title}?`, submit: t('missions.end'), danger: true, body: [h('p', null, t('missions.endText')), formRow(t('missions.endAt'), time, t('missions.endHint'))],
+    work: () => api.patch(path(field), { validTo: (time.value ? new Date(time.value) : new Date()).toISOString() }),
+  });
+}
+
+function remove(field, title) {
+  openDialog({
+    title: `${title}?`, submit: t('missions.delete'), danger: true, body: [h('p', null, t('missions.deleteFieldText'))],
+    work: () => api.del(path(field)),
+  });
+}
+
+function path(field) {
+  return `/api/fields/${encodeURIComponent(field.id)}`;
+}

@@ -1,0 +1,24 @@
+package io.furrow.model.file;
+
+import java.io.IOException;
+import java.nio.file.AccessDeniedException;
+import java.nio.file.FileSystemException;
+import java.nio.file.NoSuchFileException;
+
+/** Why a file could not be read, in words for people. */
+public final class FileProblem {
+    private FileProblem() {}
+
+    /** For instance {@code there is no such file}; to be put behind the name of the file. */
+    public static String of(IOException cause) {
+        if (cause instanceof NoSuchFileException) {
+            return "there is no such file";
+        } else if (cause instanceof AccessDeniedException) {
+            return "its permissions do not allow it";
+        }
+        String reason = cause instanceof FileSystemException file && file.getReason() != null
+                ? file.getReason()
+                : cause.getMessage();
+        return reason == null ? "reading failed" : reason;
+    }
+}
