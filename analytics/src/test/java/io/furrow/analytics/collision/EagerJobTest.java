@@ -6,6 +6,7 @@ import java.util.Random;
 
 import org.apache.flink.runtime.testutils.MiniClusterResourceConfiguration;
 import org.apache.flink.test.junit5.MiniClusterExtension;
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.extension.RegisterExtension;
 
@@ -17,6 +18,7 @@ import static io.furrow.analytics.collision.ReportedRun.robot;
 import static io.furrow.analytics.collision.ReportedRun.run;
 import static org.assertj.core.api.Assertions.assertThat;
 
+@Tag("full")
 class EagerJobTest {
     @RegisterExtension
     static final MiniClusterExtension FLINK = new MiniClusterExtension(new MiniClusterResourceConfiguration.Builder()

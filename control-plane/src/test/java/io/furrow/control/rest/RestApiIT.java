@@ -27,7 +27,7 @@ import static org.awaitility.Awaitility.await;
 @Tag("full")
 class RestApiIT {
     private static final String DEVICES =
-            "[{\"type\":\"Thermometer\",\"count\":2},{\"type\":\"Robot\",\"id\":\"robot-1\"},\"urn:own:1\"]";
+            "[{\"type\":\"Thermometer\",\"count\":2,\"simulated\":true},{\"type\":\"Robot\",\"id\":\"robot-1\"},\"urn:own:1\"]";
 
     private RunningApi running;
     private ApiClient client;
@@ -86,7 +86,7 @@ class RestApiIT {
                 .isEqualTo(200);
         JsonNode started = running.get("/api/missions/hoeing");
         assertThat(started.at("/status/state").asText()).isEqualTo("starting");
-        assertThat(started.at("/status/devices").asInt()).isEqualTo(3);
+        assertThat(started.at("/status/devices").asInt()).isEqualTo(4);
         assertThat(started.path("devices")).hasSize(3);
         assertThat(running.get("/api/missions?domain=south").findValuesAsText("mission"))
                 .contains("hoeing");
@@ -115,6 +115,14 @@ class RestApiIT {
                 .isEqualTo(RunningApi.SECRET.device("hoeing", id).password());
         assertThat(credentials.path("generation").asInt()).isZero();
         running.refused("GET", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
+        JsonNode real = running.get("/api/missions/hoeing/credentials");
+        assertThat(real.findValuesAsText("device")).containsExactly("robot-1");
+        assertThat(real.at("/0/measures").asText())
+                .isEqualTo("/" + RunningApi.SECRET.apiKey("hoeing") + "/robot-1/attrs");
+        assertThat(client.send("GET", "/api/devices/robot-1/credentials/qr", null)
+                        .body())
+                .startsWith("<svg");
+        running.refused("GET", "/api/missions/nosuch/credentials", null, 404, "unknown-mission");
 
         JsonNode rotated = client.json(client.send("POST", "/api/devices/" + id + "/credentials", null));
         assertThat(rotated.path("password").asText())
@@ -122,7 +130,7 @@ class RestApiIT {
         assertThat(running.get("/api/devices/" + id + "/credentials")).isEqualTo(rotated);
         assertThat(running.get("/api/devices/" + id).path("generation").asInt()).isEqualTo(1);
         assertThat(running.get("/api/missions/hoeing").at("/status/devices").asInt())
-                .isEqualTo(3);
+                .isEqualTo(4);
         running.refused("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
         running.refused("POST", "/api/devices/nosuch/credentials", null, 404, "unknown-device");
 
