@@ -121,6 +121,7 @@ class RestApiIT {
                 .isEqualTo("/" + RunningApi.SECRET.apiKey("hoeing") + "/robot-1/attrs");
         assertThat(client.send("GET", "/api/devices/robot-1/credentials/qr", null)
                         .body())
+                .asString()
                 .startsWith("<svg");
         running.refused("GET", "/api/missions/nosuch/credentials", null, 404, "unknown-mission");
 
