@@ -20,6 +20,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.bench.mission.MissionStart;
 import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.ngsi.NgsiJson;
@@ -77,8 +78,10 @@ class MissionsIT {
 
     @Test
     void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
-        try (RunningSuite running = RunningSuite.start(kept)) {
+        try (RunningSuite running =
+                RunningSuite.start(kept, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
+            assertThat(sharedLogin(suite)).contains("bad user name or password");
             await().atMost(TIMEOUT)
                     .until(() -> send(suite, "GET", "/ready", "")
                             .path("status")
@@ -111,6 +114,27 @@ class MissionsIT {
                             .asText())
                     .isEqualTo(rotated.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")
                             .user());
+        }
+    }
+
+    private static String sharedLogin(Suite suite) throws Exception {
+        URI broker = suite.devices().mqtt();
+        try (Command publisher = Command.start(
+                "mosquitto_pub",
+                "-h",
+                broker.getHost(),
+                "-p",
+                Integer.toString(broker.getPort()),
+                "-u",
+                Suite.MQTT_USER,
+                "-P",
+                Suite.MQTT_PASSWORD,
+                "-t",
+                "/key/any/attrs",
+                "-m",
+                "{}")) {
+            assertThat(publisher.exitCode()).isNotZero();
+            return publisher.printed();
         }
     }
 

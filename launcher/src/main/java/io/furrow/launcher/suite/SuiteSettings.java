@@ -30,6 +30,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  * @param farm how devices of missions are provisioned and hosted
  * @param watch what is done about alarms
  * @param allowed hosts and origins of every HTTP server beside their own
+ * @param sharedLogin whether the suite's own MQTT broker has a login that may publish as any device
  */
 public record SuiteSettings(
         Path kafkaProperties,
@@ -42,7 +43,8 @@ public record SuiteSettings(
         String mongo,
         Farm farm,
         Watch watch,
-        AllowedNames allowed) {
+        AllowedNames allowed,
+        boolean sharedLogin) {
 
     /** Ports on 127.0.0.1, each 0 for a free one. */
     public record Ports(
@@ -154,6 +156,23 @@ public record SuiteSettings(
         }
     }
 
+    /** As {@code ./furrow up} starts it: each device has a login of its own. */
+    public SuiteSettings withoutSharedLogin() {
+        return new SuiteSettings(
+                kafkaProperties,
+                fiwareService,
+                window,
+                fields,
+                ports,
+                orion,
+                kafka,
+                mongo,
+                farm,
+                watch,
+                allowed,
+                false);
+    }
+
     /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
     public static SuiteSettings onFreePorts(String window) {
         return new SuiteSettings(
@@ -167,6 +186,7 @@ public record SuiteSettings(
                 null,
                 Farm.SIMULATED,
                 Watch.DEFAULT,
-                AllowedNames.NONE);
+                AllowedNames.NONE,
+                true);
     }
 }

@@ -32,6 +32,10 @@ public final class LiveAccounts implements MqttAccounts {
                 && MessageDigest.isEqual(account.login().password().getBytes(StandardCharsets.UTF_8), password);
     }
 
+    public boolean exists(String user) {
+        return byUser.containsKey(user);
+    }
+
     public boolean mayWrite(String user, String topic) {
         MqttAccount account = byUser.get(user);
         return account != null && account.mayWrite(topic);
