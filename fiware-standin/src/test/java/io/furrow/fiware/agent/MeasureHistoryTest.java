@@ -13,8 +13,7 @@ import io.furrow.fiware.agent.MeasureHistory.Received;
 import static org.assertj.core.api.Assertions.assertThat;
 
 class MeasureHistoryTest {
-    private final MeasureHistory history =
-            new MeasureHistory(Clock.fixed(Instant.ofEpochMilli(1000), ZoneOffset.UTC));
+    private final MeasureHistory history = new MeasureHistory(Clock.fixed(Instant.ofEpochMilli(1000), ZoneOffset.UTC));
 
     @Test
     void remembersTheLastMeasureAndTheBeginningOfWhatCouldNotBeRead() {
