@@ -280,6 +280,7 @@ class WatchTopologyTest {
                         "suspect-runs",
                         "clocks-positions",
                         "wanted-devices",
+                        "device-connections",
                         "device-health",
                         "context-domains-positions",
                         "context-missions-positions",

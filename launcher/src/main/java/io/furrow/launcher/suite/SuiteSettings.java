@@ -14,7 +14,10 @@ import io.furrow.control.health.HealthOptions;
 import io.furrow.control.mission.MissionOptions;
 import io.furrow.http.AllowedNames;
 import io.furrow.provisioner.AgentSettings;
+import io.furrow.provisioner.ConnectionSources;
+import io.furrow.provisioner.MeasureReports;
 import io.furrow.provisioner.account.MosquittoFiles;
+import io.furrow.provisioner.account.MosquittoLog;
 import io.furrow.provisioner.account.MqttAccounts;
 
 /**
@@ -89,7 +92,7 @@ public record SuiteSettings(
                 null,
                 null,
                 null,
-                new AccountFiles(null, null, null, false),
+                new AccountFiles(null, null, null, false, null),
                 new Secret(null, null),
                 null,
                 new Missions(MissionOptions.START_TIMEOUT, true, true));
@@ -119,8 +122,14 @@ public record SuiteSettings(
      * @param rules null for none
      * @param reload run after a change; null for nothing
      * @param gateways whether each mission has an account that speaks for all its devices
+     * @param log Mosquitto's; null for none
      */
-    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways) {
+    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways, Path log) {
+        /** What the broker's log says of logins. */
+        public ConnectionSources connections() {
+            return new ConnectionSources(log == null ? List.of() : List.of(new MosquittoLog(log)), MeasureReports.NONE);
+        }
+
         /** The accounts of an MQTT broker that has these files; none where none are named. */
         public List<MqttAccounts> accounts() {
             if (passwords == null && rules == null) {

@@ -15,15 +15,15 @@ import io.furrow.model.ngsi.UnreadableException;
  * What MQTT broker and IoT Agent know of a device, and thus why it may be silent: a record of {@code service.devices.connection}
  * under the key of {@code service.devices}, written by the provisioner. All times are epoch ms.
  *
- * @param since from when on logins and messages were observed
- * @param loggedIn when it last connected to the MQTT broker; null if it has not since then, or where nobody says
+ * @param since from when on logins were observed; null where nobody does
+ * @param loggedIn when it last connected to the MQTT broker; null if it has not since then
  * @param refusedLogin null if none was refused
  * @param foreignTopic null if it has published to none
  * @param unreadablePayload null if all could be read, or where nobody says
  * @param registered whether the IoT Agent knows the device; null before it was asked
  */
 public record DeviceConnection(
-        long since,
+        Long since,
         Long loggedIn,
         RefusedLogin refusedLogin,
         ForeignTopic foreignTopic,
