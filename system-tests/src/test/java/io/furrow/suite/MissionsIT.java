@@ -128,9 +128,11 @@ class MissionsIT {
             String device = "urn:ngsi-ld:Thermometer:own";
             send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
             send(suite, "POST", "/api/missions/hoeing/start", """
-                    {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "path": [[-3.48, 40.31]]}]}
+                    {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
                     """.formatted(device));
-            await().atMost(TIMEOUT).until(() -> state(suite).equals("running"));
+            await().atMost(TIMEOUT).until(() -> send(suite, "GET", "/api/devices/" + device, "")
+                    .at("/connection/registered")
+                    .asBoolean());
             JsonNode login = send(suite, "GET", "/api/devices/" + device + "/credentials", "");
             String user = login.path("user").asText();
             String password = login.path("password").asText();
@@ -139,6 +141,7 @@ class MissionsIT {
             publish(suite, user, "guessed", topic, "{}");
             assertThat(publish(suite, user, password, "/key/other/attrs", "{}")).isEmpty();
             assertThat(publish(suite, user, password, topic, "21.5 degrees")).isEmpty();
+            assertThat(publish(suite, user, password, topic, "{\"temp\": 21.5}")).isEmpty();
 
             await().atMost(TIMEOUT).untilAsserted(() -> {
                 JsonNode connection =

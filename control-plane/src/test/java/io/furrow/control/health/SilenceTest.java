@@ -39,7 +39,8 @@ class SilenceTest {
         Silence silence = new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.empty());
         for (int i = 0; i < 5; i++) {
             String id = "urn:t:" + i;
-            silence.put(id, new Silence.Device(id, "Thermometer", "urn:m", true, false, NOW, NOW - 60_000, 30_000, null));
+            silence.put(
+                    id, new Silence.Device(id, "Thermometer", "urn:m", true, false, NOW, NOW - 60_000, 30_000, null));
         }
         return silence;
     }
