@@ -89,7 +89,7 @@ class RestApiIT {
                 .isEqualTo(200);
         JsonNode started = running.get("/api/missions/hoeing");
         assertThat(started.at("/status/state").asText()).isEqualTo("starting");
-        assertThat(started.at("/status/devices").asInt()).isEqualTo(3);
+        assertThat(started.at("/status/devices").asInt()).isEqualTo(4);
         assertThat(started.path("devices")).hasSize(3);
         assertThat(running.get("/api/missions?domain=south").findValuesAsText("mission"))
                 .contains("hoeing");
@@ -151,7 +151,7 @@ class RestApiIT {
         assertThat(running.get("/api/devices/" + id + "/credentials")).isEqualTo(rotated);
         assertThat(running.get("/api/devices/" + id).path("generation").asInt()).isEqualTo(1);
         assertThat(running.get("/api/missions/hoeing").at("/status/devices").asInt())
-                .isEqualTo(3);
+                .isEqualTo(4);
         running.refused("POST", "/api/devices/urn:own:1/credentials", null, 404, "no-credentials");
         running.refused("POST", "/api/devices/nosuch/credentials", null, 404, "unknown-device");
 
