@@ -89,6 +89,12 @@ export const texts = {
     noPicture: 'No picture stored yet', pictureOf: 'Picture of {age}', pictureAlt: 'Newest picture of {name}', pictureFailed: 'No picture: {reason}',
     recorded: 'recorded, not sent', confirm: 'Send “{command}” to {name}?', refused: '{command} was not sent: {reason}',
     outcomes: { pending: '{command} sent {ago}, no answer yet', ok: '✓ {command}, {ago}', failed: '✗ {command} failed {ago}. {info}', unanswered: '{command}: no answer since {ago}' },
+    connection: {
+      report: 'Last report of {time}, received {offset} later.', ahead: 'Last report of {time}: its clock is {offset} ahead.',
+      unregistered: 'The IoT Agent does not know it.', login: 'Connected to the MQTT broker at {time}.', noLogin: 'Has not connected to the MQTT broker since {time}.',
+      password: 'Its password was refused {count} times, last at {time}.', user: 'Its user {user} does not exist or no longer, and was refused {count} times, last at {time}.',
+      foreign: 'Published {count} times where it may not, last at {time} to {topic}.', unreadable: '{count} of its messages could not be read, the last at {time}: {reason}. It began with {payload}',
+    },
     none: 'No devices yet', noneHint: 'As soon as a device reports, its card is here.',
     noneYet: 'Nothing yet at this moment', noneYetHint: 'The replay has not reached a report, or none is in it.',
     noMatch: 'No device matches', noMatchHint: 'Clear the search or the chips above to see all devices.',

@@ -6,9 +6,13 @@ import { icon } from '../core/icons.js';
 import { store } from '../core/store.js';
 import { t } from '../texts.js';
 import { allAttributes, lineOf, telling } from './attributes.js';
+import { sentencesOf } from './connection.js';
 import { commandsOf, infoOf, isPointless, outcomeOf } from './commands.js';
 import { Picture } from './picture.js';
 import { Sparkline } from './sparkline.js';
+
+/** How often the control plane is asked how a device is connected while its details are open. */
+const ASK_EVERY = 10_000;
 
 export class Card {
   /** @param {import('../core/entity.js').Entity} entity */
@@ -16,6 +20,8 @@ export class Card {
     this.entity = entity;
     this.sent = null;
     this.open = false;
+    this.asked = -Infinity;
+    this.connection = [];
     this.name = h('button.card-name', { type: 'button', on: { click: () => store.select(entity.id, { reveal: true }) } });
     this.mark = h('span.card-mark');
     this.age = h('span.numbers.muted.small');
@@ -159,11 +165,28 @@ export class Card {
 
   drawDetails() {
     const { entity } = this;
+    this.askForConnection();
     replace(this.details,
       h('p.small.muted', null, [entity.type, entity.domain, entity.mission].filter(Boolean).join(' · ')),
       h('p.small.muted.code', null, entity.id),
+      this.connection.map((sentence) => h('p.small.connection', null, sentence)),
       h('dl.attributes', null, allAttributes(entity).map(({ name, value }) => h('div', null, h('dt', null, name.slice(0, 80)), h('dd.numbers', null, value)))),
       entity.omitted > 0 && h('p.small.muted', null, t('cards.omitted', { count: entity.omitted })));
+  }
+
+  /** Of what is on no mission the control plane knows nothing. */
+  async askForConnection() {
+    if (store.isReplay || !this.entity.mission || Date.now() - this.asked < ASK_EVERY) {
+      return;
+    }
+    this.asked = Date.now();
+    try {
+      const { connection } = await api.get(`/api/devices/${encodeURIComponent(this.entity.id)}`);
+      this.connection = sentencesOf(connection);
+    } catch {
+      this.connection = [];
+    }
+    this.open && this.drawDetails();
   }
 
   release() {

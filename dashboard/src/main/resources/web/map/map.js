@@ -37,7 +37,7 @@ class FurrowMap extends HTMLElement {
     this.table = mapTables(() => this.toggleTable());
     this.target = h('div.map-target', { tabindex: '0', role: 'application', 'aria-label': t('map.label') });
     this.tooltip = h('div.map-tooltip', { hidden: true, role: 'status' });
-    this.empty = h('div.empty.map-empty', { hidden: true }, h('h2', null, t('map.emptyTitle')), h('p', null, t('map.emptyText')), h('code', null, './furrow scenario'));
+    this.empty = h('div.empty.map-empty', { hidden: true }, h('h2', null, t('map.emptyTitle')), h('p', null, t('map.emptyText')), h('code', null, './furrow demo'));
     this.list = h('div.map-list', { popover: 'auto' });
     replace(this, this.target, this.controls(), this.legend.element, this.tiles.attribution, this.tooltip, this.list, this.empty, this.table.element);
     this.createMap();

@@ -50,6 +50,7 @@ public final class ServiceTopics {
             Topics.MISSIONS_STATUS,
             Topics.DEVICES_STATUS,
             Topics.DEVICES_HEALTH,
+            Topics.DEVICES_CONNECTION,
             Topics.REPLAYS_STATUS,
             Topics.ALARMS,
             Topics.ALARMS_DELIVERED,

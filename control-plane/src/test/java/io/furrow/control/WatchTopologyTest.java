@@ -11,6 +11,8 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.Limits;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -168,6 +170,20 @@ class WatchTopologyTest {
         assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
     }
 
+    @Test
+    void saysWhyAMissionMissesADevice() throws Exception {
+        RefusedLogin refused = new RefusedLogin(12, 2000, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.t.1.0");
+        farm.pipe(
+                Topics.DEVICES_CONNECTION,
+                new FiwareScope("farm", "/").identity("t"),
+                new DeviceConnection(1000L, null, refused, null, null, true).toBytes());
+        farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[{'id':'t','reason':'why'}]", "'1 of 2 is not up'"));
+
+        assertThat(farm.newest(Topics.ALARMS).path("text").asText())
+                .isEqualTo("mission m: 1 of 2 is not up"
+                        + " (t: its password was refused 12 times, last at 1970-01-01T00:00:02Z)");
+    }
+
     private static String status(String state, String missing, String reason) {
         return ("{'mission':'m','domain':'d','state':'%s','since':1,'sequence':1,'devices':2,'confirmed':1,'missing':%s,'reason':%s}")
                 .formatted(state, missing, reason);
@@ -280,6 +296,7 @@ class WatchTopologyTest {
                         "suspect-runs",
                         "clocks-positions",
                         "wanted-devices",
+                        "device-connections",
                         "device-health",
                         "context-domains-positions",
                         "context-missions-positions",

@@ -1,33 +1,36 @@
 package io.furrow.embedded;
 
-import java.io.IOException;
-import java.io.UncheckedIOException;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
 import java.security.MessageDigest;
-import java.util.List;
 import java.util.Map;
 import java.util.Properties;
 import java.util.Set;
 
-import io.moquette.broker.Server;
+import io.moquette.broker.MqttServer;
 import io.moquette.broker.config.MemoryConfig;
 import io.moquette.broker.security.IAuthenticator;
 import io.moquette.broker.security.IAuthorizatorPolicy;
 import io.moquette.broker.subscriptions.Topic;
 
-/** An MQTT 3.1.1 broker in this JVM, on 127.0.0.1, that lets nobody in without a user and password. */
+/**
+ * An MQTT 3.1.1 broker in this JVM, on 127.0.0.1, that lets nobody in without a user and password. A message to a topic to which
+ * its sender may not publish is acknowledged and discarded, as Mosquitto does it.
+ */
 public final class EmbeddedMqtt implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
     private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
     private static final int MAX_WAITING = 64 * 1024;
 
-    private final Server server;
+    private final MqttServer server;
     private final int port;
 
     /** Users who come and go while the broker runs; asked at each connection, subscription and message. */
     public interface Users {
         boolean knows(String user, byte[] password);
+
+        /** Connections of others are closed. */
+        boolean exists(String user);
 
         boolean mayWrite(String user, String topic);
 
@@ -39,6 +42,11 @@ public final class EmbeddedMqtt implements AutoCloseable {
             return new Users() {
                 @Override
                 public boolean knows(String user, byte[] password) {
+                    return false;
+                }
+
+                @Override
+                public boolean exists(String user) {
                     return false;
                 }
 
@@ -55,7 +63,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
         }
     }
 
-    private EmbeddedMqtt(Server server, int port) {
+    private EmbeddedMqtt(MqttServer server, int port) {
         this.server = server;
         this.port = port;
     }
@@ -95,17 +103,12 @@ public final class EmbeddedMqtt implements AutoCloseable {
         IAuthenticator authenticator = (clientId, user, password) -> user != null
                 && password != null
                 && (matches(passwords.get(user), password) || others.knows(user, password));
-        Server server = new Server();
-        try {
-            server.startServer(
-                    new MemoryConfig(properties),
-                    List.of(),
-                    null,
-                    authenticator,
-                    new Rights(passwords.keySet(), others));
-        } catch (IOException e) {
-            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + bound, e);
-        }
+        MqttServer server = new MqttServer(
+                new MemoryConfig(properties),
+                new MqttServer.Access(
+                        authenticator,
+                        new Rights(passwords.keySet(), others),
+                        user -> passwords.containsKey(user) || others.exists(user)));
         return new EmbeddedMqtt(server, bound);
     }
 
@@ -116,7 +119,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
 
     @Override
     public void close() {
-        server.stopServer();
+        server.close();
     }
 
     private static boolean matches(String expected, byte[] password) {

@@ -9,6 +9,7 @@ import java.util.concurrent.atomic.AtomicLong;
 import io.furrow.fiware.agent.DeviceRegistry;
 import io.furrow.fiware.agent.IotAgent;
 import io.furrow.fiware.agent.IotAgentApi;
+import io.furrow.fiware.agent.MeasureHistory;
 import io.furrow.fiware.agent.MqttLink;
 import io.furrow.fiware.api.ContextBrokerApi;
 import io.furrow.fiware.broker.ContextBroker;
@@ -22,6 +23,7 @@ import io.furrow.fiware.broker.Notifier;
 public final class FiwareStandIn implements AutoCloseable {
     private final Notifier notifier;
     private final IotAgent agent;
+    private final MeasureHistory history;
     private final LoopbackServer contextBroker;
     private final LoopbackServer iotAgent;
     /** Closed in the reverse order of their start. */
@@ -46,7 +48,8 @@ public final class FiwareStandIn implements AutoCloseable {
         AtomicLong revision = new AtomicLong();
         DeviceRegistry registry = new DeviceRegistry(revision, clock);
         notifier = new Notifier(clock, settings.connections());
-        agent = new IotAgent(registry);
+        history = new MeasureHistory(clock);
+        agent = new IotAgent(registry, history);
         ContextBroker broker = new ContextBroker(notifier, agent, clock, revision);
         agent.connect(broker);
         boolean complete = false;
@@ -88,6 +91,11 @@ public final class FiwareStandIn implements AutoCloseable {
     /** {@code http://127.0.0.1:<port>}, to which {@code /iot/…} is appended. */
     public URI iotAgent() {
         return iotAgent.uri();
+    }
+
+    /** What the IoT agent received. */
+    public MeasureHistory history() {
+        return history;
     }
 
     public FiwareCounters counters() {

@@ -21,15 +21,18 @@ final class UrlTable {
         row(out, "Health and metrics", suite.health() + "/ready");
         if (suite.hasStandIn()) {
             row(out, "IoT Agent", suite.devices().iotAgent() + "/iot/devices");
-            row(
-                    out,
-                    "MQTT",
-                    "%s  user %s, password %s".formatted(suite.devices().mqtt(), Suite.MQTT_USER, Suite.MQTT_PASSWORD));
+            row(out, "MQTT", suite.devices().mqtt() + "  " + login(suite));
         }
         row(out, "Tenant", "fiware-service: " + suite.fiwareService());
         row(out, "Files and log", suite.directory());
         out.println();
         out.flush();
+    }
+
+    private static String login(Suite suite) {
+        return suite.hasSharedLogin()
+                ? "user %s, password %s".formatted(Suite.MQTT_USER, Suite.MQTT_PASSWORD)
+                : "a login for each device: list it in a mission, then ./furrow device credentials ID";
     }
 
     private static void row(PrintWriter out, String what, Object where) {

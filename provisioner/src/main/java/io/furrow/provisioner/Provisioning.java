@@ -40,6 +40,7 @@ final class Provisioning {
     private final Map<FiwareScope, AgentRegistry> registries = new HashMap<>();
     private final Map<Registration, String> held = new HashMap<>();
     private FarmSecret used;
+    private Set<String> registered;
     private boolean verified;
 
     Provisioning(ProvisioningSettings settings, WantedDevices wanted, LongSupplier nanos) {
@@ -71,6 +72,7 @@ final class Provisioning {
     /** The same, and takes nothing of the accounts for granted. */
     void startAnew() {
         lookAgain();
+        registered = null;
         accounts.startAnew();
     }
 
@@ -107,6 +109,7 @@ final class Provisioning {
         there.keySet().forEach(key -> known.put(key, wanted.all().get(key)));
         refused.putAll(accounts.grant(known, added));
         wanted.provisioned(there.keySet());
+        registered = Set.copyOf(there.keySet());
         boolean removed = true;
         String stuck = null;
         for (FiwareScope scope : wanted.scopes()) {
@@ -117,6 +120,11 @@ final class Provisioning {
             }
         }
         return new Outcome(refused, stuck, added && removed);
+    }
+
+    /** Keys of the devices that the agent had at the last step; null before the first. */
+    Set<String> registered() {
+        return registered;
     }
 
     private boolean add(

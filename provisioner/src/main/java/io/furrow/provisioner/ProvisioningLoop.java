@@ -51,6 +51,7 @@ final class ProvisioningLoop implements AutoCloseable {
     private final Provisioning provisioning;
     private final RetrySchedule pace;
     private final Failures failures;
+    private final ConnectionPublisher connections;
     private final Map<TopicPartition, Long> unread = new HashMap<>();
     private boolean active;
     private String failure = "";
@@ -64,6 +65,7 @@ final class ProvisioningLoop implements AutoCloseable {
                 new KafkaConsumer<>(consumerSettings(client), new StringDeserializer(), new ByteArrayDeserializer());
         this.producer = new KafkaProducer<>(client, new StringSerializer(), new ByteArraySerializer());
         this.failures = new Failures(wanted, producer);
+        this.connections = new ConnectionPublisher(settings, wanted, producer, System::currentTimeMillis);
         consumer.subscribe(List.of(Topics.DEVICES), new Assignment());
     }
 
@@ -87,8 +89,11 @@ final class ProvisioningLoop implements AutoCloseable {
         if (active && provisioning.isSecretChanged()) {
             pace.hurry();
         }
-        if (active && isCaughtUp() && pace.isDue()) {
-            step();
+        if (active && isCaughtUp()) {
+            if (pace.isDue()) {
+                step();
+            }
+            connections.publish(provisioning.registered());
         }
     }
 
@@ -176,6 +181,7 @@ final class ProvisioningLoop implements AutoCloseable {
             active = true;
             wanted.clear();
             failures.clear();
+            connections.startAnew();
             provisioning.startAnew();
             closeLists();
             lists = CommittedReader.open(client, Topics.MISSION_DEVICES);

@@ -17,6 +17,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  * @param agent that is notified of the devices
  * @param accounts of the MQTT brokers; none where the broker lets everybody in that the IoT Agent shall hear
  * @param gateways whether each mission has an account that may speak for all its devices, as a host of many devices needs it
+ * @param connections who knows how devices are connected
  */
 public record ProvisioningSettings(
         Properties client,
@@ -24,7 +25,19 @@ public record ProvisioningSettings(
         SecretSource secret,
         AgentSettings agent,
         List<MqttAccounts> accounts,
-        boolean gateways) {
+        boolean gateways,
+        ConnectionSources connections) {
+    /** Without anybody who knows how devices are connected. */
+    public ProvisioningSettings(
+            Properties client,
+            FiwareScope scope,
+            SecretSource secret,
+            AgentSettings agent,
+            List<MqttAccounts> accounts,
+            boolean gateways) {
+        this(client, scope, secret, agent, accounts, gateways, ConnectionSources.NONE);
+    }
+
     /** With a secret that does not change, and without accounts of gateways. */
     public ProvisioningSettings(
             Properties client, FiwareScope scope, FarmSecret secret, AgentSettings agent, List<MqttAccounts> accounts) {

@@ -15,6 +15,8 @@ import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.params.ParameterizedTest;
+import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.embedded.EmbeddedMqtt;
 import io.furrow.model.device.FarmSecret;
@@ -30,6 +32,7 @@ import static org.awaitility.Awaitility.await;
 class EmbeddedBrokerTest {
     private static final LiveAccounts ACCOUNTS = new LiveAccounts();
     private static final String KEY = "/" + Wanted.SECRET.apiKey("hoeing");
+    private static final long TIMEOUT_MS = 20_000;
     private static final FarmSecret.Login DEVICE = Wanted.SECRET.device("hoeing", "d");
 
     private static EmbeddedMqtt mqtt;
@@ -43,6 +46,11 @@ class EmbeddedBrokerTest {
             @Override
             public boolean knows(String user, byte[] password) {
                 return ACCOUNTS.knows(user, password);
+            }
+
+            @Override
+            public boolean exists(String user) {
+                return ACCOUNTS.exists(user);
             }
 
             @Override
@@ -87,6 +95,48 @@ class EmbeddedBrokerTest {
         leave(device);
     }
 
+    /** As Mosquitto does: the sender cannot know, but it does not wait for ever either. */
+    @ParameterizedTest
+    @ValueSource(ints = {1, 2})
+    void acknowledgesAndDiscardsWhatADeviceMayNotPublish(int qos) throws MqttException {
+        MqttClient device = connect(DEVICE);
+        device.setTimeToWait(TIMEOUT_MS);
+        device.publish(KEY + "/e/attrs", "forged".getBytes(StandardCharsets.UTF_8), qos, true);
+        device.publish(KEY + "/d/attrs", "qos %d".formatted(qos).getBytes(StandardCharsets.UTF_8), qos, false);
+
+        await().until(() -> "qos %d".formatted(qos).equals(heard.get(KEY + "/d/attrs")));
+        assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
+        leave(device);
+    }
+
+    @Test
+    void publishesNoWillToATopicOfAnotherDevice() throws MqttException {
+        MqttClient device = new MqttClient(mqtt.uri().toString(), "forger", new MemoryPersistence());
+        for (String topic : List.of("/e/attrs", "/d/attrs")) {
+            MqttConnectOptions options = options(DEVICE);
+            options.setWill(KEY + topic, "gone".getBytes(StandardCharsets.UTF_8), 1, false);
+            device.connect(options);
+            device.disconnectForcibly(0, TIMEOUT_MS, false);
+        }
+
+        await().until(() -> "gone".equals(heard.get(KEY + "/d/attrs")));
+        assertThat(heard).doesNotContainKey(KEY + "/e/attrs");
+        device.close();
+    }
+
+    @Test
+    void closesTheConnectionOfAUserWhoseAccountIsRemoved() throws MqttException {
+        MqttClient device = connect(DEVICE);
+        MqttClient gateway = connect(Wanted.SECRET.gateway("hoeing"));
+
+        ACCOUNTS.replace(List.of(MqttAccount.gateway(Wanted.SECRET, "hoeing")));
+
+        await().until(() -> !device.isConnected());
+        assertThat(gateway.isConnected()).isTrue();
+        leave(gateway);
+        device.close();
+    }
+
     @Test
     void letsADeviceHearItsOwnCommandsOnly() throws MqttException {
         MqttClient device = connect(DEVICE);
@@ -126,16 +176,20 @@ class EmbeddedBrokerTest {
     private static MqttClient connect(FarmSecret.Login login) throws MqttException {
         MqttClient client =
                 new MqttClient(mqtt.uri().toString(), MqttClient.generateClientId(), new MemoryPersistence());
-        MqttConnectOptions options = new MqttConnectOptions();
-        options.setUserName(login.user());
-        options.setPassword(login.password().toCharArray());
         try {
-            client.connect(options);
+            client.connect(options(login));
             return client;
         } catch (MqttException e) {
             client.close();
             throw e;
         }
+    }
+
+    private static MqttConnectOptions options(FarmSecret.Login login) {
+        MqttConnectOptions options = new MqttConnectOptions();
+        options.setUserName(login.user());
+        options.setPassword(login.password().toCharArray());
+        return options;
     }
 
     private static void leave(MqttClient client) throws MqttException {

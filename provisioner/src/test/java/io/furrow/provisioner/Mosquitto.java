@@ -46,12 +46,13 @@ final class Mosquitto implements AutoCloseable {
             acl_file %s
             allow_anonymous false
             set_tcp_nodelay true
+            log_type all
             user %s
             """.formatted(
                         port, passwords(), rules(), System.getProperty("user.name")));
         Process process = new ProcessBuilder(program(), "-c", settings.toString())
                 .redirectErrorStream(true)
-                .redirectOutput(directory.resolve("log").toFile())
+                .redirectOutput(log().toFile())
                 .start();
         reload = "kill -HUP " + process.pid();
         stop = () -> stop(process);
@@ -70,6 +71,11 @@ final class Mosquitto implements AutoCloseable {
 
     Path passwords() {
         return directory.resolve("passwords");
+    }
+
+    /** With all that it says. */
+    Path log() {
+        return directory.resolve("log");
     }
 
     Path rules() {

@@ -10,6 +10,7 @@ import java.time.Duration;
 import java.time.Instant;
 import java.util.List;
 import java.util.Optional;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.apache.kafka.clients.admin.NewTopic;
@@ -20,6 +21,7 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.bench.mission.MissionStart;
 import io.furrow.launcher.suite.Suite;
+import io.furrow.launcher.suite.SuiteSettings;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.FarmSecretCodec;
 import io.furrow.model.ngsi.NgsiJson;
@@ -77,8 +79,11 @@ class MissionsIT {
 
     @Test
     void goesOnReportingThroughARotationOfTheFarmsSecret() throws Exception {
-        try (RunningSuite running = RunningSuite.start(kept)) {
+        try (RunningSuite running =
+                RunningSuite.start(kept, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
+            assertThat(publish(suite, Suite.MQTT_USER, Suite.MQTT_PASSWORD, "/key/any/attrs", "{}"))
+                    .contains("bad user name or password");
             await().atMost(TIMEOUT)
                     .until(() -> send(suite, "GET", "/ready", "")
                             .path("status")
@@ -111,6 +116,59 @@ class MissionsIT {
                             .asText())
                     .isEqualTo(rotated.device("hoeing", "urn:ngsi-ld:Thermometer:hoeing-1")
                             .user());
+        }
+    }
+
+    /** As somebody who sets up a device by hand, and errs. */
+    @Test
+    void saysWhyADeviceIsNotHeard() throws Exception {
+        try (RunningSuite running =
+                RunningSuite.start(kept, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
+            Suite suite = running.suite();
+            String device = "urn:ngsi-ld:Thermometer:own";
+            send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
+            send(suite, "POST", "/api/missions/hoeing/start", """
+                    {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
+                    """.formatted(device));
+            await().atMost(TIMEOUT)
+                    .until(() -> send(suite, "GET", "/api/devices/" + device, "")
+                            .at("/connection/registered")
+                            .asBoolean());
+            JsonNode login = send(suite, "GET", "/api/devices/" + device + "/credentials", "");
+            String user = login.path("user").asText();
+            String password = login.path("password").asText();
+            String topic = "/" + login.path("apiKey").asText() + "/" + device + "/attrs";
+
+            publish(suite, user, "guessed", topic, "{}");
+            assertThat(publish(suite, user, password, "/key/other/attrs", "{}")).isEmpty();
+            assertThat(publish(suite, user, password, topic, "21.5 degrees")).isEmpty();
+            assertThat(publish(suite, user, password, topic, "{\"temp\": 21.5}"))
+                    .isEmpty();
+
+            await().atMost(TIMEOUT).untilAsserted(() -> {
+                JsonNode connection =
+                        send(suite, "GET", "/api/devices/" + device, "").path("connection");
+                assertThat(connection.at("/refusedLogin/reason").asText()).isEqualTo("wrong-password");
+                assertThat(connection.at("/foreignTopic/topic").asText()).isEqualTo("/key/other/attrs");
+                assertThat(connection.at("/unreadablePayload/payload").asText()).isEqualTo("21.5 degrees");
+                assertThat(connection.path("loggedIn").asLong()).isPositive();
+                assertThat(connection.path("registered").asBoolean()).isTrue();
+                assertThat(connection.at("/lastReport/received").asLong()).isPositive();
+            });
+        }
+    }
+
+    /** What mosquitto_pub prints: nothing where its message was acknowledged. */
+    private static String publish(Suite suite, String user, String password, String topic, String message)
+            throws Exception {
+        URI broker = suite.devices().mqtt();
+        String port = Integer.toString(broker.getPort());
+        List<String> words = List.of("mosquitto_pub", "-h", broker.getHost(), "-p", port, "-u", user, "-P", password);
+        List<String> about = List.of("-q", "1", "-t", topic, "-m", message);
+        try (Command publisher =
+                Command.start(Stream.concat(words.stream(), about.stream()).toArray(String[]::new))) {
+            publisher.exitCode();
+            return publisher.printed();
         }
     }
 

@@ -48,7 +48,8 @@ class PartsThatAlreadyRunIT {
                                 mongo.uri(),
                                 SuiteSettings.Farm.SIMULATED,
                                 SuiteSettings.Watch.DEFAULT,
-                                AllowedNames.NONE))) {
+                                AllowedNames.NONE,
+                                true))) {
             assertThat(running.suite().hasStandIn()).isFalse();
             assertThat(running.suite().mongo()).isEqualTo(mongo.uri());
             assertThat(running.suite().kafka().bootstrapServers()).isEqualTo(kafka.bootstrapServers());

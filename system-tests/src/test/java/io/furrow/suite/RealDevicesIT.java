@@ -57,7 +57,8 @@ class RealDevicesIT {
                                 null,
                                 new SuiteSettings.Missions(Duration.ofSeconds(3), true, false)),
                         SuiteSettings.Watch.DEFAULT,
-                        AllowedNames.NONE));
+                        AllowedNames.NONE,
+                        false));
         await().atMost(TIMEOUT)
                 .until(() -> send("GET", "/ready", "").path("status").asText().equals("ready"));
         send("POST", "/api/domains", "{\"domain\":\"home\"}");

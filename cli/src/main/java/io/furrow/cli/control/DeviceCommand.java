@@ -52,7 +52,7 @@ public final class DeviceCommand extends CommandGroup {
                         .text("REASON", "/status/reason"));
     }
 
-    @Command(name = "show", description = "Shows one device.")
+    @Command(name = "show", description = "Shows one device, also how it is connected and why it may be silent.")
     int show(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
         return control.showOne(DEVICES + ControlApi.part(device));
     }

@@ -7,7 +7,6 @@ import java.util.List;
 import java.util.Optional;
 import java.util.Set;
 
-import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.record.Records;
 import io.furrow.model.device.WantedDevice;
@@ -36,12 +35,12 @@ final class DeviceHealthTracker {
             Records<DeviceHealth> health,
             WantedDevices wanted,
             HealthOptions options,
-            AlarmCommandHandler alarms,
+            Silence silence,
             EventPublisher outbox) {
         this.health = health;
         this.wanted = wanted;
         this.options = options;
-        this.silence = new Silence(options, alarms);
+        this.silence = silence;
         this.outbox = outbox;
     }
 

@@ -1,6 +1,7 @@
 package io.furrow.control.health;
 
 import java.util.List;
+import java.util.Optional;
 import java.util.function.BiFunction;
 import java.util.function.Function;
 import java.util.stream.Stream;
@@ -11,10 +12,10 @@ import org.apache.kafka.streams.StreamsBuilder;
 import org.apache.kafka.streams.kstream.Consumed;
 import org.apache.kafka.streams.kstream.KStream;
 import org.apache.kafka.streams.kstream.Named;
-import org.apache.kafka.streams.processor.api.ContextualProcessor;
 import org.apache.kafka.streams.processor.api.ProcessorContext;
 import org.apache.kafka.streams.processor.api.Record;
-import org.apache.kafka.streams.state.KeyValueStore;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.control.alarm.AlarmManager;
 import io.furrow.control.manager.EventPublisher;
@@ -23,17 +24,23 @@ import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.StateJson;
+import io.furrow.control.manager.record.GlobalStoreProcessor;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /**
- * Reads {@code data.raw} and {@code service.devices} and maintains {@code service.devices.health} and the alarms of
+ * Reads {@code data.raw}, {@code service.devices} and {@code service.devices.connection} and maintains {@code service.devices.health} and the alarms of
  * silent devices.
  */
 public final class HealthWatch {
+    private static final Logger LOG = LoggerFactory.getLogger(HealthWatch.class);
     private static final String WANTED = "wanted-devices";
     private static final String HEALTH = "device-health";
+    private static final String CONNECTIONS = "device-connections";
 
     private HealthWatch() {}
 
@@ -65,14 +72,19 @@ public final class HealthWatch {
                 StoredRecords.builder(WANTED).withLoggingDisabled(),
                 Topics.DEVICES,
                 Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("wanted-devices-in"),
-                KeepWanted::new);
+                () -> new GlobalStoreProcessor(WANTED));
+        builder.addGlobalStore(
+                StoredRecords.builder(CONNECTIONS).withLoggingDisabled(),
+                Topics.DEVICES_CONNECTION,
+                Consumed.with(Serdes.String(), Serdes.ByteArray()).withName("device-connections-in"),
+                () -> new GlobalStoreProcessor(CONNECTIONS));
         builder.addStateStore(StoredRecords.builder(HEALTH));
         BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening =
                 (context, outbox) -> observer(new DeviceHealthTracker(
                         StoredRecords.of(context, HEALTH, DeviceHealth.class),
                         wanted(context),
                         options,
-                        AlarmManager.handler(context, outbox),
+                        new Silence(options, AlarmManager.handler(context, outbox), connections(context)),
                         outbox));
 
         KStream<String, byte[]> signs = builder.stream(
@@ -91,6 +103,29 @@ public final class HealthWatch {
                 "device-health-out");
     }
 
+    /** Returns a lookup why a device that has never reported is not heard, by its id. */
+    public static Function<String, Optional<String>> causesOfUnheard(
+            ProcessorContext<?, ?> context, FiwareScope scope) {
+        Function<String, Optional<DeviceConnection>> connections = connections(context);
+        return id -> connections
+                .apply(scope.identity(id))
+                .flatMap(connection -> SilenceCause.of(connection, null))
+                .map(SilenceCause::text);
+    }
+
+    private static Function<String, Optional<DeviceConnection>> connections(ProcessorContext<?, ?> context) {
+        Records<byte[]> records = StoredRecords.of(context, CONNECTIONS, Function.identity(), Function.identity());
+        return key -> {
+            try {
+                byte[] value = records.get(key);
+                return value == null ? Optional.empty() : Optional.of(DeviceConnection.read(value));
+            } catch (UnreadableException e) {
+                LOG.debug("an unreadable record of service.devices.connection is skipped", e);
+                return Optional.empty();
+            }
+        };
+    }
+
     private static Observer observer(DeviceHealthTracker tracker) {
         return new Observer() {
             @Override
@@ -103,21 +138,5 @@ public final class HealthWatch {
                 tracker.passTime(now);
             }
         };
-    }
-
-    private static final class KeepWanted extends ContextualProcessor<String, byte[], Void, Void> {
-        private KeyValueStore<String, byte[]> wanted;
-
-        @Override
-        public void init(ProcessorContext<Void, Void> context) {
-            wanted = context.getStateStore(WANTED);
-        }
-
-        @Override
-        public void process(Record<String, byte[]> record) {
-            if (record.key() != null) {
-                wanted.put(record.key(), record.value());
-            }
-        }
     }
 }

@@ -7,14 +7,17 @@ import java.util.EnumSet;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Set;
 import java.util.TreeMap;
+import java.util.function.Function;
 import java.util.stream.Collectors;
 
 import io.furrow.control.alarm.AlarmCommandHandler;
 import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -41,6 +44,7 @@ final class Silence {
 
     private final HealthOptions options;
     private final AlarmCommandHandler alarms;
+    private final Function<String, Optional<DeviceConnection>> connections;
     private final Map<String, Device> devices = new HashMap<>();
     private long lastReport;
     private Long resumed;
@@ -49,28 +53,39 @@ final class Silence {
      * The relevant state of a device.
      *
      * @param group its mission's entity
-     * @param heard whether it has ever reported
+     * @param heard when its last report arrived, epoch ms; null if none did
      * @param silentAfter after how long without a report it is silent, ms
+     * @param cause why it is silent; null if that is not known
      */
     record Device(
             String id,
             String type,
             String group,
-            boolean heard,
             boolean silent,
             boolean off,
             long since,
-            long silentAfter) {
+            Long heard,
+            long silentAfter,
+            SilenceCause cause) {
         static Device of(DeviceHealth health, long silentAfter) {
             return new Device(
                     health.id(),
                     health.type(),
                     AlarmGroup.of(health.mission(), health.domain()),
-                    health.heard() != null,
                     health.silent(),
                     health.off(),
                     health.since(),
-                    silentAfter);
+                    health.heard(),
+                    silentAfter,
+                    null);
+        }
+
+        Device because(SilenceCause newCause) {
+            return new Device(id, type, group, silent, off, since, heard, silentAfter, newCause);
+        }
+
+        String named() {
+            return cause == null ? id : id + " (" + cause.text() + ")";
         }
     }
 
@@ -103,18 +118,41 @@ final class Silence {
 
         /** Human-readable list: some by their ids, the rest by number. */
         String named() {
-            String ids = some().stream().limit(NAMED).map(Cause.Device::id).collect(Collectors.joining(", "));
+            String ids = silent.stream()
+                    .sorted(OLDEST)
+                    .limit(NAMED)
+                    .map(Device::named)
+                    .collect(Collectors.joining(", "));
             return silent.size() <= NAMED ? ids : ids + " and " + (silent.size() - NAMED) + " more";
         }
     }
 
-    Silence(HealthOptions options, AlarmCommandHandler alarms) {
+    /** @param connections what is known of the connection of a device, by key */
+    Silence(
+            HealthOptions options,
+            AlarmCommandHandler alarms,
+            Function<String, Optional<DeviceConnection>> connections) {
         this.options = options;
         this.alarms = alarms;
+        this.connections = connections;
     }
 
     void put(String key, Device device) {
-        devices.put(key, device);
+        devices.put(key, device.silent() ? device.because(cause(key, device)) : device);
+    }
+
+    /** Stays as it was first said while it is of the same kind: an alarm that counts would be delivered again and again. */
+    private SilenceCause cause(String key, Device device) {
+        SilenceCause cause = connections
+                .apply(key)
+                .flatMap(connection -> SilenceCause.of(connection, device.heard()))
+                .orElse(null);
+        Device before = devices.get(key);
+        boolean same = cause != null
+                && before != null
+                && before.cause() != null
+                && before.cause().code().equals(cause.code());
+        return same ? before.cause() : cause;
     }
 
     void remove(String key) {
@@ -157,7 +195,7 @@ final class Silence {
 
     /** Whether another alarm has the device already: its mission misses it since its start. */
     private boolean isMissing(Device device) {
-        return !device.heard() && alarms.isRaised(AlarmKind.MISSING_DEVICES, device.group());
+        return device.heard() == null && alarms.isRaised(AlarmKind.MISSING_DEVICES, device.group());
     }
 
     private void report(String group, Members members, Cause farm, long now, List<Cause> causes) {

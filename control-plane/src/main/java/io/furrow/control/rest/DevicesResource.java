@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.Optional;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.RejectedExecutionException;
@@ -26,14 +27,18 @@ import jakarta.ws.rs.core.Response;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
+import io.furrow.control.health.SilenceCause;
 import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
+import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
@@ -82,7 +87,8 @@ public final class DevicesResource {
     @GET
     @Path("{device}")
     public Response get(@PathParam(DEVICE) String id) {
-        return JsonResponses.ok(withSettings(described(means.scope().identity(id), find(id))));
+        String key = means.scope().identity(id);
+        return JsonResponses.ok(withConnection(key, withSettings(described(key, find(id)))));
     }
 
     @GET
@@ -243,6 +249,34 @@ public final class DevicesResource {
             }
         });
         return wanted;
+    }
+
+    /** The device with what is known of how it is connected; lists of devices leave that out. */
+    private ObjectNode withConnection(String key, ObjectNode device) {
+        ObjectNode connection =
+                view.find(Topics.DEVICES_CONNECTION, key).orElseGet(JsonNodeFactory.instance::objectNode);
+        JsonNode health = device.path("health");
+        Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
+        if (!connection.isEmpty() && (heard == null || health.path("silent").booleanValue())) {
+            cause(connection, heard).ifPresent(cause -> connection.put("cause", cause.text()));
+        }
+        if (heard != null) {
+            long time = health.path("lastSeen").longValue();
+            connection
+                    .putObject("lastReport")
+                    .put("time", time)
+                    .put("received", heard)
+                    .put("offset", heard - time);
+        }
+        return connection.isEmpty() ? device : device.set("connection", connection);
+    }
+
+    private static Optional<SilenceCause> cause(ObjectNode connection, Long heard) {
+        try {
+            return SilenceCause.of(DeviceConnection.read(NgsiJson.write(connection)), heard);
+        } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
+            return Optional.empty();
+        }
     }
 
     /** The device with the settings of its group, which may be large: lists of devices leave them out. */

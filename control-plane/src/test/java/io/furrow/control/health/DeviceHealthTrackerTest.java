@@ -3,6 +3,7 @@ package io.furrow.control.health;
 import java.time.Duration;
 import java.util.ArrayList;
 import java.util.List;
+import java.util.Optional;
 import java.util.function.Function;
 
 import org.junit.jupiter.api.Test;
@@ -15,6 +16,8 @@ import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.MapRecords;
 import io.furrow.control.manager.StateJson;
 import io.furrow.model.control.AlarmKind;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
@@ -34,6 +37,7 @@ class DeviceHealthTrackerTest {
     private final MapRecords<DeviceHealth> health = MapRecords.of(DeviceHealth.class);
     private final KeptOutbox outbox = new KeptOutbox();
     private final AlarmCommandHandler alarms = AlarmHandlers.writingTo(outbox);
+    private DeviceConnection connection;
     private DeviceHealthTracker tracker = tracker();
 
     @Test
@@ -46,6 +50,34 @@ class DeviceHealthTrackerTest {
         tracker.passTime(START + LONG_ENOUGH + 10_000);
         assertThat(known().silent()).isTrue();
         assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 devices of mission m are silent: " + ID);
+    }
+
+    /** As it was first said: an alarm that counts would be delivered again and again. */
+    @Test
+    void saysWhyADeviceIsSilent() {
+        want("m", START);
+        connection = refused(12);
+        tracker.passTime(START);
+        tracker.passTime(START + LONG_ENOUGH + 10_000);
+        connection = refused(13);
+        tracker.passTime(START + LONG_ENOUGH + 30_000);
+
+        assertThat(alarms())
+                .extracting(Alarm::text)
+                .containsExactly("1 of 1 devices of mission m are silent: " + ID
+                        + " (its password was refused 12 times, last at 2023-11-14T22:13:21Z)");
+
+        connection = new DeviceConnection(START, null, null, null, null, false);
+        tracker.passTime(START + LONG_ENOUGH + 50_000);
+        assertThat(alarms())
+                .extracting(Alarm::text)
+                .allMatch(text -> text.endsWith("(the IoT Agent does not know it)"));
+    }
+
+    private static DeviceConnection refused(long count) {
+        RefusedLogin refused =
+                new RefusedLogin(count, START + 1000, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.d.1.0");
+        return new DeviceConnection(START, null, refused, null, null, true);
     }
 
     @Test
@@ -134,7 +166,12 @@ class DeviceHealthTrackerTest {
     }
 
     private DeviceHealthTracker tracker() {
-        return new DeviceHealthTracker(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
+        return new DeviceHealthTracker(
+                health,
+                new WantedDevices(wanted),
+                HealthOptions.DEFAULT,
+                new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.ofNullable(connection)),
+                outbox);
     }
 
     private DeviceHealth known() {

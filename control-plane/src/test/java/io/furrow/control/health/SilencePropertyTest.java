@@ -4,6 +4,7 @@ import java.time.Duration;
 import java.util.HashSet;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 import java.util.Random;
 import java.util.Set;
 import java.util.TreeMap;
@@ -190,7 +191,12 @@ class SilencePropertyTest {
         }
 
         private DeviceHealthTracker tracker() {
-            return new DeviceHealthTracker(health, new WantedDevices(wanted), HealthOptions.DEFAULT, alarms, outbox);
+            return new DeviceHealthTracker(
+                    health,
+                    new WantedDevices(wanted),
+                    HealthOptions.DEFAULT,
+                    new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.empty()),
+                    outbox);
         }
 
         private static String key(int number) {

@@ -1,6 +1,7 @@
 package io.furrow.control.health;
 
 import java.nio.charset.StandardCharsets;
+import java.util.Optional;
 
 import org.junit.jupiter.api.Test;
 
@@ -35,10 +36,11 @@ class SilenceTest {
     }
 
     private Silence silent() {
-        Silence silence = new Silence(HealthOptions.DEFAULT, alarms);
+        Silence silence = new Silence(HealthOptions.DEFAULT, alarms, key -> Optional.empty());
         for (int i = 0; i < 5; i++) {
             String id = "urn:t:" + i;
-            silence.put(id, new Silence.Device(id, "Thermometer", "urn:m", true, true, false, NOW, 30_000));
+            silence.put(
+                    id, new Silence.Device(id, "Thermometer", "urn:m", true, false, NOW, NOW - 60_000, 30_000, null));
         }
         return silence;
     }

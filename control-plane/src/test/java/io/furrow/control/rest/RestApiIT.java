@@ -18,6 +18,10 @@ import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.control.readiness.Readiness;
 import io.furrow.kafka.PartStatus;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
+import io.furrow.model.device.DeviceConnection.UnreadablePayload;
+import io.furrow.model.topic.Topics;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -104,11 +108,37 @@ class RestApiIT {
         running.refused("POST", "/api/missions", "{\"mission\":\"a.b\",\"domain\":\"south\"}", 400, "illegal-name");
     }
 
+    private void connection(String id) throws Exception {
+        assertThat(running.get("/api/devices/" + id).has("connection")).isFalse();
+        DeviceConnection connection = new DeviceConnection(
+                1000L,
+                null,
+                new RefusedLogin(12, 2000, DeviceConnection.WRONG_PASSWORD, "furrow.d.hoeing.x.1.0"),
+                null,
+                new UnreadablePayload(1, 1500, "no JSON", "{"),
+                true);
+
+        String key = running.settings().missions().scope().identity(id);
+        running.write(Topics.DEVICES_CONNECTION, key, connection.toBytes());
+
+        await().atMost(RunningApi.TIMEOUT)
+                .until(() -> running.get("/api/devices/" + id).has("connection"));
+        JsonNode shown = running.get("/api/devices/" + id).path("connection");
+        assertThat(shown.at("/refusedLogin/count").asInt()).isEqualTo(12);
+        assertThat(shown.at("/unreadablePayload/payload").asText()).isEqualTo("{");
+        assertThat(shown.path("registered").asBoolean()).isTrue();
+        assertThat(shown.path("cause").asText())
+                .isEqualTo("its password was refused 12 times, last at 1970-01-01T00:00:02Z");
+        assertThat(running.get("/api/devices?mission=hoeing").findValue("connection"))
+                .isNull();
+    }
+
     private void devices() throws Exception {
         String id = "urn:ngsi-ld:Thermometer:hoeing-1";
         assertThat(running.get("/api/devices?mission=hoeing&domain=south")).hasSize(4);
         assertThat(running.get("/api/devices/" + id).path("wanted").asText()).isEqualTo("running");
 
+        connection(id);
         JsonNode credentials = running.get("/api/devices/" + id + "/credentials");
         assertThat(credentials.path("apiKey").asText()).isEqualTo(RunningApi.SECRET.apiKey("hoeing"));
         assertThat(credentials.path("password").asText())

@@ -7,6 +7,10 @@ import java.time.Duration;
 import java.util.Properties;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.clients.producer.KafkaProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
 
 import io.furrow.control.ControlPlane;
 import io.furrow.control.ControlSettings;
@@ -68,6 +72,14 @@ public final class RunningApi implements AutoCloseable {
     public void refused(String method, String path, String body, int status, String error) throws Exception {
         boolean described = !error.equals("not-found");
         assertThat(client.error(client.send(method, path, body, described))).isEqualTo(status + " " + error);
+    }
+
+    /** What somebody else than the control plane writes. */
+    void write(String topic, String key, byte[] value) {
+        try (KafkaProducer<String, byte[]> producer =
+                new KafkaProducer<>(settings().client(), new StringSerializer(), new ByteArraySerializer())) {
+            producer.send(new ProducerRecord<>(topic, key, value));
+        }
     }
 
     public ControlSettings settings() {

@@ -42,6 +42,7 @@ public final class IotAgent implements ContextBroker.Commands {
     private static final Logger LOG = LoggerFactory.getLogger(IotAgent.class);
 
     private final DeviceRegistry registry;
+    private final MeasureHistory history;
     private final LongAdder measures = new LongAdder();
     private final LongAdder refused = new LongAdder();
     private final Set<String> warned = ConcurrentHashMap.newKeySet();
@@ -49,8 +50,9 @@ public final class IotAgent implements ContextBroker.Commands {
     private volatile URI provider = URI.create("http://127.0.0.1");
     private volatile Downlink downlink = (apikey, deviceId, command) -> false;
 
-    public IotAgent(DeviceRegistry registry) {
+    public IotAgent(DeviceRegistry registry, MeasureHistory history) {
         this.registry = registry;
+        this.history = history;
     }
 
     /** Set after construction, because each needs the other. */
@@ -95,6 +97,7 @@ public final class IotAgent implements ContextBroker.Commands {
                 update(device, device.mapping().attributes(object, now));
             }
             measures.increment();
+            history.measured(apikey, deviceId);
         });
     }
 
@@ -165,14 +168,16 @@ public final class IotAgent implements ContextBroker.Commands {
         try {
             Optional<Device> device = registry.behind(apikey, deviceId);
             if (device.isEmpty()) {
-                refuse(
-                        "unknown API key " + apikey,
-                        "%s of device %s: there is no device with this id and API key %s, or no service group with this key and resource %s"
-                                .formatted(what, deviceId, apikey, DeviceRegistry.RESOURCE));
+                String reason =
+                        "there is no device with this id and API key %s, or no service group with this key and resource %s"
+                                .formatted(apikey, DeviceRegistry.RESOURCE);
+                history.unknown(apikey, deviceId, payload, reason);
+                refuse("unknown API key " + apikey, "%s of device %s: %s".formatted(what, deviceId, reason));
                 return;
             }
             reaction.to(device.get(), NgsiJson.read(payload));
         } catch (UnreadableException | NgsiError e) {
+            history.unreadable(apikey, deviceId, payload, e.getMessage());
             refuse(apikey + "/" + deviceId, what + " of device " + deviceId + ": " + e.getMessage());
         }
     }

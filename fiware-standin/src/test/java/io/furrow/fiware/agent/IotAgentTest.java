@@ -160,6 +160,14 @@ class IotAgentTest {
         awaitValue(THERMOMETER, "Temperature", "5");
         assertThat(standIn.counters().measuresRefused()).isEqualTo(4);
         assertThat(standIn.counters().measures()).isEqualTo(1);
+        MeasureHistory.Received received = standIn.history().of("k1", "t1").orElseThrow();
+        assertThat(received.measured())
+                .isGreaterThanOrEqualTo(received.ignored().last());
+        assertThat(received.ignored().count()).isEqualTo(3);
+        assertThat(received.ignored().payload()).isEqualTo("{\"a b\": 1}");
+        assertThat(received.ignored().reason()).isEqualTo("Invalid characters in attribute name");
+        assertThat(standIn.history().of("unknown", "t1").orElseThrow().ignored().reason())
+                .contains("there is no device with this id and API key unknown");
     }
 
     @Test

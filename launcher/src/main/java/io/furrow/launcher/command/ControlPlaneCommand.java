@@ -213,7 +213,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                                 secret,
                                 agent,
                                 provisioning.accounts().accounts(),
-                                provisioning.gateways));
+                                provisioning.gateways,
+                                provisioning.accounts().connections()));
     }
 
     private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {

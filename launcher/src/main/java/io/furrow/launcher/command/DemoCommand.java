@@ -10,7 +10,6 @@ import picocli.CommandLine.Spec;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.launcher.Session;
 import io.furrow.launcher.option.SuiteOptions;
-import io.furrow.launcher.suite.SuiteSettings;
 
 /** {@code ./furrow demo}. */
 @Command(
@@ -31,10 +30,9 @@ public final class DemoCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws Exception {
-        return new Session(spec.commandLine().getOut())
-                .run(options.settings(null, null, SuiteSettings.Farm.SIMULATED), options.data, suite -> {
-                    DemoFarm.start(suite.control());
-                    return () -> {};
-                });
+        return new Session(spec.commandLine().getOut()).run(options.demonstration(), options.data, suite -> {
+            DemoFarm.start(suite.control());
+            return () -> {};
+        });
     }
 }

@@ -34,7 +34,7 @@ import io.furrow.simulators.scenario.Farm;
         sortOptions = false,
         description = {
             "Runs the devices of a scenario file, without a control plane: provisions them at the IoT Agent, connects them and lets"
-                    + " them report, by default to ./furrow up on this machine.",
+                    + " them report, by default to ./furrow demo on this machine.",
             "The form of the file: simulators/README.md."
         })
 public final class ScenarioCommand implements Callable<Integer> {

@@ -10,7 +10,7 @@ import picocli.CommandLine.Option;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.simulators.device.FleetSettings;
 
-/** The servers to which devices report, by default those of {@code ./furrow up} on this machine. */
+/** The servers to which devices report, by default those of {@code ./furrow demo} on this machine. */
 public final class FiwareOptions {
     @Option(
             names = "--orion",
@@ -45,13 +45,15 @@ public final class FiwareOptions {
             names = "--mqtt-user",
             paramLabel = "NAME",
             defaultValue = Suite.MQTT_USER,
-            description = "User at the MQTT broker. Default: ${DEFAULT-VALUE}.")
+            description =
+                    "User at the MQTT broker, who may publish as all devices; the broker of ./furrow up has none. "
+                            + "Default: ${DEFAULT-VALUE}.")
     private String user;
 
     @Option(
             names = "--mqtt-password-file",
             paramLabel = "FILE",
-            description = "File whose first line is the user's password. Default: the password of ./furrow up.")
+            description = "File whose first line is the user's password. Default: the password of ./furrow demo.")
     private Path passwordFile;
 
     @Option(

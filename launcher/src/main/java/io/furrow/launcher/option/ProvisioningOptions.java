@@ -57,6 +57,14 @@ public final class ProvisioningOptions {
     String reload;
 
     @Option(
+            names = "--mqtt-log",
+            paramLabel = "FILE",
+            description =
+                    "Mosquitto's log (log_dest file), in which it is read when devices log in and, with log_type all, to which "
+                            + "foreign topics they publish; see ./furrow device show. Need not exist yet.")
+    Path log;
+
+    @Option(
             names = "--farm-secret",
             paramLabel = "FILE",
             description =
@@ -111,9 +119,10 @@ public final class ProvisioningOptions {
      */
     public AgentSettings agent(String fiwareService) {
         if (iotAgent == null) {
-            if (passwords != null || rules != null || reload != null) {
-                throw new CommandException("--mqtt-password-file, --mqtt-acl-file and --mqtt-reload need --iot-agent: "
-                        + "only devices that are provisioned get accounts.");
+            if (passwords != null || rules != null || reload != null || log != null) {
+                throw new CommandException(
+                        "--mqtt-password-file, --mqtt-acl-file, --mqtt-reload and --mqtt-log need --iot-agent: "
+                                + "only devices that are provisioned get accounts.");
             }
             if (resource != null || interval != null) {
                 throw new CommandException(
@@ -135,7 +144,7 @@ public final class ProvisioningOptions {
     }
 
     public SuiteSettings.AccountFiles accounts() {
-        return new SuiteSettings.AccountFiles(passwords, rules, reload, gateways);
+        return new SuiteSettings.AccountFiles(passwords, rules, reload, gateways, log);
     }
 
     SuiteSettings.Secret secret() {

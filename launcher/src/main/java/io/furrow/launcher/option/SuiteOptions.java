@@ -144,7 +144,16 @@ public final class SuiteOptions {
     private static final String PORT_OF = "Port of ";
     private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
 
+    /** Of the demonstration: simulated devices, and a login that anybody can try. */
+    public SuiteSettings demonstration() {
+        return suite(null, null, SuiteSettings.Farm.SIMULATED);
+    }
+
     public SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm) {
+        return suite(orion, kafka, farm).withoutSharedLogin();
+    }
+
+    private SuiteSettings suite(URI orion, String kafka, SuiteSettings.Farm farm) {
         SuiteSettings.Ports ports = new SuiteSettings.Ports(
                 kafkaPort,
                 connectPort,
@@ -168,6 +177,7 @@ public final class SuiteOptions {
                 mongo,
                 farm,
                 watch.watch(horizon),
-                access.allowed());
+                access.allowed(),
+                true);
     }
 }

@@ -11,6 +11,11 @@ record LiveUsers(LiveAccounts accounts) implements EmbeddedMqtt.Users {
     }
 
     @Override
+    public boolean exists(String user) {
+        return accounts.exists(user);
+    }
+
+    @Override
     public boolean mayWrite(String user, String topic) {
         return accounts.mayWrite(user, topic);
     }

@@ -6,6 +6,7 @@ import java.nio.file.Path;
 import java.util.Collection;
 import java.util.List;
 import java.util.Map;
+import java.util.UUID;
 import java.util.concurrent.CompletionException;
 
 import io.furrow.cli.CommandException;
@@ -33,10 +34,12 @@ import io.furrow.simulators.device.FleetSettings;
  * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
  */
 public final class Suite implements AutoCloseable {
-    /** The MQTT user of the IoT Agent, and of devices that no mission has. */
+    /** The MQTT user of the demonstration, who may publish as any device. */
     public static final String MQTT_USER = "device";
     /** Its password; good enough for a broker that only this machine reaches. */
     public static final String MQTT_PASSWORD = "furrow";
+
+    private static final String AGENT_USER = "iot-agent";
 
     /** One for each of our jobs, and those of replays. */
     private static final int SLOTS = 9 + EmbeddedAnalytics.SLOTS;
@@ -59,6 +62,7 @@ public final class Suite implements AutoCloseable {
     private SuiteControl control;
     private ReplayAnalytics replays;
     private final LiveAccounts accounts = new LiveAccounts();
+    private final String agentPassword = UUID.randomUUID().toString();
     private URI listener;
     private URI dashboard;
 
@@ -206,11 +210,16 @@ public final class Suite implements AutoCloseable {
             contextBroker = settings.orion();
             return;
         }
-        mqtt = farm.add(
-                "MQTT",
-                EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD), new LiveUsers(accounts)));
+        mqtt = farm.add("MQTT", EmbeddedMqtt.start(settings.ports().mqtt(), passwords(), new LiveUsers(accounts)));
         fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
+    }
+
+    /** Of those who may do everything. */
+    private Map<String, String> passwords() {
+        return settings.sharedLogin()
+                ? Map.of(AGENT_USER, agentPassword, MQTT_USER, MQTT_PASSWORD)
+                : Map.of(AGENT_USER, agentPassword);
     }
 
     private SuiteControl.Endpoints ends() {
@@ -229,7 +238,7 @@ public final class Suite implements AutoCloseable {
 
     private FiwareSettings standIn() {
         FiwareSettings here = new FiwareSettings(
-                        settings.ports().orion(), settings.ports().iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD)
+                        settings.ports().orion(), settings.ports().iotAgent(), mqtt.uri(), AGENT_USER, agentPassword)
                 .withAllowed(settings.allowed());
         return directory.isTemporary() ? here : here.withState(directory.resolve("fiware.json.gz"));
     }
@@ -295,6 +304,11 @@ public final class Suite implements AutoCloseable {
     /** A sentence for each replay whose analytics waits for room. */
     public Collection<String> waitingAnalytics() {
         return replays.waiting();
+    }
+
+    /** Whether the MQTT broker knows the login of {@link #devices()}. */
+    public boolean hasSharedLogin() {
+        return settings.sharedLogin();
     }
 
     /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */

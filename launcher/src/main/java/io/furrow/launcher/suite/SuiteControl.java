@@ -17,6 +17,7 @@ import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.provisioner.AgentSettings;
+import io.furrow.provisioner.ConnectionSources;
 import io.furrow.provisioner.ProvisioningSettings;
 import io.furrow.provisioner.account.LiveAccounts;
 import io.furrow.provisioner.account.MqttAccounts;
@@ -41,14 +42,20 @@ final class SuiteControl implements AutoCloseable {
      * @param mqtt null if none are simulated
      * @param accounts of the MQTT broker
      */
-    record Endpoints(URI contextBroker, AgentSettings iotAgent, MqttAccess mqtt, List<MqttAccounts> accounts) {
+    record Endpoints(
+            URI contextBroker,
+            AgentSettings iotAgent,
+            MqttAccess mqtt,
+            List<MqttAccounts> accounts,
+            ConnectionSources connections) {
         /** Those of this suite. */
         static Endpoints of(FiwareStandIn fiware, EmbeddedMqtt mqtt, LiveAccounts accounts) {
             return new Endpoints(
                     fiware.contextBroker(),
                     AgentSettings.at(fiware.iotAgent()),
                     new MqttAccess(mqtt.uri(), null, 1),
-                    List.of(accounts));
+                    List.of(accounts),
+                    new ConnectionSources(List.of(accounts), new StandInMeasures(fiware.history())));
         }
 
         /** Those that were there before. */
@@ -57,7 +64,8 @@ final class SuiteControl implements AutoCloseable {
                     contextBroker,
                     farm.iotAgent(),
                     farm.mqtt() == null ? null : new MqttAccess(farm.mqtt(), farm.mqttTrusted(), 1),
-                    farm.accounts().accounts());
+                    farm.accounts().accounts(),
+                    farm.accounts().connections());
         }
     }
 
@@ -110,7 +118,8 @@ final class SuiteControl implements AutoCloseable {
                                 source,
                                 ends.iotAgent(),
                                 ends.accounts(),
-                                simulates || farm.accounts().gateways()));
+                                simulates || farm.accounts().gateways(),
+                                ends.connections()));
         if (simulates) {
             devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), source));
             service.require(this::deviceHost);

@@ -14,7 +14,10 @@ import io.furrow.control.health.HealthOptions;
 import io.furrow.control.mission.MissionOptions;
 import io.furrow.http.AllowedNames;
 import io.furrow.provisioner.AgentSettings;
+import io.furrow.provisioner.ConnectionSources;
+import io.furrow.provisioner.MeasureReports;
 import io.furrow.provisioner.account.MosquittoFiles;
+import io.furrow.provisioner.account.MosquittoLog;
 import io.furrow.provisioner.account.MqttAccounts;
 
 /**
@@ -30,6 +33,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  * @param farm how devices of missions are provisioned and hosted
  * @param watch what is done about alarms
  * @param allowed hosts and origins of every HTTP server beside their own
+ * @param sharedLogin whether the suite's own MQTT broker has a login that may publish as any device
  */
 public record SuiteSettings(
         Path kafkaProperties,
@@ -42,7 +46,8 @@ public record SuiteSettings(
         String mongo,
         Farm farm,
         Watch watch,
-        AllowedNames allowed) {
+        AllowedNames allowed,
+        boolean sharedLogin) {
 
     /** Ports on 127.0.0.1, each 0 for a free one. */
     public record Ports(
@@ -90,7 +95,7 @@ public record SuiteSettings(
                 null,
                 null,
                 null,
-                new AccountFiles(null, null, null, false),
+                new AccountFiles(null, null, null, false, null),
                 new Secret(null, null),
                 null,
                 new Missions(MissionOptions.START_TIMEOUT, true, true));
@@ -120,8 +125,14 @@ public record SuiteSettings(
      * @param rules null for none
      * @param reload run after a change; null for nothing
      * @param gateways whether each mission has an account that speaks for all its devices
+     * @param log Mosquitto's; null for none
      */
-    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways) {
+    public record AccountFiles(Path passwords, Path rules, String reload, boolean gateways, Path log) {
+        /** What the broker's log says of logins. */
+        public ConnectionSources connections() {
+            return new ConnectionSources(log == null ? List.of() : List.of(new MosquittoLog(log)), MeasureReports.NONE);
+        }
+
         /** The accounts of an MQTT broker that has these files; none where none are named. */
         public List<MqttAccounts> accounts() {
             if (passwords == null && rules == null) {
@@ -157,6 +168,23 @@ public record SuiteSettings(
         }
     }
 
+    /** As {@code ./furrow up} starts it: each device has a login of its own. */
+    public SuiteSettings withoutSharedLogin() {
+        return new SuiteSettings(
+                kafkaProperties,
+                fiwareService,
+                window,
+                fields,
+                ports,
+                orion,
+                kafka,
+                mongo,
+                farm,
+                watch,
+                allowed,
+                false);
+    }
+
     /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
     public static SuiteSettings onFreePorts(String window) {
         return new SuiteSettings(
@@ -170,6 +198,7 @@ public record SuiteSettings(
                 null,
                 Farm.SIMULATED,
                 Watch.DEFAULT,
-                AllowedNames.NONE);
+                AllowedNames.NONE,
+                true);
     }
 }

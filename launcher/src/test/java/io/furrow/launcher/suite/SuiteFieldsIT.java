@@ -154,7 +154,8 @@ class SuiteFieldsIT {
                 null,
                 SuiteSettings.Farm.SIMULATED,
                 SuiteSettings.Watch.DEFAULT,
-                AllowedNames.NONE);
+                AllowedNames.NONE,
+                true);
     }
 
     private Path file(String... features) throws Exception {

@@ -1,6 +1,7 @@
 package io.furrow.model.device;
 
 import java.io.IOException;
+import java.net.URLDecoder;
 import java.net.URLEncoder;
 import java.nio.charset.StandardCharsets;
 import java.nio.file.Path;
@@ -11,6 +12,7 @@ import java.util.Base64;
 import java.util.Comparator;
 import java.util.List;
 import java.util.Objects;
+import java.util.Optional;
 
 /**
  * The one secret of a farm, of which the API key of each mission and the MQTT password of each device are made: the control plane,
@@ -172,6 +174,26 @@ public final class FarmSecret {
     private static Login login(FarmKey key, String name) {
         String user = USER_PREFIX + name;
         return new Login(user, key.code("password", user));
+    }
+
+    /** The device of which a user is the login, of whatever key and generation; empty for all other users. */
+    public static Optional<String> deviceOf(String user) {
+        String[] parts = user.split("\\.", -1);
+        return parts.length == 6 && user.startsWith(USER_PREFIX + "d.") ? decoded(parts[3]) : Optional.empty();
+    }
+
+    /** The mission of which a user is the gateway's login, of whatever key; empty for all other users. */
+    public static Optional<String> missionOf(String user) {
+        String[] parts = user.split("\\.", -1);
+        return parts.length == 4 && user.startsWith(USER_PREFIX + "m.") ? decoded(parts[2]) : Optional.empty();
+    }
+
+    private static Optional<String> decoded(String name) {
+        try {
+            return Optional.of(URLDecoder.decode(name, StandardCharsets.UTF_8));
+        } catch (IllegalArgumentException e) { // no name of ours: anybody can try to log in with any
+            return Optional.empty();
+        }
     }
 
     /** Without the signs that mean something in files or topics of an MQTT broker, and without the dot between the parts of a user. */

@@ -36,6 +36,8 @@ public final class Topics {
     public static final String DEVICES_STATUS = "service.devices.status";
     /** When each device was last heard of, its battery, whether it is silent; compacted. */
     public static final String DEVICES_HEALTH = "service.devices.health";
+
+    public static final String DEVICES_CONNECTION = "service.devices.connection";
     /** Status of each replay, reported by its player; compacted. */
     public static final String REPLAYS_STATUS = "service.replays.status";
 

@@ -202,6 +202,11 @@ class ComingAndGoingTest {
         }
 
         @Override
+        public boolean exists(String user) {
+            return passwords.containsKey(user);
+        }
+
+        @Override
         public boolean mayWrite(String user, String topic) {
             return passwords.containsKey(user);
         }

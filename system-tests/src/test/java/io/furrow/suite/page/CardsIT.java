@@ -5,6 +5,7 @@ import java.time.Instant;
 import java.util.regex.Pattern;
 
 import com.microsoft.playwright.Locator;
+import com.microsoft.playwright.Route;
 import com.microsoft.playwright.assertions.LocatorAssertions;
 import com.microsoft.playwright.options.AriaRole;
 import com.microsoft.playwright.options.BoundingBox;
@@ -34,6 +35,35 @@ class CardsIT {
             assertThat(card.locator(".attributes")).containsText(attribute);
         }
         assertThat(card.locator("svg.spark path")).hasAttribute("d", Pattern.compile("^M.*L.*"));
+    }
+
+    @Tag("full")
+    @Test
+    void saysHowADeviceIsConnected(PageSuite suite) {
+        FarmPage farm = suite.open("");
+        farm.page()
+                .route("**/api/devices/*Thermometer*", route -> route.fulfill(new Route.FulfillOptions().setBody("""
+                {"connection": {
+                  "refusedLogin": {"count": 12, "last": 1795705077000, "reason": "wrong-password", "user": "u"},
+                  "unreadablePayload": {"count": 1, "last": 1795705077000, "reason": "no JSON", "payload": "<b>21</b>"},
+                  "lastReport": {"time": 1795705070000, "received": 1795705069000, "offset": -1000},
+                  "registered": false}}""")));
+        Locator card = farm.card(DEFECTIVE);
+        card.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
+                .click();
+
+        assertThat(card.locator(".connection")).containsText(new Pattern[] {
+            Pattern.compile("its clock is 1.0 s ahead"),
+            Pattern.compile("The IoT Agent does not know it"),
+            Pattern.compile("Its password was refused 12 times"),
+            Pattern.compile("1 of its messages could not be read, the last at .*: no JSON. It began with <b>21</b>")
+        });
+
+        Locator station = farm.card(STATION);
+        station.getByRole(AriaRole.BUTTON, new Locator.GetByRoleOptions().setName("All attributes of"))
+                .click();
+        assertThat(station.locator(".connection").first()).containsText("Last report of");
+        assertThat(station.locator(".card-details")).containsText("Connected to the MQTT broker at");
     }
 
     /** {@code data.latest} is behind {@code data.raw}, by a checkpoint where it is written exactly once. */

@@ -23,7 +23,7 @@ class EmptyFarmIT {
         farm.open("");
 
         assertThat(farm.find("furrow-map .map-empty")).containsText("No devices yet");
-        assertThat(farm.find("furrow-map .map-empty code")).hasText("./furrow scenario");
+        assertThat(farm.find("furrow-map .map-empty code")).hasText("./furrow demo");
         assertThat(farm.find("furrow-cards .empty")).containsText("No devices yet");
         assertThat(farm.find("furrow-cards .skeleton").first()).isHidden();
         assertThat(farm.find(".alarm-none")).hasText("No open alarms");

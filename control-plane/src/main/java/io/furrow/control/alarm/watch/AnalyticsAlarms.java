@@ -2,6 +2,7 @@ package io.furrow.control.alarm.watch;
 
 import java.time.Duration;
 import java.util.List;
+import java.util.Optional;
 import java.util.function.BiFunction;
 import java.util.function.Function;
 import java.util.stream.Stream;
@@ -77,10 +78,16 @@ public final class AnalyticsAlarms {
         send(clocks, opening, types, "clocks");
     }
 
-    /** @param statuses the records of {@code service.missions.status}, in a single partition */
-    public static void addStarts(KStream<String, byte[]> statuses, Types types) {
+    /**
+     * @param statuses the records of {@code service.missions.status}, in a single partition
+     * @param causes creates a lookup why a device is not heard, by its id
+     */
+    public static void addStarts(
+            KStream<String, byte[]> statuses,
+            Types types,
+            Function<ProcessorContext<?, ?>, Function<String, Optional<String>>> causes) {
         BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            WatchStarts watch = new WatchStarts(AlarmManager.handler(context, outbox));
+            WatchStarts watch = new WatchStarts(AlarmManager.handler(context, outbox), causes.apply(context));
             return (record, now) -> watch.take(
                     record.key(),
                     record.value() == null ? null : StateJson.readRecord(record.value(), MissionStatus.class),

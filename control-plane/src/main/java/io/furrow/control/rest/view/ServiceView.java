@@ -31,6 +31,7 @@ public final class ServiceView {
             Topics.DEVICES,
             Topics.DEVICES_STATUS,
             Topics.DEVICES_HEALTH,
+            Topics.DEVICES_CONNECTION,
             Topics.REPLAYS,
             Topics.REPLAYS_STATUS,
             Topics.RECORDINGS,

@@ -1,0 +1,63 @@
+package io.furrow.control.health;
+
+import org.junit.jupiter.api.Test;
+
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.ForeignTopic;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
+import io.furrow.model.device.DeviceConnection.UnreadablePayload;
+
+import static org.assertj.core.api.Assertions.assertThat;
+
+class SilenceCauseTest {
+    private static final long START = 1_700_000_000_000L;
+    private static final String AT = "2023-11-14T22:13:2";
+    private static final RefusedLogin REFUSED =
+            new RefusedLogin(2, START + 2000, DeviceConnection.UNKNOWN_USER, "furrow.d.m.d.1.0");
+    private static final ForeignTopic FOREIGN = new ForeignTopic(3, START + 3000, "/k/e/attrs");
+    private static final UnreadablePayload UNREADABLE = new UnreadablePayload(4, START + 4000, "no JSON", "{");
+
+    @Test
+    void saysTheNewestOfWhatWasObserved() {
+        assertThat(text(null, REFUSED, null, null, null))
+                .isEqualTo("its user furrow.d.m.d.1.0 does not exist or no longer, and was refused 2 times, last at "
+                        + AT + "2Z");
+        assertThat(text(START, REFUSED, FOREIGN, null, null))
+                .isEqualTo("it published 3 times where it may not, last at " + AT + "3Z to /k/e/attrs");
+        assertThat(text(START, REFUSED, FOREIGN, UNREADABLE, null))
+                .isEqualTo("4 of its messages could not be read, the last at " + AT + "4Z: no JSON");
+    }
+
+    @Test
+    void leavesOutWhatIsOver() {
+        assertThat(text(START + 2500, REFUSED, null, null, START)).startsWith("it connected at " + AT + "2Z");
+        assertThat(text(START, REFUSED, FOREIGN, UNREADABLE, START + 5000)).isEmpty();
+    }
+
+    @Test
+    void saysThatADeviceNeverConnectedOrSaysNothing() {
+        assertThat(text(null, null, null, null, null))
+                .isEqualTo("it has not connected to the MQTT broker since " + AT + "0Z");
+        assertThat(text(START + 1000, null, null, null, START))
+                .isEqualTo("it connected at " + AT + "1Z and has sent nothing since");
+    }
+
+    @Test
+    void saysNothingWhereNobodyObservesLogins() {
+        assertThat(SilenceCause.of(new DeviceConnection(null, null, null, null, null, true), null))
+                .isEmpty();
+    }
+
+    @Test
+    void saysThatTheAgentDoesNotKnowIt() {
+        assertThat(SilenceCause.of(new DeviceConnection(START, START, REFUSED, null, null, false), null))
+                .contains(new SilenceCause("not-registered", "the IoT Agent does not know it"));
+    }
+
+    private static String text(
+            Long loggedIn, RefusedLogin refused, ForeignTopic foreign, UnreadablePayload unreadable, Long heard) {
+        return SilenceCause.of(new DeviceConnection(START, loggedIn, refused, foreign, unreadable, true), heard)
+                .map(SilenceCause::text)
+                .orElse("");
+    }
+}

@@ -1,0 +1,92 @@
+package io.furrow.fiware.agent;
+
+import java.nio.charset.StandardCharsets;
+import java.time.Clock;
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Optional;
+import java.util.function.UnaryOperator;
+
+/**
+ * Remembers when devices last sent a measure, and what the agent could not read; an agent of FIWARE only logs it. Of senders that
+ * the agent does not know, as of devices, the newest are remembered: anybody who may publish can name as many as he likes. Safe
+ * from all threads.
+ */
+public final class MeasureHistory {
+    private static final int MAX_DEVICES = 100_000;
+    private static final int MAX_STRANGERS = 1000;
+    private static final int MAX_NAME = 256;
+    private static final int MAX_PAYLOAD = 200;
+
+    private final Clock clock;
+    private final Map<Sender, Received> devices = newest(MAX_DEVICES);
+    private final Map<Sender, Received> strangers = newest(MAX_STRANGERS);
+
+    /** The two variable parts of a topic. */
+    private record Sender(String apikey, String device) {}
+
+    /**
+     * What came from a device; all times are epoch ms.
+     *
+     * @param measured when it last sent a measure that could be read; null if never
+     * @param ignored the newest message that was not taken; null if there was none
+     */
+    public record Received(Long measured, Ignored ignored) {}
+
+    /**
+     * Messages that were not taken.
+     *
+     * @param reason of the last one
+     * @param payload the first bytes of the last one
+     */
+    public record Ignored(long count, long last, String reason, String payload) {}
+
+    public MeasureHistory(Clock clock) {
+        this.clock = clock;
+    }
+
+    private static Map<Sender, Received> newest(int max) {
+        return new LinkedHashMap<>(16, 0.75f, true) {
+            private static final long serialVersionUID = 1L;
+
+            @Override
+            protected boolean removeEldestEntry(Map.Entry<Sender, Received> eldest) {
+                return size() > max;
+            }
+        };
+    }
+
+    /** What came from a device, or under a name that no device has; empty if nothing did, or too long ago. */
+    public synchronized Optional<Received> of(String apikey, String device) {
+        Sender sender = new Sender(apikey, device);
+        return Optional.ofNullable(devices.getOrDefault(sender, strangers.get(sender)));
+    }
+
+    void measured(String apikey, String device) {
+        update(devices, apikey, device, known -> new Received(clock.millis(), known.ignored()));
+    }
+
+    void unreadable(String apikey, String device, byte[] payload, String reason) {
+        ignored(devices, apikey, device, payload, reason);
+    }
+
+    void unknown(String apikey, String device, byte[] payload, String reason) {
+        ignored(strangers, apikey, device, payload, reason);
+    }
+
+    private void ignored(Map<Sender, Received> among, String apikey, String device, byte[] payload, String reason) {
+        String begin = new String(payload, 0, Math.min(payload.length, MAX_PAYLOAD), StandardCharsets.UTF_8);
+        update(among, apikey, device, known -> {
+            long before = known.ignored() == null ? 0 : known.ignored().count();
+            return new Received(known.measured(), new Ignored(before + 1, clock.millis(), reason, begin));
+        });
+    }
+
+    private synchronized void update(
+            Map<Sender, Received> among, String apikey, String device, UnaryOperator<Received> change) {
+        if (apikey.length() <= MAX_NAME && device.length() <= MAX_NAME) {
+            Sender sender = new Sender(apikey, device);
+            among.put(sender, change.apply(among.getOrDefault(sender, new Received(null, null))));
+        }
+    }
+}

@@ -1,0 +1,56 @@
+package io.furrow.provisioner.account;
+
+import java.util.LinkedHashMap;
+import java.util.Map;
+import java.util.Set;
+import java.util.function.UnaryOperator;
+
+/**
+ * Remembers what happened at logins, of a limited number of users: those of whom nothing was heard for longest are forgotten.
+ * Names and topics are bounded too, because clients choose them. Safe from all threads.
+ */
+final class LoginHistory {
+    private static final int MAX_USER = 1024;
+    private static final int MAX_TOPIC = 256;
+
+    private final Map<String, LoginReport> byUser;
+
+    LoginHistory(int max) {
+        byUser = new LinkedHashMap<>(16, 0.75f, true) {
+            private static final long serialVersionUID = 1L;
+
+            @Override
+            protected boolean removeEldestEntry(Map.Entry<String, LoginReport> eldest) {
+                return size() > max;
+            }
+        };
+    }
+
+    void loggedIn(String user, long now) {
+        update(user, known -> known.loggedIn(now));
+    }
+
+    void refused(String user, String reason, long now) {
+        update(user, known -> known.refused(user, reason, now));
+    }
+
+    void published(String user, String topic, long now) {
+        String begin = topic.length() > MAX_TOPIC ? topic.substring(0, MAX_TOPIC) + "…" : topic;
+        update(user, known -> known.published(begin, now));
+    }
+
+    /** Forgets all others. */
+    synchronized void retain(Set<String> users) {
+        byUser.keySet().retainAll(users);
+    }
+
+    synchronized Map<String, LoginReport> reports() {
+        return Map.copyOf(byUser);
+    }
+
+    private synchronized void update(String user, UnaryOperator<LoginReport> change) {
+        if (user.length() <= MAX_USER) {
+            byUser.put(user, change.apply(byUser.getOrDefault(user, LoginReport.NONE)));
+        }
+    }
+}

@@ -1,0 +1,136 @@
+package io.furrow.provisioner;
+
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.Optional;
+import java.util.Properties;
+import java.util.Set;
+import java.util.concurrent.atomic.AtomicLong;
+
+import org.apache.kafka.clients.producer.MockProducer;
+import org.apache.kafka.clients.producer.ProducerRecord;
+import org.apache.kafka.common.serialization.ByteArraySerializer;
+import org.apache.kafka.common.serialization.StringSerializer;
+import org.junit.jupiter.api.BeforeEach;
+import org.junit.jupiter.api.Test;
+
+import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.ForeignTopic;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
+import io.furrow.model.device.DeviceConnection.UnreadablePayload;
+import io.furrow.model.device.WantedDevice;
+import io.furrow.model.topic.Topics;
+import io.furrow.provisioner.account.LoginReport;
+
+import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.tuple;
+
+class ConnectionPublisherTest {
+    private static final long START = 1_700_000_000_000L;
+    private static final long INTERVAL = ConnectionPublisher.INTERVAL.toMillis();
+
+    private final MockProducer<String, byte[]> producer =
+            new MockProducer<>(true, null, new StringSerializer(), new ByteArraySerializer());
+    private final AtomicLong now = new AtomicLong(START);
+    private final WantedDevices wanted = new WantedDevices(Wanted.SCOPE);
+    private final WantedDevice device = Wanted.thermometer("hoeing", 1);
+    private final String key = device.version().key();
+    private final String user = Wanted.SECRET.device("hoeing", device.device()).user();
+    private final Map<String, LoginReport> logins = new HashMap<>();
+    private UnreadablePayload unreadable;
+    private final ConnectionPublisher publisher = publisher(new ConnectionSources(
+            List.of(() -> logins),
+            (apiKey, id) -> apiKey.equals(Wanted.SECRET.apiKey("hoeing")) && id.equals(device.device())
+                    ? Optional.ofNullable(unreadable)
+                    : Optional.empty()));
+
+    @BeforeEach
+    void want() {
+        wanted.take(key, device);
+    }
+
+    @Test
+    void publishesWhatBrokerAndAgentKnowOfADevice() throws Exception {
+        RefusedLogin refused = new RefusedLogin(2, START + 2, DeviceConnection.WRONG_PASSWORD, user);
+        ForeignTopic foreign = new ForeignTopic(1, START + 3, "/k/e/attrs");
+        unreadable = new UnreadablePayload(1, START + 4, "no JSON", "{");
+        logins.put(user, new LoginReport(START + 1, refused, foreign));
+
+        publish(Set.of(key));
+
+        assertThat(producer.history())
+                .extracting(ProducerRecord::topic, ProducerRecord::key)
+                .containsExactly(tuple(Topics.DEVICES_CONNECTION, key));
+        assertThat(newest()).isEqualTo(new DeviceConnection(START, START + 1, refused, foreign, unreadable, true));
+    }
+
+    /** After a rotation, or on another mission, it tries with what it has. */
+    @Test
+    void countsLoginsWithOldCredentialsForTheDevice() throws Exception {
+        String old = Wanted.SECRET.device("weeding", device.device(), 3).user();
+        RefusedLogin refused = new RefusedLogin(7, START + 2, DeviceConnection.UNKNOWN_USER, old);
+        logins.put(old, new LoginReport(null, refused, null));
+        logins.put(user, new LoginReport(START + 1, null, null));
+        logins.put("furrow.d.m.%zz.1.0", new LoginReport(null, refused, null));
+        logins.put("stranger", new LoginReport(null, refused, null));
+
+        publish(Set.of());
+
+        assertThat(newest()).isEqualTo(new DeviceConnection(START, START + 1, refused, null, null, false));
+    }
+
+    @Test
+    void takesTheLoginOfTheGatewayThatSpeaksForADevice() throws Exception {
+        ForeignTopic foreign = new ForeignTopic(1, START, "/k/e/attrs");
+        logins.put(Wanted.SECRET.gateway("hoeing").user(), new LoginReport(START + 1, null, foreign));
+
+        publish(Set.of(key));
+
+        assertThat(newest()).isEqualTo(new DeviceConnection(START, START + 1, null, null, null, true));
+    }
+
+    @Test
+    void publishesWhereSomethingChangedAndAtMostEveryTenSeconds() {
+        publish(null);
+        publish(null);
+        assertThat(producer.history()).hasSize(1);
+        logins.put(user, new LoginReport(START + 1, null, null));
+        publisher.publish(null);
+        assertThat(producer.history()).hasSize(1);
+        publish(null);
+        assertThat(producer.history()).hasSize(2);
+
+        wanted.take(key, Wanted.stopped(device));
+        publish(null);
+        publish(null);
+        assertThat(producer.history()).hasSize(3);
+        assertThat(producer.history().get(2).value()).isNull();
+    }
+
+    @Test
+    void saysThatNobodyObservesLogins() throws Exception {
+        ConnectionPublisher unsure = publisher(ConnectionSources.NONE);
+        now.addAndGet(INTERVAL);
+        unsure.publish(Set.of(key));
+
+        assertThat(newest()).isEqualTo(new DeviceConnection(null, null, null, null, null, true));
+    }
+
+    private ConnectionPublisher publisher(ConnectionSources sources) {
+        ProvisioningSettings settings = new ProvisioningSettings(
+                new Properties(), Wanted.SCOPE, SecretSource.of(Wanted.SECRET), null, List.of(), true, sources);
+        return new ConnectionPublisher(settings, wanted, producer, now::get);
+    }
+
+    private void publish(Set<String> registered) {
+        now.addAndGet(INTERVAL);
+        publisher.publish(registered);
+    }
+
+    private DeviceConnection newest() throws Exception {
+        return DeviceConnection.read(
+                producer.history().get(producer.history().size() - 1).value());
+    }
+}
