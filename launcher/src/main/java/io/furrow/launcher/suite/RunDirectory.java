@@ -62,6 +62,11 @@ public final class RunDirectory implements AutoCloseable {
      * @throws CommandException if it cannot be written or another suite uses it
      */
     public static RunDirectory open(Path kept) {
+        if (kept != null && kept.toAbsolutePath().toString().contains(",")) {
+            throw new CommandException(
+                    "--data %s has a comma in its path, at which Kafka would divide it. Name another directory."
+                            .formatted(kept));
+        }
         try {
             Path path = kept == null ? Files.createTempDirectory("furrow-") : make(kept.toAbsolutePath());
             FileChannel lock = lock(path);
