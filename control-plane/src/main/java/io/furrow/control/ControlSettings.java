@@ -57,9 +57,9 @@ public record ControlSettings(
         return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions, replays);
     }
 
-    /** The missions' entities belong to a tenant of the context broker, at the root of its service paths. */
-    public ControlSettings withTenant(String service) {
-        return with(new MissionOptions(missions.timeout(), FiwareScope.of(service, "/")));
+    /** The missions' entities belong to a tenant and service path of the context broker. */
+    public ControlSettings withScope(FiwareScope scope) {
+        return with(new MissionOptions(missions.timeout(), scope));
     }
 
     public ControlSettings withStandbyReplicas(int replicas) {

@@ -16,13 +16,14 @@ import io.moquette.broker.security.IAuthenticator;
 import io.moquette.broker.security.IAuthorizatorPolicy;
 import io.moquette.broker.subscriptions.Topic;
 
-/** An MQTT 3.1.1 broker in this JVM, on 127.0.0.1, that lets nobody in without a user and password. */
+/** An MQTT 3.1.1 broker in this JVM, on 127.0.0.1 unless told otherwise, that lets nobody in without a user and password. */
 public final class EmbeddedMqtt implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
     private static final int MAX_MESSAGE_BYTES = 16 * 1024 * 1024;
     private static final int MAX_WAITING = 64 * 1024;
 
     private final Server server;
+    private final String host;
     private final int port;
 
     /** Users who come and go while the broker runs; asked at each connection, subscription and message. */
@@ -55,8 +56,9 @@ public final class EmbeddedMqtt implements AutoCloseable {
         }
     }
 
-    private EmbeddedMqtt(Server server, int port) {
+    private EmbeddedMqtt(Server server, String host, int port) {
         this.server = server;
+        this.host = host;
         this.port = port;
     }
 
@@ -79,10 +81,20 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param others who may do what they may
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords, Users others) {
+        return start(HOST, port, passwords, others);
+    }
+
+    /**
+     * @param host address to listen on
+     * @param port 0 for a free one
+     * @param passwords of each user who may do everything
+     * @param others who may do what they may
+     */
+    public static EmbeddedMqtt start(String host, int port, Map<String, String> passwords, Users others) {
         // Found here because Moquette itself learns its port only some time after its start.
         int bound = FreePort.orFree(port);
         Properties properties = new Properties();
-        properties.setProperty("host", HOST);
+        properties.setProperty("host", host);
         properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
         // Clients without an id of their own, such as mosquitto_pub, leave it to the broker to give one.
@@ -104,14 +116,15 @@ public final class EmbeddedMqtt implements AutoCloseable {
                     authenticator,
                     new Rights(passwords.keySet(), others));
         } catch (IOException e) {
-            throw new UncheckedIOException("the MQTT broker cannot listen on " + HOST + ":" + bound, e);
+            throw new UncheckedIOException("the MQTT broker cannot listen on " + host + ":" + bound, e);
         }
-        return new EmbeddedMqtt(server, bound);
+        return new EmbeddedMqtt(server, host, bound);
     }
 
-    /** {@code tcp://127.0.0.1:<port>}. */
+    /** {@code tcp://<host>:<port>}, of one that listens on all addresses that of 127.0.0.1. */
     public URI uri() {
-        return URI.create("tcp://" + HOST + ":" + port);
+        String reached = host.equals("0.0.0.0") || host.equals("::") ? HOST : host;
+        return URI.create("tcp://" + (reached.contains(":") ? "[" + reached + "]" : reached) + ":" + port);
     }
 
     @Override

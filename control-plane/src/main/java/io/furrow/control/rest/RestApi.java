@@ -122,7 +122,7 @@ public final class RestApi implements AutoCloseable {
         readiness.require(reader::status);
         DeviceCommands commands = rest.contextBroker() == null
                 ? null
-                : new DeviceCommands(rest.contextBroker(), control.missions().scope());
+                : new DeviceCommands(rest.contextBroker(), control.missions().scope(), rest.token());
         DevicesResource.Means means =
                 new DevicesResource.Means(control.missions().scope(), commands, rest.secret());
         ResourceConfig config = new ResourceConfig();

@@ -10,6 +10,7 @@ import java.util.Objects;
 import io.furrow.control.rest.access.CertificateFiles;
 import io.furrow.http.AllowedNames;
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.file.AccessToken;
 
 /**
  * What the REST API is started with.
@@ -22,6 +23,7 @@ import io.furrow.kafka.secret.SecretSource;
  * @param certificate of TLS; null for plain HTTP
  * @param insecure whether other addresses may be reached over plain HTTP, because a proxy in front ends TLS
  * @param contextBroker through which commands go to devices; null if none do
+ * @param token of requests to it
  * @param secret of which the devices' credentials are made; null if they are not given out
  * @param allowed hosts and origins beside loopback and {@code host}, whether tokens are asked for or not
  */
@@ -33,6 +35,7 @@ public record RestSettings(
         CertificateFiles certificate,
         boolean insecure,
         URI contextBroker,
+        AccessToken token,
         SecretSource secret,
         AllowedNames allowed) {
     public RestSettings {
@@ -44,44 +47,64 @@ public record RestSettings(
     /** On 127.0.0.1, over plain HTTP, without tokens, commands to devices and credentials. */
     public static RestSettings on(int port) {
         return new RestSettings(
-                "127.0.0.1", port, Duration.ofSeconds(15), null, null, false, null, null, AllowedNames.NONE);
+                "127.0.0.1",
+                port,
+                Duration.ofSeconds(15),
+                null,
+                null,
+                false,
+                null,
+                AccessToken.NONE,
+                null,
+                AllowedNames.NONE);
     }
 
     public RestSettings withHost(String newHost) {
-        return new RestSettings(newHost, port, timeout, tokens, certificate, insecure, contextBroker, secret, allowed);
+        return new RestSettings(
+                newHost, port, timeout, tokens, certificate, insecure, contextBroker, token, secret, allowed);
     }
 
     public RestSettings withTimeout(Duration newTimeout) {
-        return new RestSettings(host, port, newTimeout, tokens, certificate, insecure, contextBroker, secret, allowed);
+        return new RestSettings(
+                host, port, newTimeout, tokens, certificate, insecure, contextBroker, token, secret, allowed);
     }
 
     public RestSettings withTokens(Path file) {
-        return new RestSettings(host, port, timeout, file, certificate, insecure, contextBroker, secret, allowed);
+        return new RestSettings(
+                host, port, timeout, file, certificate, insecure, contextBroker, token, secret, allowed);
     }
 
     /** @param files null for plain HTTP */
     public RestSettings withCertificate(CertificateFiles files) {
-        return new RestSettings(host, port, timeout, tokens, files, insecure, contextBroker, secret, allowed);
+        return new RestSettings(host, port, timeout, tokens, files, insecure, contextBroker, token, secret, allowed);
     }
 
     public RestSettings withInsecure(boolean proxied) {
-        return new RestSettings(host, port, timeout, tokens, certificate, proxied, contextBroker, secret, allowed);
+        return new RestSettings(
+                host, port, timeout, tokens, certificate, proxied, contextBroker, token, secret, allowed);
     }
 
     public RestSettings withContextBroker(URI uri) {
-        return new RestSettings(host, port, timeout, tokens, certificate, insecure, uri, secret, allowed);
+        return new RestSettings(host, port, timeout, tokens, certificate, insecure, uri, token, secret, allowed);
+    }
+
+    public RestSettings withToken(AccessToken ofBroker) {
+        return new RestSettings(
+                host, port, timeout, tokens, certificate, insecure, contextBroker, ofBroker, secret, allowed);
     }
 
     public RestSettings withSecret(SecretSource newSecret) {
-        return new RestSettings(host, port, timeout, tokens, certificate, insecure, contextBroker, newSecret, allowed);
+        return new RestSettings(
+                host, port, timeout, tokens, certificate, insecure, contextBroker, token, newSecret, allowed);
     }
 
     public RestSettings withAllowed(AllowedNames names) {
-        return new RestSettings(host, port, timeout, tokens, certificate, insecure, contextBroker, secret, names);
+        return new RestSettings(
+                host, port, timeout, tokens, certificate, insecure, contextBroker, token, secret, names);
     }
 
     /** @throws IOException where it would listen with less than its address needs; the message says what to do */
-    void check() throws IOException {
+    public void check() throws IOException {
         if (InetAddress.getByName(host).isLoopbackAddress()) {
             return;
         }
