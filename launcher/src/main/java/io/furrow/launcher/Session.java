@@ -73,7 +73,7 @@ public final class Session {
                 suite.kafka().clientProperties(),
                 suite.flink(),
                 suite.jobs(),
-                suite::waitingAnalytics,
+                suite::notices,
                 addresses.toString().strip().lines().map(String::strip).toList());
         try (StatusScreen drawn = StatusScreen.open();
                 Status status = new Status(out, drawn, shown)) {

@@ -32,9 +32,12 @@ public final class DemoCommand implements Callable<Integer> {
     @Override
     public Integer call() throws Exception {
         return new Session(spec.commandLine().getOut())
-                .run(options.settings(null, null, SuiteSettings.Farm.SIMULATED), options.data, suite -> {
-                    DemoFarm.start(suite.control());
-                    return () -> {};
-                });
+                .run(
+                        options.settings(null, null, SuiteSettings.Farm.SIMULATED, options.fiware()),
+                        options.data,
+                        suite -> {
+                            DemoFarm.start(suite.control());
+                            return () -> {};
+                        });
     }
 }

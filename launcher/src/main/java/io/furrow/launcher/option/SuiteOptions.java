@@ -144,7 +144,12 @@ public final class SuiteOptions {
     private static final String PORT_OF = "Port of ";
     private static final String DEFAULT = ", 0 for a free one. Default: ${DEFAULT-VALUE}.";
 
-    public SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm) {
+    /** Of the demonstration. */
+    public SuiteSettings.Fiware fiware() {
+        return SuiteSettings.Fiware.of(fiwareService);
+    }
+
+    public SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm, SuiteSettings.Fiware fiware) {
         SuiteSettings.Ports ports = new SuiteSettings.Ports(
                 kafkaPort,
                 connectPort,
@@ -159,7 +164,7 @@ public final class SuiteOptions {
                 dashboardPort);
         return new SuiteSettings(
                 kafkaProperties,
-                fiwareService,
+                fiware,
                 window,
                 fields,
                 ports,

@@ -148,7 +148,10 @@ public final class Status implements AutoCloseable {
 
     private static String line(String job, Optional<Lag> lag) {
         return lag.map(worst -> "%-50s %10d %s"
-                        .formatted(job, worst.records(), worst.source().isEmpty() ? "" : "  of " + worst.source())
+                        .formatted(
+                                job,
+                                worst.records(),
+                                worst.records() == 0 || worst.source().isEmpty() ? "" : "  of " + worst.source())
                         .stripTrailing())
                 .orElse("%-50s %10s".formatted(job, "unknown")); // has read nothing yet
     }

@@ -36,7 +36,10 @@ record StatusBlock(
     List<String> lines(int rows) {
         List<String> lines = new ArrayList<>();
         int share = Math.max(rows, FEW) / SHARES;
-        addresses.stream().limit(Math.min(1, rows)).forEach(lines::add); // that of the page
+        addresses.stream()
+                .limit(Math.min(1, rows))
+                .map(page -> page + "   Ctrl-C stops Furrow")
+                .forEach(lines::add);
         add(lines, "", notices, 0, share, rows);
         add(lines, "averages", results, 0, share, rows);
         add(lines, "collisions", collisions, 0, share, rows);

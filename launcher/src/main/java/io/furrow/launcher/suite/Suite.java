@@ -7,6 +7,7 @@ import java.util.Collection;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.CompletionException;
+import java.util.stream.Stream;
 
 import io.furrow.cli.CommandException;
 import io.furrow.dashboard.Dashboard;
@@ -30,7 +31,8 @@ import io.furrow.simulators.device.FleetSettings;
 
 /**
  * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, unless
- * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
+ * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only, unless told otherwise for
+ * notifications and MQTT.
  */
 public final class Suite implements AutoCloseable {
     /** The MQTT user of the IoT Agent, and of devices that no mission has. */
@@ -59,6 +61,7 @@ public final class Suite implements AutoCloseable {
     private SuiteControl control;
     private ReplayAnalytics replays;
     private final LiveAccounts accounts = new LiveAccounts();
+    private Connectors connectors;
     private URI listener;
     private URI dashboard;
 
@@ -94,6 +97,7 @@ public final class Suite implements AutoCloseable {
         SuiteFields.requireUsable(settings);
         FarmSecretFile.requireLasting(directory, settings);
         PortCheck.free(settings);
+        ServerCheck.answering(settings);
         LogFile.writeTo(directory.resolve("furrow.log"));
         // Before anything is kept, so that a directory with data has its secret.
         Path secret = FarmSecretFile.of(directory, settings.farm().secret().file());
@@ -208,7 +212,11 @@ public final class Suite implements AutoCloseable {
         }
         mqtt = farm.add(
                 "MQTT",
-                EmbeddedMqtt.start(settings.ports().mqtt(), Map.of(MQTT_USER, MQTT_PASSWORD), new LiveUsers(accounts)));
+                EmbeddedMqtt.start(
+                        settings.fiware().listening().mqttHost(),
+                        settings.ports().mqtt(),
+                        Map.of(MQTT_USER, MQTT_PASSWORD),
+                        new LiveUsers(accounts)));
         fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
     }
@@ -236,13 +244,12 @@ public final class Suite implements AutoCloseable {
 
     private void connectThem() throws Exception {
         int port = FreePort.orFree(settings.ports().listener());
-        listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
-        Connectors connectors = new Connectors(connect.uri());
+        SuiteSettings.Listening listening = settings.fiware().listening();
+        listener = URI.create("http://%s:%d/v2/notify".formatted(SuiteSettings.Listening.here(listening.host()), port));
+        connectors = new Connectors(connect.uri(), listener.resolve("/health"), settings.fiware());
         progress.step("NGSI source and sink", () -> {
             connectors.source(
-                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()),
-                    contextBroker,
-                    settings.fiwareService());
+                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()), contextBroker);
             connectors.sink(
                     contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
             return listener;
@@ -280,6 +287,10 @@ public final class Suite implements AutoCloseable {
         return listener;
     }
 
+    public SuiteSettings settings() {
+        return settings;
+    }
+
     /** The files of this suite. */
     public Path directory() {
         return directory.path();
@@ -292,15 +303,22 @@ public final class Suite implements AutoCloseable {
                         Map.Entry::getKey, job -> job.getValue().toHexString()));
     }
 
-    /** A sentence for each replay whose analytics waits for room. */
-    public Collection<String> waitingAnalytics() {
-        return replays.waiting();
+    /** A sentence for each replay whose analytics waits for room, and for a context broker that cannot notify this suite. */
+    public Collection<String> notices() {
+        return Stream.concat(connectors.undelivered().stream(), replays.waiting().stream())
+                .toList();
     }
 
     /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */
     public FleetSettings devices() {
         return new FleetSettings(
-                contextBroker, fiware.iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD, settings.fiwareService(), "/");
+                contextBroker,
+                fiware.iotAgent(),
+                mqtt.uri(),
+                MQTT_USER,
+                MQTT_PASSWORD,
+                fiwareService(),
+                settings.fiware().scope().servicePath());
     }
 
     /** Base of the control plane's REST API. */
@@ -314,7 +332,7 @@ public final class Suite implements AutoCloseable {
     }
 
     public String fiwareService() {
-        return settings.fiwareService();
+        return settings.fiware().scope().service();
     }
 
     /** Whether the MQTT broker and the stand-in are ours. */

@@ -71,7 +71,7 @@ final class SuiteControl implements AutoCloseable {
         Properties streams = kafka.clientProperties();
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
         this.settings = ControlSettings.of(streams)
-                .withTenant(suite.fiwareService())
+                .withScope(suite.fiware().scope())
                 .with(ReplaySettings.DEFAULT.withMongo(mongo));
         this.service = new ControlService(settings);
     }
@@ -90,11 +90,14 @@ final class SuiteControl implements AutoCloseable {
         api = service.serve(
                 RestSettings.on(suite.ports().control())
                         .withContextBroker(ends.contextBroker())
+                        .withToken(suite.fiware().token())
                         .withSecret(source)
                         .withTokens(farm.tokens())
                         .withAllowed(suite.allowed()),
                 suite.ports().health(),
-                suite.watch().options(new DeviceCommands(ends.contextBroker(), scope)),
+                suite.watch()
+                        .options(new DeviceCommands(
+                                ends.contextBroker(), scope, suite.fiware().token())),
                 ends.iotAgent() == null
                         ? null
                         : new ProvisioningSettings(

@@ -25,7 +25,7 @@ class StatusScreenTest {
     private final ByteArrayOutputStream written = new ByteArrayOutputStream();
 
     @ParameterizedTest
-    @CsvSource({"80, 24", "150, 60", "220, 60", "60, 5", "40, 1"})
+    @CsvSource({"80, 24", "150, 60", "220, 60", "80, 5", "80, 1"})
     void fillsTheTerminalAtMostAndScrollsNothingAway(int columns, int rows) throws Exception {
         Screen seen = new Screen(columns, rows);
         try (StatusScreen screen = new StatusScreen(terminal(columns, rows))) {
@@ -63,7 +63,9 @@ class StatusScreenTest {
                 int rows = size.getRows() == 0 ? 24 : size.getRows();
                 String drawn = taken();
                 assertThat(drawn).startsWith(CLEAR);
-                assertThat(new Screen(size.getColumns() == 0 ? 80 : size.getColumns(), rows).write(drawn).rows())
+                assertThat(new Screen(size.getColumns() == 0 ? 80 : size.getColumns(), rows)
+                                .write(drawn)
+                                .rows())
                         .isEqualTo(block(60).lines(rows));
             }
         }
@@ -97,7 +99,7 @@ class StatusScreenTest {
     void leavesOutTheEndOfWhatHasNoRoomAndSaysHowMuch() {
         assertThat(block(9).lines(24))
                 .containsExactly(
-                        "Dashboard   http://127.0.0.1:8080",
+                        "Dashboard   http://127.0.0.1:8080   Ctrl-C stops Furrow",
                         "  a notice",
                         "averages",
                         "  average 1",
