@@ -116,7 +116,13 @@ public final class Connectors {
 
     /** A sentence where the context broker says that its notifications do not arrive. */
     Optional<String> undelivered() {
-        for (JsonNode subscription : lookAt(health).path("subscriptions")) {
+        JsonNode seen;
+        try {
+            seen = lookAt(health);
+        } catch (UncheckedIOException e) { // of a source that starts again
+            return Optional.empty();
+        }
+        for (JsonNode subscription : seen.path("subscriptions")) {
             long failures = subscription.path("failsInARow").asLong();
             if (failures > 0) {
                 return Optional.of(

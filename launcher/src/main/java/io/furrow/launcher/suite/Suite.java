@@ -305,8 +305,10 @@ public final class Suite implements AutoCloseable {
 
     /** A sentence for each replay whose analytics waits for room, and for a context broker that cannot notify this suite. */
     public Collection<String> notices() {
-        return Stream.concat(connectors.undelivered().stream(), replays.waiting().stream())
-                .toList();
+        return hasStandIn()
+                ? replays.waiting()
+                : Stream.concat(connectors.undelivered().stream(), replays.waiting().stream())
+                        .toList();
     }
 
     /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */

@@ -266,7 +266,7 @@ class CommandLineTest {
         assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
 
         assertThat(err.toString().trim())
-                .startsWith("Cannot write in " + file.resolve("below"))
+                .startsWith("Cannot write in %s (%s is no directory)".formatted(file.resolve("below"), file))
                 .endsWith("Name a directory that you may write with --data.")
                 .hasLineCount(1);
     }
