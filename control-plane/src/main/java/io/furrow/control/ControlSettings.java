@@ -49,17 +49,12 @@ public record ControlSettings(
                 0,
                 (short) -1,
                 Duration.ofHours(1),
-                new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT),
+                new MissionOptions(MissionOptions.START_TIMEOUT, FiwareScope.DEFAULT, false),
                 ReplaySettings.DEFAULT);
     }
 
     public ControlSettings with(MissionOptions newMissions) {
         return new ControlSettings(client, standbyReplicas, replicationFactor, remembered, newMissions, replays);
-    }
-
-    /** The missions' entities belong to a tenant and service path of the context broker. */
-    public ControlSettings withScope(FiwareScope scope) {
-        return with(new MissionOptions(missions.timeout(), scope));
     }
 
     public ControlSettings withStandbyReplicas(int replicas) {

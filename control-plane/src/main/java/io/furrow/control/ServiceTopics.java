@@ -70,6 +70,7 @@ public final class ServiceTopics {
                             Topics.MISSIONS,
                             Topics.MISSIONS_STATUS,
                             Topics.DEVICES_STATUS,
+                            Topics.DEVICES_HEALTH,
                             Topics.REPLAYS_STATUS))
             .flatMap(List::stream)
             .map(Topics::dead)

@@ -42,7 +42,11 @@ final class WatchTopology {
 
         AnalyticsAlarms.addClocks(observed(builder, Topics.CLOCKS, "clocks"), types);
 
-        ContextWatch.add(builder, new ContextWatch.Results(collisions, temperatures), scope);
+        KStream<String, byte[]> statuses = ManagerInput.observed(
+                builder, Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
+        AnalyticsAlarms.addStarts(statuses, types);
+
+        ContextWatch.add(builder, new ContextWatch.Shared(collisions, temperatures, statuses), scope);
 
         return builder.build();
     }

@@ -192,7 +192,7 @@ class AlarmStormIT {
 
     private void want(String id, String type, Duration period) {
         DeviceVersion version = new DeviceVersion(id, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
-        WantedDevice device = new WantedDevice(
+        WantedDevice device = WantedDevice.simulated(
                 version, type, id, true, period, NgsiJson.mapper().createObjectNode());
         producer.send(new ProducerRecord<>(Topics.DEVICES, version.key(), device.toBytes()));
     }

@@ -31,7 +31,7 @@ class AuditTopicTest {
     private final TopologyTestDriver driver = new TopologyTestDriver(
             ControlTopology.of(
                     Duration.ofHours(1),
-                    new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT),
+                    new MissionOptions(Duration.ofMinutes(1), FiwareScope.DEFAULT, false),
                     ReplaySettings.DEFAULT),
             settings(),
             START);

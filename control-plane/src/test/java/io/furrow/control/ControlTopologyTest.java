@@ -137,7 +137,7 @@ class ControlTopologyTest {
         farm.ask(
                 Topics.MISSION_MANAGER,
                 null,
-                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2}]}");
+                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera','count':2,'simulated':true}]}");
         assertThat(farm.state("m")).isEqualTo("starting");
         assertThat(farm.hostAll(DeviceStatus.State.RUNNING)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("running");
@@ -152,6 +152,25 @@ class ControlTopologyTest {
         assertThat(farm.state("m")).isEqualTo("stopping");
         assertThat(farm.hostAll(DeviceStatus.State.STOPPED)).isEqualTo(2);
         assertThat(farm.state("m")).isEqualTo("stopped");
+    }
+
+    @Test
+    void countsARealDeviceByTheReportThatTheFarmWatchHeard() throws Exception {
+        farm.ask(Topics.DOMAIN_MANAGER, null, "{'type':'request','domain':'north'}");
+        farm.ask(
+                Topics.MISSION_MANAGER,
+                null,
+                "{'type':'request','command':'start','mission':'m','domain':'north','devices':[{'type':'Camera'}]}");
+        farm.hostAll(DeviceStatus.State.RUNNING);
+        farm.pass(Duration.ofHours(1));
+        assertThat(farm.state("m")).isEqualTo("starting");
+
+        String heard = "{\"id\":\"urn:ngsi-ld:Camera:m-1\",\"heard\":%d}"
+                .formatted(ManagedFarm.START.plus(Duration.ofMinutes(1)).toEpochMilli());
+        farm.pipe(Topics.DEVICES_HEALTH, "farm|/|urn:ngsi-ld:Camera:m-1", heard.getBytes(StandardCharsets.UTF_8));
+        assertThat(farm.state("m")).isEqualTo("running");
+        farm.pipe(Topics.DEVICES_HEALTH, "x", "[]".getBytes(StandardCharsets.UTF_8));
+        assertThat(farm.read(Topics.dead(Topics.DEVICES_HEALTH))).hasSize(1);
     }
 
     @Test
@@ -391,7 +410,7 @@ class ControlTopologyTest {
     void hasANameForEveryStoreAndEveryTopicOfItsOwn() {
         assertThat(ControlTopology.of(
                                 ManagedFarm.REMEMBERED,
-                                new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT),
+                                new MissionOptions(ManagedFarm.REMEMBERED, FiwareScope.DEFAULT, false),
                                 ReplaySettings.DEFAULT)
                         .describe()
                         .toString())
@@ -413,6 +432,7 @@ class ControlTopologyTest {
                         "mission-answers",
                         "mission-positions",
                         "device-statuses-positions",
+                        "device-healths-positions",
                         "replays",
                         "replay-reports",
                         "recordings",

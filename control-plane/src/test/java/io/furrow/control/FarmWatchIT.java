@@ -217,7 +217,7 @@ class FarmWatchIT {
     private void want() {
         DeviceVersion version =
                 new DeviceVersion(ROBOT, "", "/", "north", "m", System.currentTimeMillis(), null, 1, null);
-        WantedDevice device = new WantedDevice(
+        WantedDevice device = WantedDevice.simulated(
                 version,
                 null,
                 null,

@@ -40,7 +40,7 @@ final class ManagedFarm implements AutoCloseable {
 
     /** @param knowsRecordings whether only missions that {@code service.recordings} lists can be played back */
     ManagedFarm(boolean knowsRecordings) {
-        MissionOptions missions = new MissionOptions(Duration.ofSeconds(30), new FiwareScope("farm", "/"));
+        MissionOptions missions = new MissionOptions(Duration.ofSeconds(30), new FiwareScope("farm", "/"), false);
         ReplaySettings replays = ReplaySettings.DEFAULT.withMongo(knowsRecordings ? "mongodb://unused" : null);
         driver = new TopologyTestDriver(ControlTopology.of(REMEMBERED, missions, replays), settings(), START);
     }

@@ -151,6 +151,28 @@ class WatchTopologyTest {
         assertThat(farm.read(Topics.dead(Topics.CLOCKS))).hasSize(1);
     }
 
+    @Test
+    void namesTheDevicesThatAMissionMisses() throws Exception {
+        farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[]", "null"));
+        assertThat(farm.read(Topics.ALARMS)).isEmpty();
+        farm.pipe(
+                Topics.MISSIONS_STATUS,
+                "m",
+                status("starting", "[{'id':'t','reason':'why'}]", "'1 of 2 devices is not up: t (why)'"));
+        JsonNode alarm = farm.newest(Topics.ALARMS);
+        assertThat(alarm.path("kind").asText()).isEqualTo("missing-devices");
+        assertThat(alarm.path("subject").asText()).isEqualTo("urn:ngsi-ld:Mission:m");
+        assertThat(alarm.path("text").asText()).isEqualTo("mission m: 1 of 2 devices is not up: t (why)");
+        assertThat(alarm.path("affected").asInt()).isEqualTo(1);
+        farm.pipe(Topics.MISSIONS_STATUS, "m", status("running", "[]", "null"));
+        assertThat(farm.newest(Topics.ALARMS).path("state").asText()).isEqualTo("closed");
+    }
+
+    private static String status(String state, String missing, String reason) {
+        return ("{'mission':'m','domain':'d','state':'%s','since':1,'sequence':1,'devices':2,'confirmed':1,'missing':%s,'reason':%s}")
+                .formatted(state, missing, reason);
+    }
+
     private long closedClocks() throws Exception {
         return farm.all(Topics.ALARMS).stream()
                 .filter(alarm -> alarm.path("kind").asText().equals("clock-behind"))

@@ -116,7 +116,7 @@ final class WatchedFarm implements AutoCloseable {
         Long until = running ? null : Long.valueOf(now.toEpochMilli());
         DeviceVersion version =
                 new DeviceVersion(id, "farm", "/", "north", mission, START.toEpochMilli(), until, 1, null);
-        WantedDevice device = new WantedDevice(
+        WantedDevice device = WantedDevice.simulated(
                 version,
                 type,
                 type == null ? null : id,

@@ -36,15 +36,19 @@ function checkGroup(group, domain, farm) {
   const rest = count - made.length;
   return [
     ...made.map((id) => checkDevice(id, group, domain, farm)),
-    ...(rest > 0 ? [judged(group.name ?? group.type, [{ level: 'ok', what: 'reach', text: 'made', values: { count: rest } }, place(group, null, domain, farm)])] : []),
+    ...(rest > 0 ? [judged(group.name ?? group.type, [atStart(group, rest), place(group, null, domain, farm)])] : []),
   ];
+}
+
+function atStart(group, count) {
+  return { level: 'ok', what: 'reach', text: group.simulated ? 'simulated' : 'made', values: { count } };
 }
 
 function checkDevice(id, group, domain, farm) {
   const known = farm.devices.get(id);
   const entity = farm.entities.get(id);
   if (!known && !entity && !group.outside) {
-    return judged(id, [{ level: 'ok', what: 'reach', text: 'made', values: { count: 1 } }, place(group, null, domain, farm)]);
+    return judged(id, [atStart(group, 1), place(group, null, domain, farm)]);
   }
   return judged(id, [use(known, farm), reach(known, entity, group, farm), battery(known, entity), place(group, entity, domain, farm)].filter(Boolean));
 }
@@ -54,7 +58,7 @@ function judged(name, findings) {
   return { name, findings, worst };
 }
 
-/** A device that its host has switched off is silent rightly, until the mission starts. */
+/** A simulated device that its host has switched off is silent rightly, until the mission starts. */
 function reach(known, entity, { outside }, { now }) {
   if (!outside && known?.wanted === 'stopped') {
     return { level: 'ok', what: 'reach', text: 'off', values: {} };

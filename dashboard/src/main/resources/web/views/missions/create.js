@@ -1,6 +1,7 @@
 /** A new mission from a template or a list of devices, checked before it starts. */
 import { api } from '../../core/api.js';
 import { h, replace } from '../../core/dom.js';
+import { duration } from '../../core/format.js';
 import { icon } from '../../core/icons.js';
 import { store } from '../../core/store.js';
 import { t } from '../../texts.js';
@@ -13,12 +14,31 @@ const NAME = '[A-Za-z0-9_\\-]{1,64}';
 const OWN = ' own';
 const DEBOUNCE = 300;
 
+const TYPES = ['Thermometer', 'WeatherStation', 'Camera', 'Robot'];
+const PERIODS = [['PT1S', 1_000], ['PT10S', 10_000], ['PT1M', 60_000], ['PT15M', 900_000], ['PT1H', 3_600_000]];
+
+/** Devices of one type; `group()` is the element of the plan. */
+function kindRow(changed) {
+  const type = h('input', { required: true, list: 'device-types', pattern: '[A-Za-z][A-Za-z0-9]{0,63}', value: TYPES[0], autocomplete: 'off' });
+  const count = h('input', { type: 'number', required: true, min: 1, max: 10_000, step: 1, value: 1, inputmode: 'numeric' });
+  const period = h('select', null, PERIODS.map(([value, millis]) => h('option', { value, selected: value === 'PT1M' }, duration(millis))));
+  const simulated = h('input', { type: 'checkbox' });
+  const row = h('div.form-columns', { on: { input: changed } }, formRow(t('missions.type'), type), formRow(t('missions.count'), count), formRow(t('missions.period'), period),
+    h('label.check', { title: t('missions.simulatedHint') }, simulated, t('missions.simulated')),
+    h('button.button.quiet.square', { type: 'button', 'aria-label': t('missions.lessDevices'), on: { click: () => { row.remove(); changed(); } } }, icon('trash', 16)));
+  row.group = () => ({ type: type.value, count: Number(count.value), period: period.value, simulated: simulated.checked });
+  return row;
+}
+
 export async function createMission() {
   const name = h('input', { required: true, pattern: NAME, autocomplete: 'off', title: t('missions.nameHint') });
   const domain = h('select', { required: true }, [...store.domains.values()].sort((a, b) => (a.domain === 'canary') - (b.domain === 'canary')).map((each) => h('option', { value: each.domain }, each.name ? `${each.name} (${each.domain})` : each.domain)));
   const template = h('select', { required: true }, h('option', { value: '' }, t('missions.chooseTemplate')), h('option', { value: OWN }, t('missions.ownDevices')));
   const ids = h('textarea', { spellcheck: 'false', placeholder: 'urn:ngsi-ld:Thermometer:1' });
-  const own = h('div', { hidden: true }, formRow(t('missions.devices'), ids, t('missions.ownHint')));
+  const kinds = h('div.stack');
+  const own = h('div.stack', { hidden: true }, h('datalist', { id: 'device-types' }, TYPES.map((type) => h('option', { value: type }))), kinds,
+    h('button.button', { type: 'button', on: { click: () => kinds.append(kindRow(soon)) } }, icon('plus', 16), t('missions.moreDevices2')),
+    formRow(t('missions.ids'), ids, t('missions.ownHint')));
   const about = h('p.small.muted');
   const check = h('div.stack', { 'aria-live': 'polite' });
   const minutes = h('input', { type: 'number', min: 1, max: 525600, step: 1, inputmode: 'numeric' });
@@ -26,7 +46,7 @@ export async function createMission() {
   let chosen = null;
   let created = null;
 
-  const groups = () => (template.value === OWN ? ids.value.split(/\s+/).filter(Boolean) : chosen?.devices ?? []);
+  const groups = () => (template.value === OWN ? [...[...kinds.children].map((row) => row.group()), ...ids.value.split(/\s+/).filter(Boolean)] : chosen?.devices ?? []);
   const { dialog, action } = openDialog({
     title: t('missions.new'),
     body: [
@@ -57,7 +77,7 @@ export async function createMission() {
   const choose = async () => {
     const wanted = template.value;
     own.hidden = wanted !== OWN;
-    ids.required = wanted === OWN;
+    replace(kinds, wanted === OWN && kindRow(soon));
     chosen = null;
     replace(about);
     replace(check, wanted && wanted !== OWN && h('div.skeleton', null, '…'));
@@ -68,7 +88,7 @@ export async function createMission() {
           return;
         }
         chosen = found;
-        replace(about, chosen.description ?? '');
+        replace(about, [chosen.description, chosen.devices.some((each) => each.simulated) && t('missions.simulatedTemplate')].filter(Boolean).join('. '));
       } catch (error) {
         replace(check, h('p.error-note', null, icon('warning'), error.message));
         return;

@@ -47,7 +47,7 @@ export class MissionDetail {
     redraw(this.head,
       h('div.row.wrap', null, h('h2', null, this.name), statePill(status?.state), h('span.spacer'), h('div.row', null, this.buttons(mission))),
       h('p.small.muted', null, [mission.domain, mission.template, mission.start && t('missions.startedAt', { time: dateTime(mission.start) }), mission.duration && t('missions.lasts', { duration: duration(mission.duration) })].filter(Boolean).join(' · ')),
-      status?.reason && h('p.error-note', null, icon('warning'), status.reason),
+      status?.reason && status.missing.length === 0 && h('p.error-note', null, icon('warning'), status.reason),
       status && h('div.stack', null,
         h('div.row', null, h('span.numbers', null, t('missions.confirmed', { confirmed: status.confirmed, devices: status.devices })), h('span.spacer'), status.missing.length > 0 && h('span.warn', null, t('missions.missing', { count: status.devices - status.confirmed }))),
         h('div.bar', { role: 'progressbar', 'aria-valuemin': 0, 'aria-valuemax': status.devices, 'aria-valuenow': status.confirmed, 'aria-label': t('missions.progress') }, bar(status))),

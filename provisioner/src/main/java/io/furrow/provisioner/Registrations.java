@@ -52,7 +52,7 @@ final class Registrations {
 
     /** Whether a device is provisioned at all: robots write to the context broker by themselves. */
     static boolean isProvisioned(WantedDevice wanted) {
-        return wanted.isHosted() && wanted.running() && !ROBOT.equals(wanted.type());
+        return wanted.type() != null && wanted.running() && !ROBOT.equals(wanted.type());
     }
 
     /** Whether what the agent has was made here, maybe before a rotation: nobody else comes to the mission's API key. */

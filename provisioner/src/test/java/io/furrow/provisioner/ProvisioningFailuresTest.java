@@ -210,7 +210,8 @@ class ProvisioningFailuresTest {
                 new DeviceVersion(of.id(), "", "/", of.domain(), of.mission(), 0, null, of.sequence(), null);
         wanted.take(
                 version.key(),
-                new WantedDevice(version, device.type(), device.device(), true, device.period(), device.settings()));
+                WantedDevice.simulated(
+                        version, device.type(), device.device(), true, device.period(), device.settings()));
 
         Outcome outcome = provisioning.step();
 

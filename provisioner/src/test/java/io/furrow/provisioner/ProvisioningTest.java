@@ -48,7 +48,7 @@ class ProvisioningTest extends ProvisioningFixture {
     @Test
     void leavesRobotsAndWhatReportsByItselfAlone() throws Exception {
         want(Wanted.device("Robot", "hoeing", "robot", 1));
-        want(new WantedDevice(
+        want(WantedDevice.simulated(
                 Wanted.thermometer("hoeing", 1).version(),
                 null,
                 null,

@@ -29,7 +29,7 @@ public final class Wanted {
     static WantedDevice device(String type, String mission, String id, long sequence, ObjectNode settings) {
         DeviceVersion version =
                 new DeviceVersion(id, SCOPE.service(), SCOPE.servicePath(), "north", mission, 0, null, sequence, null);
-        return new WantedDevice(version, type, id, true, Duration.ofSeconds(1), settings);
+        return WantedDevice.simulated(version, type, id, true, Duration.ofSeconds(1), settings);
     }
 
     static WantedDevice stopped(WantedDevice device) {
@@ -44,6 +44,7 @@ public final class Wanted {
                 1L,
                 old.sequence() + 1,
                 null);
-        return new WantedDevice(version, device.type(), device.device(), false, device.period(), device.settings());
+        return WantedDevice.simulated(
+                version, device.type(), device.device(), false, device.period(), device.settings());
     }
 }

@@ -108,7 +108,7 @@ public final class FleetMeasurement {
                 id, "bench", "/", "bench", mission, System.currentTimeMillis(), null, number + 1L, null);
         ObjectNode settings = NgsiJson.mapper().createObjectNode();
         settings.putArray("path").addArray().add(-3.5 + number % 100 / 10_000d).add(40.3 + number / 100 / 10_000d);
-        return new WantedDevice(version, "Thermometer", id, true, plan.period(), settings);
+        return WantedDevice.simulated(version, "Thermometer", id, true, plan.period(), settings);
     }
 
     private void awaitRunning(long begun) throws IOException {

@@ -139,6 +139,7 @@ public final class MissionStart implements AutoCloseable {
         ObjectNode json = NODES.objectNode().put(DOMAIN, domain);
         ObjectNode group = json.putArray("devices").addObject();
         group.put("type", "Thermometer")
+                .put("simulated", true)
                 .put("count", plan.devices())
                 .put("period", plan.period().toString());
         var ring = group.putObject("area")

@@ -109,7 +109,7 @@ class ControlCommandsIT {
                 .untilAsserted(() -> assertThat(run("mission", "list", "--domain", "farm"))
                         .containsPattern("weeding +farm +– +created"));
         run("mission", "start", "weeding", "--at", Long.toString(System.currentTimeMillis()));
-        assertThat(run("mission", "watch", "weeding", "--until", "running")).contains("running", "0/0 devices");
+        assertThat(run("mission", "watch", "weeding", "--until", "starting")).contains("starting", "0/1 devices");
         assertThat(run("device", "list", "--mission", "weeding")).contains("urn:ngsi-ld:Robot:7", "running");
         assertThat(refused("mission", "start", "weeding")).contains("mission-running");
         assertThat(run("mission", "stop", "weeding")).contains("stopped: mission weeding");

@@ -212,8 +212,8 @@ final class AlarmLimit {
             case PREDICTED_ENCOUNTER -> "%s encounters of %s are predicted";
             case SUSPECT_SENSOR -> "%s sensors of %s deviate from the others";
             case CLOCK_BEHIND -> "positions of %s devices of %s arrive too late and are dropped";
-            case SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
-                throw new IllegalStateException("kinds of silence have group alarms of their own: " + group.key());
+            case MISSING_DEVICES, SILENT_DEVICE, SILENT_MISSION, SILENT_FARM ->
+                throw new IllegalStateException("kinds of many devices have group alarms of their own: " + group.key());
         };
         return what.formatted(number, AlarmGroup.label(group.group()));
     }

@@ -1,6 +1,5 @@
 package io.furrow.control.context;
 
-import java.io.UncheckedIOException;
 import java.nio.charset.StandardCharsets;
 import java.time.Instant;
 import java.util.LinkedHashMap;
@@ -35,7 +34,6 @@ import io.furrow.model.event.HeaderNames;
 import io.furrow.model.event.Origin;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
-import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -60,13 +58,16 @@ public final class ContextWatch {
     }
 
     /**
-     * Results of analytics, in a single partition each: the records of {@code data.collision} and
-     * {@code data.temperature}.
+     * What alarms are raised from too, in a single partition each: the records of {@code data.collision}, of
+     * {@code data.temperature} and of {@code service.missions.status}.
      */
-    public record Results(KStream<String, byte[]> collisions, KStream<String, byte[]> temperatures) {}
+    public record Shared(
+            KStream<String, byte[]> collisions,
+            KStream<String, byte[]> temperatures,
+            KStream<String, byte[]> statuses) {}
 
     /** @param scope of the entities */
-    public static void add(StreamsBuilder builder, Results results, FiwareScope scope) {
+    public static void add(StreamsBuilder builder, Shared shared, FiwareScope scope) {
         STORES.forEach(store -> builder.addStateStore(StoredRecords.builder(store)));
         ContextWatch watch = new ContextWatch(builder, scope);
 
@@ -81,18 +82,18 @@ public final class ContextWatch {
                 watch.wanted(Topics.MISSIONS, "missions"),
                 projection -> (record, now) -> projection.mission(record.key(), read(record, Mission.class)));
 
-        watch.send(
+        watch.sendShared(
                 "statuses",
-                watch.wanted(Topics.MISSIONS_STATUS, "mission-statuses"),
+                shared.statuses(),
                 projection -> (record, now) -> projection.status(record.key(), read(record, MissionStatus.class)));
 
-        watch.sendResults("encounters", results.collisions(), projection -> (record, now) -> {
+        watch.sendShared("encounters", shared.collisions(), projection -> (record, now) -> {
             if (record.value() != null) {
                 projection.encounter(Encounter.read(record.value(), RecordScope.of(record)));
             }
         });
 
-        watch.sendResults("fields", results.temperatures(), projection -> (record, now) -> {
+        watch.sendShared("fields", shared.temperatures(), projection -> (record, now) -> {
             FieldWindow window = record.value() == null ? null : FieldWindow.of(Entity.parse(record.value()));
             if (window != null) {
                 projection.window(window, now);
@@ -108,12 +109,12 @@ public final class ContextWatch {
         send(name, records, () -> new ObserverProcessor((context, outbox) -> observing.apply(projection(context))));
     }
 
-    /** Does not write dead letters: the processors that raise alarms from the results already do. */
-    private void sendResults(
-            String name, KStream<String, byte[]> results, Function<ContextProjection, Observer> observing) {
+    /** Does not write dead letters: the processors that raise alarms from the same records already do. */
+    private void sendShared(
+            String name, KStream<String, byte[]> records, Function<ContextProjection, Observer> observing) {
         send(
                 name,
-                results,
+                records,
                 () -> ObserverProcessor.besideAnother((context, outbox) -> observing.apply(projection(context))));
     }
 
@@ -140,11 +141,7 @@ public final class ContextWatch {
     }
 
     private static <T> T read(Record<String, byte[]> record, Class<T> type) throws UnreadableException {
-        try {
-            return record.value() == null ? null : StateJson.read(record.value(), type);
-        } catch (UncheckedIOException e) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage(), e);
-        }
+        return record.value() == null ? null : StateJson.readRecord(record.value(), type);
     }
 
     private ContextProjection projection(ProcessorContext<String, OutputRecord> context) {

@@ -59,7 +59,8 @@ final class HeartbeatProcessor extends ContextualProcessor<String, byte[], Strin
             return;
         }
         try {
-            Entity entity = Entity.parse(record.value(), ATTRIBUTES);
+            Entity entity =
+                    listener.hasHeard(key) ? Entity.parse(record.value(), ATTRIBUTES) : Entity.parse(record.value());
             long now = context().currentSystemTimeMs();
             if (listener.hear(key, entity, record.timestamp(), now) && now - pulsed >= PULSE.toMillis()) {
                 pulsed = now;

@@ -49,14 +49,24 @@ final class Silence {
      * The relevant state of a device.
      *
      * @param group its mission's entity
+     * @param heard whether it has ever reported
      * @param silentAfter after how long without a report it is silent, ms
      */
-    record Device(String id, String type, String group, boolean silent, boolean off, long since, long silentAfter) {
+    record Device(
+            String id,
+            String type,
+            String group,
+            boolean heard,
+            boolean silent,
+            boolean off,
+            long since,
+            long silentAfter) {
         static Device of(DeviceHealth health, long silentAfter) {
             return new Device(
                     health.id(),
                     health.type(),
                     AlarmGroup.of(health.mission(), health.domain()),
+                    health.heard() != null,
                     health.silent(),
                     health.off(),
                     health.since(),
@@ -129,7 +139,7 @@ final class Silence {
         Map<String, Members> groups = new TreeMap<>();
         Members all = new Members();
         for (Device device : devices.values()) {
-            if (!device.off()) {
+            if (!device.off() && !isMissing(device)) {
                 boolean silent = device.silent() && !alarms.isMuted(AlarmKind.SILENT_DEVICE, device.id(), now);
                 all.add(device, silent);
                 groups.computeIfAbsent(device.group(), any -> new Members()).add(device, silent);
@@ -143,6 +153,11 @@ final class Silence {
         }
         groups.forEach((group, members) -> report(group, members, farm, now, causes));
         alarms.endOthers(KINDS, causes, "its devices report again or were stopped", now);
+    }
+
+    /** Whether another alarm has the device already: its mission misses it since its start. */
+    private boolean isMissing(Device device) {
+        return !device.heard() && alarms.isRaised(AlarmKind.MISSING_DEVICES, device.group());
     }
 
     private void report(String group, Members members, Cause farm, long now, List<Cause> causes) {

@@ -2,10 +2,12 @@ package io.furrow.control.health;
 
 import java.time.Duration;
 import java.util.HashMap;
-import java.util.HashSet;
+import java.util.List;
 import java.util.Map;
 import java.util.Optional;
-import java.util.Set;
+import java.util.regex.Pattern;
+
+import com.fasterxml.jackson.databind.JsonNode;
 
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.Entity;
@@ -24,6 +26,9 @@ final class SilenceDetector {
     /** Boolean; false if the device is switched off. */
     static final String STATUS = "Status";
 
+    /** Attributes that are assigned to a device, not measured by it: they may be there before its first report. */
+    private static final Pattern ASSIGNED = Pattern.compile("Domain|Mission|TimeInstant|.+_(status|info)");
+
     private static final Duration MAX_TICK = Duration.ofSeconds(2);
     private static final Duration LOOKUP_INTERVAL = Duration.ofSeconds(5);
 
@@ -31,7 +36,6 @@ final class SilenceDetector {
     private final WantedDevices wanted;
     private final SilenceListener told;
     private final Map<String, Heard> devices = new HashMap<>();
-    private final Set<String> unwanted = new HashSet<>();
     private long lookedUp;
     private long passed;
 
@@ -49,6 +53,16 @@ final class SilenceDetector {
         private long told;
         private boolean silent;
         private long silentAfter;
+        private long from;
+
+        /** After a new start of its mission the next report is emitted at once. */
+        void take(WantedDevice device, long after) {
+            silentAfter = after;
+            if (from != device.version().from()) {
+                from = device.version().from();
+                told = 0;
+            }
+        }
     }
 
     SilenceDetector(HealthOptions options, WantedDevices wanted, SilenceListener told) {
@@ -62,15 +76,10 @@ final class SilenceDetector {
         if (devices.containsKey(key)) {
             return true;
         }
-        if (unwanted.contains(key)) {
-            return false;
-        }
         Heard unheard = new Heard();
         boolean listens = isWantedStill(key, unheard);
         if (listens) {
             devices.put(key, unheard);
-        } else {
-            unwanted.add(key);
         }
         return listens;
     }
@@ -85,6 +94,9 @@ final class SilenceDetector {
     boolean hear(String key, Entity entity, long reported, long now) {
         Heard known = devices.get(key);
         boolean first = known.newest == null;
+        if (first && !isMeasured(entity)) {
+            return false;
+        }
         if (!first && known.newest.reported() == reported) {
             return false;
         }
@@ -103,6 +115,24 @@ final class SilenceDetector {
         return true;
     }
 
+    /** Whether the context broker notified about something else than what was assigned to the device or asked of it. */
+    private static boolean isMeasured(Entity entity) {
+        List<Map.Entry<String, JsonNode>> attributes = entity.attributes();
+        return attributes.isEmpty()
+                || attributes.stream()
+                        .map(Map.Entry::getKey)
+                        .filter(name -> !ASSIGNED.matcher(name).matches() && !Entity.BUILT_INS.contains(name))
+                        .anyMatch(name -> entity.value(name)
+                                .filter(value ->
+                                        !value.isTextual() || !value.textValue().isBlank())
+                                .isPresent());
+    }
+
+    /** Whether the device has reported. */
+    boolean hasHeard(String key) {
+        return devices.get(key).newest != null;
+    }
+
     /**
      * Called about once a second. After a pause, in which no reports were read, detects no silence until the pending
      * reports are read.
@@ -112,7 +142,6 @@ final class SilenceDetector {
         passed = now;
         if (now - lookedUp >= LOOKUP_INTERVAL.toMillis()) {
             lookedUp = now;
-            unwanted.clear();
             devices.entrySet().removeIf(entry -> !isWantedStill(entry.getKey(), entry.getValue()));
         }
         if (!paused) {
@@ -134,7 +163,7 @@ final class SilenceDetector {
 
     private boolean isWantedStill(String key, Heard heard) {
         Optional<WantedDevice> device = wanted.of(key);
-        device.ifPresent(found -> heard.silentAfter = options.silentAfter(found));
+        device.ifPresent(found -> heard.take(found, options.silentAfter(found)));
         return device.isPresent();
     }
 

@@ -8,6 +8,8 @@ import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.ObjectMapper;
 
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.ngsi.Reason;
+import io.furrow.model.ngsi.UnreadableException;
 
 /** Records of plain members as JSON; members that a later version has are skipped, so that one can go back. */
 public final class StateJson {
@@ -23,6 +25,15 @@ public final class StateJson {
             return MAPPER.writeValueAsBytes(state);
         } catch (IOException e) {
             throw new UncheckedIOException("cannot be written as JSON: " + state.getClass(), e);
+        }
+    }
+
+    /** Reads the value of a record that another process wrote. */
+    public static <T> T readRecord(byte[] value, Class<T> type) throws UnreadableException {
+        try {
+            return read(value, type);
+        } catch (UncheckedIOException e) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage(), e);
         }
     }
 

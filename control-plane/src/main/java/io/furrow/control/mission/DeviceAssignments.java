@@ -37,14 +37,14 @@ final class DeviceAssignments {
         this.outbox = outbox;
     }
 
-    /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many are hosted. */
+    /** Begins to ask for all devices of a mission, or for none of them where one is another's. Answers how many there are. */
     int ask(Mission mission, long now) throws RefusedException {
         List<WantedDevice> roster = roster(mission, now);
         Set<String> beingWritten = beingWrittenFor(mission);
         checkFree(mission, roster, beingWritten);
         checkRoom(roster, beingWritten);
         advance(mission, new Rollout(mission.mission(), Rollout.Kind.START, 0, now));
-        return (int) roster.stream().filter(WantedDevice::isHosted).count();
+        return roster.size();
     }
 
     private void checkFree(Mission mission, List<WantedDevice> roster, Set<String> beingWritten)
@@ -97,15 +97,15 @@ final class DeviceAssignments {
 
     /**
      * Begins to want none of its devices any more. Their records stay, so that jobs know to whom their past belongs. Answers how
-     * many are hosted and have to go.
+     * many are simulated and have to go: of a real device only the login ends.
      */
     int dismiss(Mission mission, long now) {
-        int hosted = 0;
+        int simulated = 0;
         for (DeviceState known : of(mission)) {
-            hosted += known.device().running() && known.device().isHosted() ? 1 : 0;
+            simulated += known.device().running() && known.device().simulated() ? 1 : 0;
         }
         advance(mission, new Rollout(mission.mission(), Rollout.Kind.STOP, 0, now));
-        return hosted;
+        return simulated;
     }
 
     /** Whether devices of a mission are still to be written. */
@@ -134,18 +134,8 @@ final class DeviceAssignments {
         if (known != null
                 && known.mission().equals(mission.mission())
                 && known.device().running()) {
-            WantedDevice device = known.device();
-            DeviceVersion ended =
-                    device.version().endingAt(Math.max(time, device.version().from()));
-            put(new WantedDevice(
-                    ended,
-                    device.type(),
-                    device.device(),
-                    false,
-                    device.period(),
-                    device.settings(),
-                    device.group(),
-                    device.generation()));
+            DeviceVersion version = known.device().version();
+            put(known.device().with(version.endingAt(Math.max(time, version.from())), false));
         }
     }
 
@@ -160,10 +150,11 @@ final class DeviceAssignments {
         if (known == null || known.forgotten()) {
             throw new RefusedException(ErrorCode.UNKNOWN_DEVICE, "there is no device '%s'".formatted(id));
         }
-        if (!known.device().isHosted()) {
+        if (known.device().device() == null) {
             throw new RefusedException(
                     ErrorCode.NO_CREDENTIALS,
-                    "device '%s' reports by itself, with credentials of its own".formatted(id));
+                    "device '%s' has a login of its own, which is not known here; list it as an object with a 'type' to give it one"
+                            .formatted(id));
         }
         WantedDevice rotated = known.device().withGeneration(known.device().generation() + 1);
         String key = rotated.version().key();
@@ -201,25 +192,14 @@ final class DeviceAssignments {
         }
     }
 
-    /** Hosted devices that are not in the desired state. */
+    /** Some of its devices that are not up, or, if it shall not run, that are still simulated, and why. */
     List<MissionStatus.Missing> missing(Mission mission) {
-        List<MissionStatus.Missing> missing = new ArrayList<>();
-        for (DeviceState known : of(mission)) {
-            WantedDevice device = known.device();
-            if (device.isHosted() && !known.confirmed() && missing.size() < MissionStatus.MAX_NAMED) {
-                missing.add(new MissionStatus.Missing(device.version().id(), known.reason()));
-            }
-        }
-        return missing;
-    }
-
-    /** What the host says of one of the devices; empty if it says nothing. */
-    String saidOfMissing(Mission mission) {
-        return missing(mission).stream()
-                .filter(device -> device.reason() != null)
-                .findFirst()
-                .map(device -> "; %s: %s".formatted(device.id(), device.reason()))
-                .orElse("");
+        return of(mission).stream()
+                .filter(known -> !known.confirmed()
+                        && (mission.running() || known.device().simulated()))
+                .limit(MissionStatus.MAX_NAMED)
+                .map(DeviceState::missing)
+                .toList();
     }
 
     /** Those of its devices that are still its own. */
@@ -235,30 +215,14 @@ final class DeviceAssignments {
     }
 
     private List<WantedDevice> roster(Mission mission, long from) {
-        return PlannedDevices.of(mission, lists.groups(mission), options.scope(), from);
+        return PlannedDevices.of(mission, lists.groups(mission), options, from);
     }
 
     private void put(WantedDevice device) {
         DeviceVersion version = device.version();
         DeviceState known = records.devices().get(version.key());
-        WantedDevice numbered = new WantedDevice(
-                new DeviceVersion(
-                        version.id(),
-                        version.service(),
-                        version.servicePath(),
-                        version.domain(),
-                        version.mission(),
-                        version.from(),
-                        version.until(),
-                        farm.sequence().next(),
-                        version.carriedBy()),
-                device.type(),
-                device.device(),
-                device.running(),
-                device.period(),
-                device.settings(),
-                device.group(),
-                Math.max(device.generation(), known == null ? 0 : known.generation()));
+        WantedDevice numbered = device.with(version.numbered(farm.sequence().next()), device.running())
+                .withGeneration(Math.max(device.generation(), known == null ? 0 : known.generation()));
         if (known == null) {
             farm.quota().use(Limits.DEVICE_BYTES);
         }

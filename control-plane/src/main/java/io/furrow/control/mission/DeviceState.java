@@ -10,8 +10,8 @@ import io.furrow.model.ngsi.UnreadableException;
  * A device that was asked for, as it is remembered under its key.
  *
  * @param wanted the record of {@code service.devices}
- * @param confirmed whether its host says that it is so
- * @param reason why it is not, as its host says; null if it said nothing
+ * @param confirmed whether it is in the desired state: its host says so, or a real device has reported
+ * @param reason why it is not, as its host or the provisioner says; null if neither said anything
  * @param forgotten whether only its generation is remembered, because its mission was deleted
  */
 record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean forgotten) {
@@ -37,6 +37,17 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean fo
 
     DeviceState reported(boolean asWanted, String why) {
         return new DeviceState(wanted, asWanted, why, forgotten);
+    }
+
+    MissionStatus.Missing missing() {
+        WantedDevice device = device();
+        String why = reason;
+        if (why == null && device.running()) {
+            why = device.simulated()
+                    ? "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host"
+                    : "it has not reported yet";
+        }
+        return new MissionStatus.Missing(device.version().id(), why);
     }
 
     DeviceState asForgotten() {

@@ -5,6 +5,7 @@ import java.util.List;
 import java.util.function.Predicate;
 
 import io.furrow.control.domain.DomainMissions;
+import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.Quota;
 import io.furrow.control.manager.record.Sequence;
@@ -15,6 +16,7 @@ import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.MissionTemplate;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
 
 /** Grants or refuses what is asked of missions, and takes them through their life. What is refused has changed nothing. */
@@ -98,9 +100,9 @@ public final class MissionCommandHandler implements DomainMissions {
         Long duration =
                 start.duration() == null ? null : Long.valueOf(start.duration().toMillis());
         Mission mission = planned.wanted(begin, duration, sequence.next());
-        int hosted = begin > now ? 0 : devices.ask(mission, now);
+        int desired = begin > now ? 0 : devices.ask(mission, now);
         MissionStatus before = status == null ? MissionStatus.created(mission, now) : status;
-        keep(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, hosted, timeout, now));
+        keep(mission, begin > now ? before.scheduled(mission, now) : before.started(mission, desired, timeout, now));
         return created(mission);
     }
 
@@ -142,8 +144,8 @@ public final class MissionCommandHandler implements DomainMissions {
         MissionStatus status = records.statuses().get(name);
         if (status.state() != MissionState.STOPPING) {
             Mission mission = records.missions().get(name).unwanted(sequence.next());
-            int hosted = devices.dismiss(mission, now);
-            keep(mission, status.stopped(mission, hosted, timeout, now));
+            int simulated = devices.dismiss(mission, now);
+            keep(mission, status.stopped(mission, simulated, timeout, now));
         }
     }
 
@@ -181,25 +183,51 @@ public final class MissionCommandHandler implements DomainMissions {
     }
 
     /**
-     * What the host of a device says; of a device or a state that is no longer wanted nothing is taken. It counts for the mission where
-     * the device was written since that came to its state: while one is being written, some devices are still of the time before.
+     * Takes the status of a device from its host or the provisioner, unless the device or the state is no longer desired. A real
+     * device has no host, and one that reports is up whatever else is said.
      */
     public void reported(String key, DeviceStatus told, long now) {
         DeviceState known = records.devices().get(key);
         if (known == null || told.sequence() < known.device().version().sequence()) {
             return;
         }
-        DeviceStatus.State wanted = known.device().running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
-        boolean asWanted = told.state() == wanted;
-        records.devices().put(key, known.reported(asWanted, told.reason()));
-        MissionStatus status = records.statuses().get(known.mission());
-        boolean counts = known.device().isHosted()
-                && status != null
-                && status.state().isActive()
-                && known.device().version().sequence() > status.sequence();
-        if (counts && asWanted != known.confirmed()) {
-            String id = known.device().version().id();
-            keep(status.reported(new MissionStatus.Missing(id, told.reason()), asWanted, now));
+        DeviceStatus.State desired = known.device().running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
+        boolean simulated = known.device().simulated();
+        if (simulated || told.state() == DeviceStatus.State.FAILED && !known.confirmed()) {
+            changed(known, known.reported(simulated && told.state() == desired, told.reason()), now);
+        }
+    }
+
+    /** Takes the health of a device: a real one is up by its first report since it was asked for. */
+    public void reported(String key, DeviceHealth health, long now) {
+        DeviceState known = records.devices().get(key);
+        boolean isUp = known != null
+                && !known.confirmed()
+                && !known.device().simulated()
+                && known.device().running()
+                && health.heard() != null
+                && health.heard() >= known.device().version().from();
+        if (isUp) {
+            changed(known, known.reported(true, null), now);
+        }
+    }
+
+    /**
+     * Counts a device for its mission where it was written since that came to its state: while one is being written, some devices are
+     * still of the time before.
+     */
+    private void changed(DeviceState before, DeviceState after, long now) {
+        DeviceVersion version = after.device().version();
+        records.devices().put(version.key(), after);
+        MissionStatus status = records.statuses().get(after.mission());
+        boolean counts = status != null && status.state().isActive() && version.sequence() > status.sequence();
+        if (counts) {
+            MissionStatus next = after.confirmed() == before.confirmed()
+                    ? status.explained(after.missing())
+                    : status.reported(after.missing(), after.confirmed(), now);
+            if (!next.equals(status)) {
+                keep(next);
+            }
         }
     }
 
@@ -239,14 +267,6 @@ public final class MissionCommandHandler implements DomainMissions {
             stop(mission.mission(), now);
         } else if (status.state() == MissionState.CREATED) {
             begin(mission, status, now);
-        } else if (status.state() == MissionState.STARTING && status.confirmed() == 0) {
-            String said = devices.saidOfMissing(mission);
-            devices.dismiss(mission, now);
-            fail(
-                    mission,
-                    status,
-                    "none of %d devices came up within %d s%s".formatted(status.devices(), timeout / 1000, said),
-                    now);
         } else {
             keep(status.without(devices.missing(mission), now));
         }

@@ -14,6 +14,7 @@ import org.apache.kafka.streams.processor.api.ProcessorContext;
 
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainManager;
+import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.CommandHandler;
 import io.furrow.control.manager.CommandProcessor;
 import io.furrow.control.manager.EventPublisher;
@@ -21,6 +22,7 @@ import io.furrow.control.manager.ManagerInput;
 import io.furrow.control.manager.ManagerTopic;
 import io.furrow.control.manager.OutputRecord;
 import io.furrow.control.manager.RequestLog;
+import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.StatusProcessor;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.StoredRecords;
@@ -33,7 +35,7 @@ import io.furrow.model.topic.Topics;
 
 /**
  * Answers {@code service.missionmanager}, keeps {@code service.missions}, {@code .missions.status}, {@code .templates} and {@code
- * .devices}, and reads {@code service.devices.status}.
+ * .devices}, and reads {@code service.devices.status} and {@code service.devices.health}.
  */
 public final class MissionManager {
     private static final String MISSIONS = "missions";
@@ -78,6 +80,10 @@ public final class MissionManager {
             MissionCommandHandler handler = handler(context, outbox, options);
             return (key, value, now) -> handler.reported(key, DeviceStatus.read(value), now);
         };
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> healths = (context, outbox) -> {
+            MissionCommandHandler handler = handler(context, outbox, options);
+            return (key, value, now) -> handler.reported(key, StateJson.readRecord(value, DeviceHealth.class), now);
+        };
 
         OutputRecord.send(
                 ManagerInput.requests(builder, TOPIC)
@@ -91,6 +97,11 @@ public final class MissionManager {
                 ManagerInput.statuses(builder, Topics.DEVICES_STATUS, "device-statuses")
                         .process(() -> new StatusProcessor(reports), Named.as("take-device-statuses"), storesWith()),
                 "progress-out");
+
+        OutputRecord.send(
+                ManagerInput.statuses(builder, Topics.DEVICES_HEALTH, "device-healths")
+                        .process(() -> new StatusProcessor(healths), Named.as("take-device-healths"), storesWith()),
+                "first-reports-out");
     }
 
     private static String[] storesWith(String... further) {

@@ -2,6 +2,7 @@ package io.furrow.control.mission;
 
 import java.util.ArrayList;
 import java.util.List;
+import java.util.stream.Collectors;
 
 import io.furrow.control.manager.StateJson;
 
@@ -11,10 +12,10 @@ import io.furrow.control.manager.StateJson;
  *
  * @param since when it came to that state, epoch ms
  * @param sequence of the mission that this is the status of
- * @param devices how many somebody is asked to run
- * @param confirmed how many of them are as wanted: up while it starts or runs, gone after that
+ * @param devices how many it has; after it was stopped, how many are simulated and have to go
+ * @param confirmed how many of them are in the desired state: up while it starts or runs, gone after that
  * @param missing at most {@value #MAX_NAMED} of those that are not, once the time for it has passed
- * @param reason why it failed; null if it did not
+ * @param reason why it failed, or which of its devices are not up; null if there is nothing to say
  * @param due when it continues by itself, epoch ms; null if it waits for somebody else
  * @param ends when it is stopped by itself, epoch ms; null if it is not
  */
@@ -33,11 +34,13 @@ public record MissionStatus(
     /** More are counted, but not named. */
     static final int MAX_NAMED = 100;
 
+    private static final int MAX_EXPLAINED = 3;
+
     /**
      * A device that is not as wanted.
      *
      * @param id of its entity
-     * @param reason as its host says; null if it said nothing
+     * @param reason a sentence; null if it is not known
      */
     public record Missing(String id, String reason) {}
 
@@ -64,20 +67,20 @@ public record MissionStatus(
     }
 
     /** Its devices were asked for. Without devices it runs at once. */
-    MissionStatus started(Mission mission, int hosted, long timeout, long now) {
+    MissionStatus started(Mission mission, int desired, long timeout, long now) {
         Long end = mission.duration() == null ? null : Long.valueOf(now + mission.duration());
         MissionStatus starting = next(MissionState.STARTING, now, mission.sequence())
-                .progress(hosted, 0)
+                .progress(desired, 0)
                 .until(earlier(now + timeout, end), end);
         return starting.advanced(now);
     }
 
-    /** Its devices are asked to go, so many of them hosted. Without devices it has stopped at once. */
-    MissionStatus stopped(Mission mission, int hosted, long timeout, long now) {
+    /** Its devices are asked to go, so many of them simulated. Without simulated ones it has stopped at once. */
+    MissionStatus stopped(Mission mission, int simulated, long timeout, long now) {
         MissionState next = state == MissionState.CREATED ? MissionState.STOPPED : MissionState.STOPPING;
         boolean stops = next == MissionState.STOPPING;
         return next(next, now, mission.sequence())
-                .progress(stops ? hosted : 0, 0)
+                .progress(stops ? simulated : 0, 0)
                 .until(stops ? Long.valueOf(now + timeout) : null, null)
                 .advanced(now);
     }
@@ -89,19 +92,36 @@ public record MissionStatus(
                 mission, domain, failed.state, now, failed.sequence, devices, 0, List.of(), why, null, null);
     }
 
-    /** One of its devices became as wanted, or is so no longer. */
+    /** One of its devices came to the desired state, or is in it no longer. */
     MissionStatus reported(Missing device, boolean asWanted, long now) {
+        boolean late = state == MissionState.RUNNING || !missing.isEmpty();
         List<Missing> named = new ArrayList<>(missing);
         named.removeIf(known -> known.id().equals(device.id()));
-        if (!asWanted && state == MissionState.RUNNING && named.size() < MAX_NAMED) {
+        if (!asWanted && late && named.size() < MAX_NAMED) {
             named.add(device);
         }
-        return progress(devices, confirmed + (asWanted ? 1 : -1)).naming(named).advanced(now);
+        MissionStatus after = progress(devices, confirmed + (asWanted ? 1 : -1));
+        return state == MissionState.STARTING && late && asWanted
+                ? after.without(named, now)
+                : after.naming(named).advanced(now);
     }
 
-    /** The time for coming up or going has passed; it continues without those that are named. */
+    /** One of its devices is still not in the desired state, for another reason than before. */
+    MissionStatus explained(Missing device) {
+        return naming(missing.stream()
+                .map(known -> known.id().equals(device.id()) ? device : known)
+                .toList());
+    }
+
+    /**
+     * The time for coming up or going has passed. It continues without those that are named, but waits on for the first of its
+     * devices: nothing is taken from devices that are late.
+     */
     MissionStatus without(List<Missing> late, long now) {
         boolean starts = state == MissionState.STARTING;
+        if (starts && confirmed == 0 && devices > 0) {
+            return until(ends, ends).naming(late);
+        }
         MissionStatus next = next(starts ? MissionState.RUNNING : MissionState.STOPPED, now, sequence);
         return next.until(starts ? ends : null, starts ? ends : null).naming(late);
     }
@@ -147,8 +167,25 @@ public record MissionStatus(
     }
 
     private MissionStatus naming(List<Missing> named) {
+        boolean up = state == MissionState.STARTING || state == MissionState.RUNNING;
+        String why = named.isEmpty() || !up ? null : why(named);
         return new MissionStatus(
-                mission, domain, state, since, sequence, devices, confirmed, List.copyOf(named), reason, due, ends);
+                mission, domain, state, since, sequence, devices, confirmed, List.copyOf(named), why, due, ends);
+    }
+
+    private String why(List<Missing> named) {
+        int away = devices - confirmed;
+        String some = named.stream()
+                .limit(MAX_EXPLAINED)
+                .map(each -> "%s (%s)".formatted(each.id(), each.reason()))
+                .collect(Collectors.joining(", "));
+        return "%d of %d devices %s not up: %s%s"
+                .formatted(
+                        away,
+                        devices,
+                        away == 1 ? "is" : "are",
+                        some,
+                        away > MAX_EXPLAINED ? " and " + (away - MAX_EXPLAINED) + " more" : "");
     }
 
     private static Long earlier(long one, Long other) {

@@ -22,20 +22,22 @@ import io.furrow.model.event.FiwareScope;
 final class PlannedDevices {
     private final Mission mission;
     private final FiwareScope scope;
+    private final boolean simulatedByDefault;
     private final long from;
     private final Map<String, Integer> numbers = new HashMap<>();
     private final Map<String, List<String>> idsByLabel = new HashMap<>();
     private final List<WantedDevice> devices = new ArrayList<>();
 
-    private PlannedDevices(Mission mission, FiwareScope scope, long from) {
+    private PlannedDevices(Mission mission, MissionOptions options, long from) {
         this.mission = mission;
-        this.scope = scope;
+        this.scope = options.scope();
+        this.simulatedByDefault = options.simulatedByDefault();
         this.from = from;
     }
 
     /** All of them, wanted from a time on, with the sequence 0. */
-    static List<WantedDevice> of(Mission mission, List<ListedGroup> groups, FiwareScope scope, long from) {
-        PlannedDevices roster = new PlannedDevices(mission, scope, from);
+    static List<WantedDevice> of(Mission mission, List<ListedGroup> groups, MissionOptions options, long from) {
+        PlannedDevices roster = new PlannedDevices(mission, options, from);
         List<List<String>> ids =
                 groups.stream().map(each -> roster.name(each.group())).toList();
         for (int i = 0; i < groups.size(); i++) {
@@ -59,6 +61,11 @@ final class PlannedDevices {
         return mission.mission() + "-" + numbers.merge(group.type(), 1, Integer::sum);
     }
 
+    private boolean isSimulated(DeviceGroup group) {
+        boolean simulated = group.simulated() == null ? simulatedByDefault : group.simulated();
+        return simulated && group.type() != null;
+    }
+
     private void add(ListedGroup listed, List<String> ids) {
         DeviceGroup group = listed.group();
         GroupRef ref = group.settings().isEmpty() ? null : listed.ref();
@@ -75,9 +82,10 @@ final class PlannedDevices {
                     null,
                     0,
                     carrier);
-            String device = group.isHosted() ? ids.get(i).replace("+", "%2B") : null;
+            String device = group.type() != null ? ids.get(i).replace("+", "%2B") : null;
             ObjectNode none = JsonNodeFactory.instance.objectNode();
-            devices.add(new WantedDevice(version, group.type(), device, true, group.period(), none, ref, 0));
+            devices.add(new WantedDevice(
+                    version, group.type(), device, true, group.period(), isSimulated(group), none, ref, 0));
         }
     }
 }

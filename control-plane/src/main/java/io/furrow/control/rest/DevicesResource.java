@@ -220,7 +220,15 @@ public final class DevicesResource {
 
     private ObjectNode described(String key, ObjectNode wanted) {
         view.find(Topics.DEVICES_STATUS, key).ifPresent(status -> wanted.set("status", status));
-        view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> wanted.set("health", health));
+        view.find(Topics.DEVICES_HEALTH, key).ifPresent(health -> {
+            wanted.set("health", health);
+            boolean isUp = !wanted.path("simulated").asBoolean()
+                    && "running".equals(wanted.path("wanted").textValue())
+                    && health.path("heard").asLong() >= wanted.path("from").asLong();
+            if (isUp) { // no host says so of a real device
+                wanted.putObject("status").put("state", "running").set("sequence", wanted.path("sequence"));
+            }
+        });
         return wanted;
     }
 

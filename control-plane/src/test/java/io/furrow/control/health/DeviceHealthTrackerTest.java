@@ -153,7 +153,7 @@ class DeviceHealthTrackerTest {
 
     private void want(String mission, long from) {
         DeviceVersion version = new DeviceVersion(ID, "", "/", "d", mission, from, null, 1, null);
-        WantedDevice device = new WantedDevice(
+        WantedDevice device = WantedDevice.simulated(
                 version,
                 "T",
                 ID,

@@ -111,6 +111,32 @@ class SilenceDetectorTest {
         assertThat(signs).extracting(Heartbeat::silent).containsExactly(false, false, false, true);
     }
 
+    /** The context broker notifies about these before the device has sent anything. */
+    @Test
+    void takesWhatIsAssignedToADeviceForNoReport() {
+        want(PERIOD);
+        hear(
+                Entity.builder(ID, "T")
+                        .text("Mission", "m")
+                        .text("on_status", "PENDING")
+                        .text("Temperature", " "),
+                5);
+        assertThat(signs).isEmpty();
+        hear(Entity.builder(ID, "T").text("Mission", "m").number("Temperature", 8), 6);
+        hear(Entity.builder(ID, "T").text("on_status", "OK"), 7);
+        assertThat(signs).hasSize(1);
+    }
+
+    @Test
+    void emitsTheNextReportAfterItsMissionWasStartedAgain() {
+        want(PERIOD);
+        hear(Entity.builder(ID, "T"), 5);
+        want(PERIOD, 9);
+        pass(5_000);
+        hear(Entity.builder(ID, "T"), 10);
+        assertThat(signs).hasSize(2);
+    }
+
     @Test
     void listensToNothingThatNobodyWants() {
         assertThat(listener.listensTo(KEY)).isFalse();
@@ -156,8 +182,12 @@ class SilenceDetectorTest {
     }
 
     private void want(Duration period) {
-        DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", 0, null, 1, null);
-        WantedDevice device = new WantedDevice(
+        want(period, 0);
+    }
+
+    private void want(Duration period, long from) {
+        DeviceVersion version = new DeviceVersion(ID, "", "/", "d", "m", from, null, 1, null);
+        WantedDevice device = WantedDevice.simulated(
                 version, "T", ID, true, period, NgsiJson.mapper().createObjectNode());
         wanted.put(KEY, device.toBytes());
     }

@@ -213,7 +213,7 @@ class SilencePropertyTest {
             DeviceVersion version = new DeviceVersion("urn:" + number, "", "/", "d", mission, now, null, 1, null);
             wanted.put(
                     key(number),
-                    new WantedDevice(
+                    WantedDevice.simulated(
                                     version,
                                     "T",
                                     "t",

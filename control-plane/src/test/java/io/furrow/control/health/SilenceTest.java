@@ -38,7 +38,7 @@ class SilenceTest {
         Silence silence = new Silence(HealthOptions.DEFAULT, alarms);
         for (int i = 0; i < 5; i++) {
             String id = "urn:t:" + i;
-            silence.put(id, new Silence.Device(id, "Thermometer", "urn:m", true, false, NOW, 30_000));
+            silence.put(id, new Silence.Device(id, "Thermometer", "urn:m", true, true, false, NOW, 30_000));
         }
         return silence;
     }

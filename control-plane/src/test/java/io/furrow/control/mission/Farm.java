@@ -10,6 +10,7 @@ import org.assertj.core.api.ThrowableAssert.ThrowingCallable;
 import io.furrow.control.domain.Domain;
 import io.furrow.control.domain.DomainCommandHandler;
 import io.furrow.control.domain.DomainManager;
+import io.furrow.control.health.DeviceHealth;
 import io.furrow.control.manager.CommandProcessor;
 import io.furrow.control.manager.KeptOutbox;
 import io.furrow.control.manager.StateJson;
@@ -26,6 +27,7 @@ import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.control.mission.MissionDevices;
 import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.device.DeviceStatus;
+import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
@@ -60,7 +62,7 @@ final class Farm {
 
     Farm(int devicesPerStep) {
         MissionOptions options =
-                new MissionOptions(Duration.ofMillis(TIMEOUT), new FiwareScope("farm", "/"), devicesPerStep);
+                new MissionOptions(Duration.ofMillis(TIMEOUT), new FiwareScope("farm", "/"), false, devicesPerStep);
         missionHandler = MissionManager.handler(stores.context(), CommandProcessor.outbox(stores.context()), options);
         domainHandler =
                 DomainManager.handler(stores.context(), missionHandler, CommandProcessor.outbox(stores.context()));
@@ -98,8 +100,14 @@ final class Farm {
         return new MissionPlan.OfDevices(new MissionDevices(List.of(groups)));
     }
 
+    /** Devices that report by themselves. */
+    static DeviceGroup real(String type, int count) {
+        return new DeviceGroup(null, null, type, count, null, null, false, instance.objectNode());
+    }
+
+    /** Simulated devices. */
     static DeviceGroup group(String type, int count) {
-        return new DeviceGroup(null, null, type, count, null, null, instance.objectNode());
+        return new DeviceGroup(null, null, type, count, null, null, true, instance.objectNode());
     }
 
     MissionStatus status(String mission) {
@@ -123,11 +131,34 @@ final class Farm {
         run(() -> missionHandler.reported(device.version().key(), status, now));
     }
 
-    /** Whoever hosts devices does what is requested. */
+    /** A report of a device was received at a time. */
+    void hear(WantedDevice device, long heard) {
+        DeviceVersion version = device.version();
+        DeviceHealth health = new DeviceHealth(
+                version.id(),
+                version.service(),
+                version.servicePath(),
+                device.type(),
+                version.domain(),
+                version.mission(),
+                false,
+                heard,
+                heard,
+                heard,
+                null,
+                false);
+        run(() -> missionHandler.reported(version.key(), health, now));
+    }
+
+    /** The host of simulated devices does what is requested, and real devices report. */
     void hostAll() {
         for (DeviceState each : all(devices)) {
             WantedDevice device = each.device();
-            report(device, device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED);
+            if (device.simulated()) {
+                report(device, device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED);
+            } else {
+                hear(device, now);
+            }
         }
     }
 

@@ -32,8 +32,8 @@ class MissionDevicesTest {
 
     @Test
     void saysWhatIsCarriedByWhat() throws Exception {
-        DeviceGroup robots = new DeviceGroup("robots", null, "Robot", 2, null, null, instance.objectNode());
-        DeviceGroup cameras = new DeviceGroup(null, null, "Camera", 3, "robots", null, instance.objectNode());
+        DeviceGroup robots = new DeviceGroup("robots", null, "Robot", 2, null, null, true, instance.objectNode());
+        DeviceGroup cameras = new DeviceGroup(null, null, "Camera", 3, "robots", null, true, instance.objectNode());
         farm.start("m", "north", cameras, robots);
 
         assertThat(farm.device("urn:ngsi-ld:Camera:m-1").version().carriedBy()).isEqualTo("urn:ngsi-ld:Robot:m-1");
@@ -47,7 +47,8 @@ class MissionDevicesTest {
     void writesTheSettingsOfAGroupOnce() throws Exception {
         ObjectNode area = instance.objectNode().put("area", "field-1");
         area.putObject("parameters").put("mean", 18);
-        farm.start("m", "north", new DeviceGroup(null, null, "Thermometer", 3, null, Duration.ofSeconds(1), area));
+        farm.start(
+                "m", "north", new DeviceGroup(null, null, "Thermometer", 3, null, Duration.ofSeconds(1), true, area));
 
         assertThat(farm.outbox.compacted(Topics.MISSION_DEVICES)).containsOnlyKeys("m.0");
         for (byte[] device : farm.outbox.compacted(Topics.DEVICES).values()) {
@@ -119,8 +120,8 @@ class MissionDevicesTest {
         farm.ask(add("robots", "Robot", 2));
         farm.ask(new MissionCommand.AddDevices(
                 "m",
-                new MissionDevices(
-                        List.of(new DeviceGroup(null, null, "Camera", 2, "robots", null, instance.objectNode())))));
+                new MissionDevices(List.of(
+                        new DeviceGroup(null, null, "Camera", 2, "robots", null, true, instance.objectNode())))));
         farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("robots", "Robot", 1)));
         farm.refused(ErrorCode.WRONG_MEMBER, () -> farm.ask(add("more", "Robot", DeviceGroup.MAX)));
         farm.refused(
@@ -137,7 +138,7 @@ class MissionDevicesTest {
         return new MissionCommand.AddDevices(
                 "m",
                 new MissionDevices(
-                        List.of(new DeviceGroup(name, null, type, count, null, null, instance.objectNode()))));
+                        List.of(new DeviceGroup(name, null, type, count, null, null, true, instance.objectNode()))));
     }
 
     @Test
@@ -145,7 +146,7 @@ class MissionDevicesTest {
         ObjectNode large = instance.objectNode();
         large.putObject("parameters").put("note", "x".repeat(500_000));
         MissionCommand more = new MissionCommand.AddDevices(
-                "m", new MissionDevices(List.of(new DeviceGroup(null, null, "Camera", 1, null, null, large))));
+                "m", new MissionDevices(List.of(new DeviceGroup(null, null, "Camera", 1, null, null, true, large))));
         farm.ask(new MissionCommand.Create("m", "north", new MissionPlan.Unsaid()));
         for (int bytes = 0; bytes + 500_100 < Limits.MISSION_BYTES; bytes += 500_100) {
             farm.ask(more);

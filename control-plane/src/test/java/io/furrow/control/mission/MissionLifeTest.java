@@ -88,7 +88,9 @@ class MissionLifeTest {
         assertThat(farm.status("m").missing())
                 .containsExactly(
                         new MissionStatus.Missing("urn:ngsi-ld:Camera:m-2", "why"),
-                        new MissionStatus.Missing("urn:ngsi-ld:Camera:m-3", null));
+                        new MissionStatus.Missing(
+                                "urn:ngsi-ld:Camera:m-3",
+                                "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host"));
 
         farm.report(farm.device("urn:ngsi-ld:Camera:m-3"), State.RUNNING);
         assertThat(farm.status("m").missing()).hasSize(1);
@@ -98,29 +100,51 @@ class MissionLifeTest {
     }
 
     @Test
-    void failsWithWhatTheHostSaysWhereNoDeviceComesUp() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 2));
+    void waitsForItsFirstDeviceAndTakesNothingFromAny() throws Exception {
+        farm.start("m", "north", Farm.real("Thermometer", 2), Farm.group("Camera", 2));
         farm.report(farm.device("urn:ngsi-ld:Camera:m-2"), State.FAILED);
         farm.pass(Farm.TIMEOUT);
+        farm.pass(Duration.ofHours(3).toMillis());
 
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
         assertThat(farm.status("m").reason())
-                .isEqualTo("none of 2 devices came up within 60 s; urn:ngsi-ld:Camera:m-2: why");
+                .isEqualTo("4 of 4 devices are not up: urn:ngsi-ld:Thermometer:m-1 (it has not reported yet), "
+                        + "urn:ngsi-ld:Thermometer:m-2 (it has not reported yet), urn:ngsi-ld:Camera:m-1 (nothing simulates it: "
+                        + "start ./furrow up with --simulate-devices, or ./furrow device-host) and 1 more");
+        assertThat(farm.status("m").missing()).contains(new MissionStatus.Missing("urn:ngsi-ld:Camera:m-2", "why"));
+        assertThat(farm.all(farm.devices)).allMatch(each -> each.device().running());
+
+        farm.report(farm.device("urn:ngsi-ld:Thermometer:m-1"), State.FAILED);
+        assertThat(farm.status("m").missing())
+                .contains(new MissionStatus.Missing("urn:ngsi-ld:Thermometer:m-1", "why"));
+        farm.hear(farm.device("urn:ngsi-ld:Thermometer:m-1"), farm.now);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
+        assertThat(farm.status("m").missing()).hasSize(3);
+        farm.hostAll();
+        assertThat(farm.status("m").reason()).isNull();
+        assertThat(farm.status("m").confirmed()).isEqualTo(4);
     }
 
     @Test
-    void failsWithTheReasonWhereNoDeviceComesUp() throws Exception {
-        farm.start("m", "north", Farm.group("Camera", 3));
-        farm.pass(Farm.TIMEOUT);
+    void countsARealDeviceAsUpByItsFirstReportSinceItWasAskedFor() throws Exception {
+        farm.start("m", "north", Farm.real("Thermometer", 1), DeviceGroup.entity("urn:robot"));
+        WantedDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
+        farm.hear(thermometer, farm.now - 1);
+        farm.report(thermometer, State.RUNNING);
+        farm.report(thermometer, State.STOPPED);
+        assertThat(farm.status("m").confirmed()).isZero();
 
-        assertThat(farm.status("m").state()).isEqualTo(MissionState.FAILED);
-        assertThat(farm.status("m").reason()).isEqualTo("none of 3 devices came up within 60 s");
-        assertThat(farm.device("urn:ngsi-ld:Camera:m-1").running()).isFalse();
-        assertThat(farm.missions.get("m").running()).isFalse();
+        farm.hear(thermometer, farm.now);
+        farm.hear(thermometer, farm.now);
+        assertThat(farm.status("m").confirmed()).isEqualTo(1);
+        farm.report(thermometer, State.FAILED);
+        assertThat(farm.status("m").confirmed()).isEqualTo(1);
+        farm.hear(farm.device("urn:robot"), farm.now);
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.RUNNING);
 
-        farm.start("m", "north", Farm.group("Camera", 1));
-        assertThat(farm.status("m").state()).isEqualTo(MissionState.STARTING);
-        assertThat(farm.status("m").reason()).isNull();
-        assertThat(farm.outbox.compacted(Topics.DEVICES)).containsOnlyKeys("farm|/|urn:ngsi-ld:Camera:m-1");
+        farm.ask(new MissionCommand.Stop("m"));
+        assertThat(farm.status("m").state()).isEqualTo(MissionState.STOPPED);
+        assertThat(farm.device("urn:ngsi-ld:Thermometer:m-1").running()).isFalse();
     }
 
     @Test

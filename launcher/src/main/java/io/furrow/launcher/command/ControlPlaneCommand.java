@@ -22,6 +22,7 @@ import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.rest.RestApi;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.control.rest.access.CertificateFiles;
@@ -209,7 +210,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private ControlSettings settings() {
         Properties client = KafkaClient.settings(kafka, kafkaProperties);
         return ControlSettings.of(client)
-                .withScope(fiware.scope(fiwareService))
+                .with(new MissionOptions(provisioning.startTimeout, fiware.scope(fiwareService), false))
                 .withStandbyReplicas(standbyReplicas)
                 .with(replays.settings());
     }

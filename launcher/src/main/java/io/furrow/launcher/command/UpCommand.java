@@ -65,6 +65,10 @@ public final class UpCommand implements Callable<Integer> {
         if (orion == null && settings.iotAgent() != null) {
             throw new CommandException("--iot-agent needs --orion: the stand-in of the context broker has its own.");
         }
+        if (orion != null && farm.simulatesNowhere()) {
+            throw new CommandException(
+                    "--simulate-devices with --orion needs --mqtt: the broker to which simulated devices publish.");
+        }
         SuiteSettings.Fiware fiware = new SuiteSettings.Fiware(
                 access.scope(options.fiwareService),
                 access.tokenFile,

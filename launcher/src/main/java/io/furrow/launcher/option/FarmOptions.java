@@ -18,8 +18,8 @@ public final class FarmOptions {
             names = "--mqtt",
             paramLabel = "URI",
             description =
-                    "MQTT broker of simulated devices: tcp://host:port, or ssl://host:port with TLS. With --orion only; without "
-                            + "it no device is simulated then.")
+                    "MQTT broker of simulated devices: tcp://host:port, or ssl://host:port with TLS. With --orion and "
+                            + "--simulate-devices.")
     private URI mqtt;
 
     @Option(
@@ -30,9 +30,19 @@ public final class FarmOptions {
     private Path mqttTrusted;
 
     @Option(
-            names = "--no-simulated-devices",
-            description = "Simulate none of the devices that missions ask for: something else hosts them.")
-    private boolean hostedElsewhere;
+            names = "--simulate-devices",
+            description =
+                    "Simulate the devices of missions that have \"simulated\": true, as those of the template thesis-demo.")
+    private boolean simulates;
+
+    /** The default, of which scripts may want to be sure. */
+    @Option(names = "--no-simulated-devices", hidden = true)
+    private boolean simulatesNone;
+
+    /** Whether devices are to be simulated without an MQTT broker to publish to. */
+    public boolean simulatesNowhere() {
+        return simulates && mqtt == null;
+    }
 
     public SuiteSettings.Farm farm(String fiwareService, AccessToken token) {
         return new SuiteSettings.Farm(
@@ -42,6 +52,6 @@ public final class FarmOptions {
                 provisioning.accounts(),
                 provisioning.secret(),
                 provisioning.tokens,
-                !hostedElsewhere);
+                new SuiteSettings.Missions(provisioning.startTimeout, simulates && !simulatesNone, false));
     }
 }

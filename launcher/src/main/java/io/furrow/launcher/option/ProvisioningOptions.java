@@ -81,6 +81,15 @@ public final class ProvisioningOptions {
     public boolean gateways;
 
     @Option(
+            names = "--start-timeout",
+            paramLabel = "DURATION",
+            defaultValue = "1min",
+            description =
+                    "How long devices of a mission may take to come up. Then those that are missing are named, and an alarm is "
+                            + "raised; the mission waits for them. Default: ${DEFAULT-VALUE}.")
+    public Duration startTimeout;
+
+    @Option(
             names = "--api-tokens",
             paramLabel = "FILE",
             description =

@@ -8,6 +8,7 @@ import java.util.Properties;
 
 import io.furrow.control.ControlSettings;
 import io.furrow.control.device.DeviceCommands;
+import io.furrow.control.mission.MissionOptions;
 import io.furrow.control.replay.ReplaySettings;
 import io.furrow.control.rest.RestSettings;
 import io.furrow.embedded.EmbeddedMqtt;
@@ -70,8 +71,9 @@ final class SuiteControl implements AutoCloseable {
         this.client = kafka.clientProperties();
         Properties streams = kafka.clientProperties();
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
+        SuiteSettings.Missions missions = suite.farm().missions();
         this.settings = ControlSettings.of(streams)
-                .withScope(suite.fiware().scope())
+                .with(new MissionOptions(missions.startTimeout(), suite.fiware().scope(), missions.simulatedByDefault()))
                 .with(ReplaySettings.DEFAULT.withMongo(mongo));
         this.service = new ControlService(settings);
     }
@@ -85,7 +87,7 @@ final class SuiteControl implements AutoCloseable {
     URI join(Endpoints ends) throws IOException {
         SuiteSettings.Farm farm = suite.farm();
         SecretFile source = FarmSecretFile.open(secret, client, farm.secret().replaced());
-        boolean simulates = ends.mqtt() != null && farm.simulates();
+        boolean simulates = ends.mqtt() != null && farm.missions().simulates();
         FiwareScope scope = settings.missions().scope();
         api = service.serve(
                 RestSettings.on(suite.ports().control())

@@ -2,6 +2,7 @@ package io.furrow.launcher.suite;
 
 import java.net.URI;
 import java.nio.file.Path;
+import java.time.Duration;
 import java.util.List;
 
 import io.furrow.cli.CommandException;
@@ -10,6 +11,7 @@ import io.furrow.control.alarm.action.StopRobots;
 import io.furrow.control.alarm.action.Webhook;
 import io.furrow.control.device.CommandSender;
 import io.furrow.control.health.HealthOptions;
+import io.furrow.control.mission.MissionOptions;
 import io.furrow.http.AllowedNames;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.file.AccessToken;
@@ -107,7 +109,7 @@ public record SuiteSettings(
      * @param accounts files in which that broker finds the accounts of devices
      * @param secret of the farm
      * @param tokens file of those who may command; null for all who reach the API
-     * @param simulates whether the devices are simulated here
+     * @param missions how missions are run
      */
     public record Farm(
             AgentSettings iotAgent,
@@ -116,11 +118,26 @@ public record SuiteSettings(
             AccountFiles accounts,
             Secret secret,
             Path tokens,
-            boolean simulates) {
+            Missions missions) {
         /** Simulated devices on the stand-in and the suite's own MQTT broker. */
         public static final Farm SIMULATED = new Farm(
-                null, null, null, new AccountFiles(null, null, null, false), new Secret(null, null), null, true);
+                null,
+                null,
+                null,
+                new AccountFiles(null, null, null, false),
+                new Secret(null, null),
+                null,
+                new Missions(MissionOptions.START_TIMEOUT, true, true));
     }
+
+    /**
+     * How missions are run.
+     *
+     * @param startTimeout after which devices that have not come up are missing
+     * @param simulates whether a host of simulated devices is started
+     * @param simulatedByDefault whether devices are simulated that do not say so
+     */
+    public record Missions(Duration startTimeout, boolean simulates, boolean simulatedByDefault) {}
 
     /**
      * The farm's secret.

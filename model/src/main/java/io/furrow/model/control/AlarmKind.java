@@ -7,6 +7,8 @@ import com.fasterxml.jackson.annotation.JsonValue;
 
 /** What alarms are about; the names are never changed, clients branch on them. */
 public enum AlarmKind {
+    /** Devices of a mission did not come up within the start timeout; the subject is the mission's entity. */
+    MISSING_DEVICES,
     /** Devices were not heard of for longer than they may be; the subject is the entity of their mission, else domain. */
     SILENT_DEVICE,
     /** So much of a mission is silent that rather its site or connection is unavailable; the subject is the mission's entity. */

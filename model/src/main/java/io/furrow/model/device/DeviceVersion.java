@@ -84,6 +84,11 @@ public record DeviceVersion(
         return new DeviceVersion(id, service, servicePath, domain, mission, from, time, sequence, carriedBy);
     }
 
+    /** The same with another sequence. */
+    public DeviceVersion numbered(long other) {
+        return new DeviceVersion(id, service, servicePath, domain, mission, from, until, other, carriedBy);
+    }
+
     /** UTF-8 JSON; members without a value are left out. */
     public byte[] toBytes() {
         return NgsiJson.write(toJson());

@@ -14,13 +14,14 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /**
  * A record of {@code service.devices} as the control plane writes it: to whom the device belongs, which is all that jobs read,
- * and what its host shall run. Whoever hosts devices brings what runs in line with what is requested and says so on {@code
- * service.devices.status}, see {@link DeviceStatus}.
+ * how it is provisioned, and whether a host simulates it. The host reconciles what it runs with these records and publishes the
+ * result on {@code service.devices.status}, see {@link DeviceStatus}.
  *
- * @param type of the entity; null if the device reports by itself and nobody is asked to run it
+ * @param type of the entity; null if the device reports with a login of its own and is not provisioned
  * @param device id at the IoT Agent and in MQTT topics; null if {@code type} is
  * @param running false if it shall be removed; {@code version} then has an end
- * @param period between two measures; null if the host chooses
+ * @param period between two measures; null if it is not known
+ * @param simulated whether a host runs it; a real device is up by its first report
  * @param settings {@code area}, {@code path}, {@code speed}, {@code faults}, {@code parameters}, where the record itself has them;
  *     owned by the record
  * @param group where they are else, see {@link MissionDeviceLists#resolve}; null if the record itself has them
@@ -32,11 +33,13 @@ public record WantedDevice(
         String device,
         boolean running,
         Duration period,
+        boolean simulated,
         ObjectNode settings,
         GroupRef group,
         int generation) {
     private static final String SETTINGS = "settings";
     private static final String GROUP = "group";
+    private static final String SIMULATED = "simulated";
     private static final String GENERATION = "generation";
 
     public WantedDevice {
@@ -44,28 +47,28 @@ public record WantedDevice(
         Objects.requireNonNull(settings);
     }
 
-    /** A device that has its settings in itself, and whose credentials were never rotated. */
-    public WantedDevice(
+    /** A simulated device, if it has a type, with its settings in itself, whose credentials were never rotated. */
+    public static WantedDevice simulated(
             DeviceVersion version, String type, String device, boolean running, Duration period, ObjectNode settings) {
-        this(version, type, device, running, period, settings, null, 0);
+        return new WantedDevice(version, type, device, running, period, type != null, settings, null, 0);
     }
 
     /** The same with settings of its own. */
     WantedDevice with(ObjectNode own) {
-        return new WantedDevice(version, type, device, running, period, own, null, generation);
+        return new WantedDevice(version, type, device, running, period, simulated, own, null, generation);
     }
 
     public WantedDevice withGeneration(int other) {
-        return new WantedDevice(version, type, device, running, period, settings, group, other);
+        return new WantedDevice(version, type, device, running, period, simulated, settings, group, other);
     }
 
-    /** Whether somebody is asked to run it. */
-    public boolean isHosted() {
-        return type != null;
+    /** The same after another version of it. */
+    public WantedDevice with(DeviceVersion other, boolean shallRun) {
+        return new WantedDevice(other, type, device, shallRun, period, simulated, settings, group, generation);
     }
 
     /**
-     * Reads the value of a record; one that says no more than to whom the device belongs is of a device that nobody hosts.
+     * Reads the value of a record; one that says no more than to whom the device belongs is of a device that is not provisioned.
      *
      * @throws UnreadableException as {@link DeviceVersion#read}, and where {@code period} is no duration or {@code generation} no
      *     whole number from 0 on
@@ -79,6 +82,7 @@ public record WantedDevice(
                 json.path("device").textValue(),
                 !"stopped".equals(json.path("wanted").textValue()),
                 period(json.path("period").textValue()),
+                json.path(SIMULATED).asBoolean(),
                 json.path(SETTINGS) instanceof ObjectNode settings ? settings : JsonNodeFactory.instance.objectNode(),
                 GroupRef.read(json.path(GROUP)),
                 generation(json.path(GENERATION)));
@@ -105,8 +109,8 @@ public record WantedDevice(
 
     public byte[] toBytes() {
         ObjectNode json = version.toJson();
-        if (isHosted()) {
-            json.put("type", type).put("device", device);
+        if (type != null) {
+            json.put("type", type).put("device", device).put(SIMULATED, simulated);
         }
         json.put("wanted", running ? "running" : "stopped");
         if (period != null) {

@@ -45,7 +45,7 @@ class RequestsTest {
     void readsEveryMemberOfAStart() {
         Received<MissionCommand> received = Requests.mission(json("""
                 {'type':'request','requestId':'r-1','command':'start','mission':'m','domain':'d','start':'2026-03-01T08:00:00+01:00',
-                 'duration':'PT2H','devices':['urn:robot:1',{'name':'tractor','type':'Robot','count':2,'period':'PT0.5S','speed':1.5,
+                 'duration':'PT2H','devices':['urn:robot:1',{'name':'tractor','type':'Robot','count':2,'simulated':true,'period':'PT0.5S','speed':1.5,
                  'path':[[-3.48,40.31],[-3.47,40.31]]},{'type':'Camera','count':4,'carriedBy':'tractor','area':'field-1',
                  'faults':[{'kind':'silent','from':5}],'parameters':{'width':64}}]}"""));
 
@@ -57,11 +57,11 @@ class RequestsTest {
             MissionDevices devices = ((MissionPlan.OfDevices) start.plan()).devices();
             assertThat(devices.count()).isEqualTo(7);
             assertThat(devices.groups())
-                    .extracting(DeviceGroup::isHosted, DeviceGroup::label, DeviceGroup::carriedBy)
+                    .extracting(DeviceGroup::simulated, DeviceGroup::label, DeviceGroup::carriedBy)
                     .containsExactly(
-                            org.assertj.core.groups.Tuple.tuple(false, "urn:robot:1", null),
+                            org.assertj.core.groups.Tuple.tuple(null, "urn:robot:1", null),
                             org.assertj.core.groups.Tuple.tuple(true, "tractor", null),
-                            org.assertj.core.groups.Tuple.tuple(true, null, "tractor"));
+                            org.assertj.core.groups.Tuple.tuple(null, null, "tractor"));
             assertThat(devices.groups().get(2).settings().path("parameters"))
                     .isEqualTo(JsonNodeFactory.instance.objectNode().put("width", 64));
         });

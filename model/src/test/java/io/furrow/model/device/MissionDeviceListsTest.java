@@ -77,7 +77,7 @@ class MissionDeviceListsTest {
 
     private static WantedDevice device(GroupRef group) {
         DeviceVersion version = new DeviceVersion("urn:x", "farm", "/", "d", "m", 5, null, 7, null);
-        return new WantedDevice(version, "Camera", "x", true, null, NONE, group, 0);
+        return new WantedDevice(version, "Camera", "x", true, null, true, NONE, group, 0);
     }
 
     private static com.fasterxml.jackson.databind.JsonNode json(String text) throws Exception {

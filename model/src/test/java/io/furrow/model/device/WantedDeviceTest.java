@@ -17,7 +17,7 @@ class WantedDeviceTest {
 
     @Test
     void isReadByJobsAsTheVersionThatItHolds() throws Exception {
-        WantedDevice camera = new WantedDevice(
+        WantedDevice camera = WantedDevice.simulated(
                 VERSION,
                 "Camera",
                 "camera-m-1",
@@ -29,7 +29,7 @@ class WantedDeviceTest {
         assertThat(WantedDevice.read(camera.toBytes())).isEqualTo(camera);
         assertThat(new String(camera.toBytes(), StandardCharsets.UTF_8)).isEqualTo("""
                 {"id":"urn:Camera:m-1","service":"farm","servicePath":"/","domain":"d","mission":"m","from":5,"until":9,\
-                "sequence":7,"carriedBy":"urn:Robot:m-1","type":"Camera","device":"camera-m-1","wanted":"stopped",\
+                "sequence":7,"carriedBy":"urn:Robot:m-1","type":"Camera","device":"camera-m-1","simulated":true,"wanted":"stopped",\
                 "period":"PT5S","settings":{"area":"field-1"}}""");
     }
 
@@ -46,10 +46,10 @@ class WantedDeviceTest {
     }
 
     @Test
-    void isHostedByNobodyWhereItSaysNoMoreThanToWhomItBelongs() throws Exception {
+    void isRealWhereItDoesNotSayThatItIsSimulated() throws Exception {
         WantedDevice robot = WantedDevice.read(VERSION.toBytes());
 
-        assertThat(robot.isHosted()).isFalse();
+        assertThat(robot.simulated()).isFalse();
         assertThat(robot.running()).isTrue();
         assertThat(WantedDevice.read(robot.toBytes())).isEqualTo(robot);
     }

@@ -46,7 +46,7 @@ public final class DeviceReconciler {
      * Processes a record.
      *
      * @param wanted null for a deletion
-     * @return the step; empty if the record is out of date, or of a device that is not hosted
+     * @return the step; empty if the record is out of date, or of a device that was never simulated here
      */
     public Optional<Step> take(String key, WantedDevice wanted) {
         Device known = devices.getOrDefault(key, new Device(null, -1, null));
@@ -61,7 +61,7 @@ public final class DeviceReconciler {
         if (wanted.version().sequence() <= known.sequence) {
             return Optional.empty();
         }
-        if (!wanted.isHosted() && known.asked == null) {
+        if (!wanted.simulated() && known.asked == null) {
             return Optional.empty();
         }
         devices.put(key, new Device(wanted, wanted.version().sequence(), known.runs));
@@ -69,7 +69,7 @@ public final class DeviceReconciler {
     }
 
     private static Step step(String key, WantedDevice wanted, WantedDevice runs) {
-        boolean run = wanted.running() && wanted.isHosted();
+        boolean run = wanted.running() && wanted.simulated();
         if (runs == null) {
             return run ? new Step.Start(key, wanted) : new Step.Confirm(key);
         }
@@ -103,7 +103,7 @@ public final class DeviceReconciler {
             devices.remove(step.key());
             return Optional.empty();
         }
-        WantedDevice runs = failure == null && known.asked.running() && known.asked.isHosted() ? known.asked : null;
+        WantedDevice runs = failure == null && known.asked.running() && known.asked.simulated() ? known.asked : null;
         devices.put(step.key(), new Device(known.asked, known.sequence, runs));
         DeviceStatus.State state = DeviceStatus.State.STOPPED;
         if (failure != null) {

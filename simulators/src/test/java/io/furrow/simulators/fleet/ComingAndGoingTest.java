@@ -182,7 +182,8 @@ class ComingAndGoingTest {
                     new DeviceVersion("urn:" + id, "farm", "/", "farm", mission, now.toEpochMilli(), null, 1, null);
             ObjectNode settings = JsonNodeFactory.instance.objectNode();
             settings.putArray("path").addArray().add(-3.5).add(40.3);
-            WantedDevice wanted = new WantedDevice(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
+            WantedDevice wanted =
+                    WantedDevice.simulated(version, "Thermometer", id, true, Duration.ofMillis(50), settings);
             members.add(new FarmFleet.Member(
                     new WantedDeviceReader(Map.of(), 0).read(wanted), FiwareScope.of("farm", "/"), now));
         }

@@ -264,7 +264,7 @@ class DemoMissionsTest {
                 null);
         ObjectNode settings = device.deepCopy();
         settings.retain("area", "path", "speed", "faults", "parameters");
-        return new WantedDevice(
+        return WantedDevice.simulated(
                 version,
                 device.path("type").asText(),
                 version.id(),

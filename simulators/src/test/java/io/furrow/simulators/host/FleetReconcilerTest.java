@@ -128,6 +128,7 @@ class FleetReconcilerTest {
                 device.device(),
                 device.running(),
                 device.period(),
+                true,
                 device.settings(),
                 new GroupRef(0, 0, sequence),
                 device.generation());
@@ -206,7 +207,7 @@ class FleetReconcilerTest {
     private static WantedDevice wanted(String id, long sequence, boolean runs, ObjectNode settings) {
         DeviceVersion version = new DeviceVersion(
                 "urn:" + id, "farm", "/", "farm", "weeding", 1000, runs ? null : Long.valueOf(2000), sequence, null);
-        return new WantedDevice(version, "Thermometer", id, runs, Duration.ofSeconds(1), settings);
+        return WantedDevice.simulated(version, "Thermometer", id, runs, Duration.ofSeconds(1), settings);
     }
 
     private static DeviceStatus status(long sequence, State state) {

@@ -124,7 +124,7 @@ final class HostBench implements AutoCloseable {
             version = new DeviceVersion(entity, "farm", "/", "farm", mission, now, null, number, carrier.textValue());
         }
         String type = entity.split(":")[2];
-        WantedDevice wanted = new WantedDevice(version, type, entity, running, Duration.ofMillis(100), json)
+        WantedDevice wanted = WantedDevice.simulated(version, type, entity, running, Duration.ofMillis(100), json)
                 .withGeneration(generation);
         producer.send(new ProducerRecord<>(Topics.DEVICES, key(entity), wanted.toBytes()))
                 .get();

@@ -134,7 +134,7 @@ class WantedDeviceReaderTest {
         String carrier = json.hasNonNull("carriedBy") ? json.remove("carriedBy").asText() : null;
         String id = "urn:ngsi-ld:%s:m-%d".formatted(type, number);
         DeviceVersion version = new DeviceVersion(id, "farm", "/", "farm", "m", FROM.toEpochMilli(), null, 1, carrier);
-        return reader.read(new WantedDevice(version, type, id, true, null, json));
+        return reader.read(WantedDevice.simulated(version, type, id, true, null, json));
     }
 
     private static org.locationtech.jts.geom.Coordinate meters(Sensor sensor) {

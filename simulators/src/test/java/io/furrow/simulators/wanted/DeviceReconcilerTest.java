@@ -99,7 +99,7 @@ class DeviceReconcilerTest {
     @Test
     void leavesDevicesAloneThatReportByThemselves() {
         WantedDevice alone =
-                new WantedDevice(version(1), null, null, true, null, JsonNodeFactory.instance.objectNode());
+                WantedDevice.simulated(version(1), null, null, true, null, JsonNodeFactory.instance.objectNode());
 
         assertThat(reconciler.take(KEY, alone)).isEmpty();
         assertThat(reconciler.running()).isZero();
@@ -165,7 +165,7 @@ class DeviceReconcilerTest {
     private static WantedDevice wanted(String id, long sequence, boolean running, int celsius) {
         DeviceVersion version =
                 new DeviceVersion(id, "farm", "/", "farm", "weeding", 1000 + sequence, null, sequence, null);
-        return new WantedDevice(
+        return WantedDevice.simulated(
                 version,
                 "Thermometer",
                 id,

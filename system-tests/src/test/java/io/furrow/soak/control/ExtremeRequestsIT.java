@@ -190,10 +190,11 @@ class ExtremeRequestsIT {
         });
         assertThat(ordinary(Topics.DOMAIN_MANAGER, "create", "{'domain':'ordinary'}"))
                 .isEqualTo(201);
-        assertThat(ordinary(
-                        Topics.MISSION_MANAGER,
-                        "start",
-                        "{'mission':'m','domain':'ordinary','devices':[{'type':'Thermometer','count':2}]}"))
+        assertThat(
+                        ordinary(
+                                Topics.MISSION_MANAGER,
+                                "start",
+                                "{'mission':'m','domain':'ordinary','devices':[{'type':'Thermometer','count':2,'simulated':true}]}"))
                 .isEqualTo(200);
         await().atMost(TIMEOUT).until(() -> state().equals("running"));
         assertThat(ordinary(Topics.MISSION_MANAGER, "stop", "{'mission':'m'}")).isEqualTo(200);

@@ -171,8 +171,11 @@ final class MissionActor {
 
     private static ArrayNode list(int count) {
         ArrayNode list = JsonNodeFactory.instance.arrayNode();
-        ObjectNode group =
-                list.addObject().put("type", TYPE).put("count", count).put("period", "PT2S");
+        ObjectNode group = list.addObject()
+                .put("type", TYPE)
+                .put("count", count)
+                .put("period", "PT2S")
+                .put("simulated", true);
         group.putArray("path").addArray().add(-3.48).add(40.31);
         return list;
     }

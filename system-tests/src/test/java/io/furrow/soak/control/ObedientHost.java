@@ -40,7 +40,7 @@ final class ObedientHost implements AutoCloseable {
     private void report(ConsumerRecord<String, byte[]> record) {
         try {
             WantedDevice device = record.value() == null ? null : WantedDevice.read(record.value());
-            if (device != null && device.isHosted()) {
+            if (device != null && device.simulated()) {
                 DeviceStatus.State state = device.running() ? DeviceStatus.State.RUNNING : DeviceStatus.State.STOPPED;
                 DeviceStatus status = new DeviceStatus(device.version().sequence(), state, null);
                 sender.write(Topics.DEVICES_STATUS, record.key(), status.toBytes());

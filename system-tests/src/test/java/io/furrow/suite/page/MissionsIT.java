@@ -58,6 +58,27 @@ class MissionsIT {
 
     @Tag("full")
     @Test
+    void makesAMissionOfRealDevicesThatWaitsForTheirFirstReport(PageSuite suite) {
+        FarmPage farm = suite.open("#/missions").expectingError("status of 400.*recordings/own/timeline");
+        farm.button("New mission").click();
+        Locator dialog = farm.find("dialog[open]");
+        dialog.getByLabel("Name").fill("own");
+        dialog.getByLabel("Domain").selectOption("farm");
+        dialog.getByLabel("Template").selectOption(" own");
+        dialog.getByLabel("How many").fill("2");
+        dialog.getByText("Create", new Locator.GetByTextOptions().setExact(true))
+                .click();
+
+        Locator detail = farm.find("furrow-missions .mission-detail");
+        assertThat(detail.locator(".pill").first()).hasText("starting");
+        assertThat(detail.locator(".device-table tbody")).containsText("Thermometer:own-2");
+        detail.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        dialog.getByText("Stop", new Locator.GetByTextOptions().setExact(true)).click();
+        assertThat(detail.locator(".pill").first()).hasText("stopped");
+    }
+
+    @Tag("full")
+    @Test
     void showsAMissionThoughNoneRuns(PageSuite suite) {
         FarmPage farm = suite.window(suite.running().suite().dashboard(), Look.DESK);
         farm.page().route("**/api/missions", route -> {

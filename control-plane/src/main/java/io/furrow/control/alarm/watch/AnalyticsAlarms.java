@@ -17,12 +17,14 @@ import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
+import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.record.RecordScope;
 import io.furrow.control.manager.record.StoredRecords;
+import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
-/** Adds the processors that raise alarms from results of analytics. */
+/** Adds the processors that raise alarms from results of analytics and from the statuses of missions. */
 public final class AnalyticsAlarms {
     private AnalyticsAlarms() {}
 
@@ -73,6 +75,18 @@ public final class AnalyticsAlarms {
             };
         };
         send(clocks, opening, types, "clocks");
+    }
+
+    /** @param statuses the records of {@code service.missions.status}, in a single partition */
+    public static void addStarts(KStream<String, byte[]> statuses, Types types) {
+        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
+            WatchStarts watch = new WatchStarts(AlarmManager.handler(context, outbox));
+            return (record, now) -> watch.take(
+                    record.key(),
+                    record.value() == null ? null : StateJson.readRecord(record.value(), MissionStatus.class),
+                    now);
+        };
+        send(statuses, opening, types, "starts");
     }
 
     private record SensorObserver(WatchSensors watch) implements Observer {

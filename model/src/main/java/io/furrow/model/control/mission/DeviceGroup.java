@@ -16,22 +16,30 @@ import io.furrow.model.control.RequestMembers;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
- * Devices of one kind on a mission, an element of {@code devices}. As a text it is the id of an entity that reports by itself:
- * it is assigned to the mission, but nobody is asked to run it.
+ * Devices of one kind on a mission, an element of {@code devices}. As a text it is the id of an entity that reports with a login
+ * of its own: it is assigned to the mission, but not provisioned.
  *
  * @param name by which other groups say that they are carried; null if none needs it
  * @param id of the entity, for a single device that has one; null if ids are made of the mission's name
- * @param type of the entities; null if nobody is asked to run the device
+ * @param type of the entities; null if the device is not provisioned
  * @param count how many, 1 to {@value #MAX}
  * @param carriedBy name of the group whose devices carry these, the first the first and so on, then from the first again;
  *     null if none does
- * @param period between two measures; null if the host of the devices chooses
+ * @param period between two measures; null if it is not known
+ * @param simulated whether a host of simulated devices runs them; null for the default of the control plane
  * @param settings {@code area} (id of a field or GeoJSON), {@code path} (list of [longitude, latitude]), {@code speed} (m/s),
  *     {@code faults} (objects with {@code kind} stuck, drift, spikes or silent) and {@code parameters} (anything the host
  *     understands), as they were given; owned by the group, not to be changed by readers
  */
 public record DeviceGroup(
-        String name, String id, String type, int count, String carriedBy, Duration period, ObjectNode settings) {
+        String name,
+        String id,
+        String type,
+        int count,
+        String carriedBy,
+        Duration period,
+        Boolean simulated,
+        ObjectNode settings) {
     /** Devices of one mission. */
     public static final int MAX = 10_000;
 
@@ -44,14 +52,9 @@ public record DeviceGroup(
     private static final List<String> SETTINGS = List.of("area", "path", "speed", "faults", "parameters");
     private static final double FASTEST = 100;
 
-    /** An entity that reports by itself. */
+    /** An entity that reports with a login of its own. */
     public static DeviceGroup entity(String id) {
-        return new DeviceGroup(null, id, null, 1, null, null, JsonNodeFactory.instance.objectNode());
-    }
-
-    /** Whether somebody is asked to run these devices. */
-    public boolean isHosted() {
-        return type != null;
+        return new DeviceGroup(null, id, null, 1, null, null, null, JsonNodeFactory.instance.objectNode());
     }
 
     /** By what {@code carriedBy} of another group means this one; null if nothing does. */
@@ -85,6 +88,7 @@ public record DeviceGroup(
                 count,
                 members.textOrNull("carriedBy"),
                 members.durationOrNull("period"),
+                members.has("simulated") ? members.flag("simulated") : null,
                 settings);
     }
 
@@ -146,7 +150,7 @@ public record DeviceGroup(
     }
 
     JsonNode toJson() {
-        if (!isHosted()) {
+        if (type == null) {
             return JsonNodeFactory.instance.textNode(id);
         }
         ObjectNode json = JsonNodeFactory.instance.objectNode();
@@ -155,6 +159,9 @@ public record DeviceGroup(
         json.put("type", type).put("count", count);
         put(json, "carriedBy", carriedBy);
         put(json, "period", period == null ? null : period.toString());
+        if (simulated != null) {
+            json.put("simulated", simulated);
+        }
         json.setAll(settings);
         return json;
     }

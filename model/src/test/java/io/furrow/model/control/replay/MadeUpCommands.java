@@ -121,6 +121,7 @@ public final class MadeUpCommands {
                                     1 + random.nextInt(5),
                                     maybe(carrier),
                                     duration(),
+                                    true,
                                     settings));
         }
         return new MissionDevices(groups);
