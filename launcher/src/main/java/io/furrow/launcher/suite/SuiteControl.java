@@ -73,7 +73,8 @@ final class SuiteControl implements AutoCloseable {
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
         SuiteSettings.Missions missions = suite.farm().missions();
         this.settings = ControlSettings.of(streams)
-                .with(new MissionOptions(missions.startTimeout(), suite.fiware().scope(), missions.simulatedByDefault()))
+                .with(new MissionOptions(
+                        missions.startTimeout(), suite.fiware().scope(), missions.simulatedByDefault()))
                 .with(ReplaySettings.DEFAULT.withMongo(mongo));
         this.service = new ControlService(settings);
     }
