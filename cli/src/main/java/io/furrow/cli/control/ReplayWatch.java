@@ -1,11 +1,13 @@
 package io.furrow.cli.control;
 
 import java.io.IOException;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicBoolean;
+import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.jline.terminal.Attributes;
@@ -176,8 +178,8 @@ final class ReplayWatch implements ControlOptions.Work {
         List<AttributedString> lines =
                 ReplayView.block(events.newest(), notice(events), keys.isHelp(), width - 1).stream()
                         .map(AttributedString::new)
-                        .toList();
-        display.update(lines, -1);
+                        .collect(Collectors.toCollection(ArrayList::new));
+        display.update(lines, -1); // changes the list where it scrolls
     }
 
     private String notice(ReplayEvents events) {

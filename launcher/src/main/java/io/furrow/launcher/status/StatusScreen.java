@@ -7,8 +7,10 @@ import java.io.PrintStream;
 import java.nio.charset.Charset;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.function.IntFunction;
+import java.util.stream.Collectors;
 
 import org.jline.terminal.Attributes;
 import org.jline.terminal.Attributes.LocalFlag;
@@ -104,12 +106,11 @@ public final class StatusScreen implements AutoCloseable {
 
     private void draw() {
         if (!closed) {
-            display.update(
-                    block.apply(size.getRows()).stream()
-                            .limit(size.getRows())
-                            .map(line -> new AttributedString(line).columnSubSequence(0, size.getColumns() - 1))
-                            .toList(),
-                    -1);
+            List<AttributedString> lines = block.apply(size.getRows()).stream()
+                    .limit(size.getRows())
+                    .map(line -> new AttributedString(line).columnSubSequence(0, size.getColumns() - 1))
+                    .collect(Collectors.toCollection(ArrayList::new));
+            display.update(lines, -1); // changes the list where it scrolls
             terminal.flush();
         }
     }

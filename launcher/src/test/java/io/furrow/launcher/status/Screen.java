@@ -58,6 +58,8 @@ final class Screen {
                 column = numbers.length > 1 ? Integer.parseInt(numbers[1]) - 1 : 0;
             }
             case 'J' -> clear(numbers[0].equals("2") ? 0 : row);
+            case 'L' -> shift(number);
+            case 'M' -> shift(-number);
             case 'K' -> Arrays.fill(cells[row], column, cells[row].length, ' ');
             default -> {}
         }
@@ -66,6 +68,21 @@ final class Screen {
     private void clear(int from) {
         for (int i = from; i < cells.length; i++) {
             Arrays.fill(cells[i], ' ');
+        }
+    }
+
+    /** @param lines inserted at the cursor, or deleted if less than 0 */
+    private void shift(int lines) {
+        List<char[]> below = new ArrayList<>(Arrays.asList(cells).subList(row, cells.length));
+        int height = below.size();
+        for (int i = 0; i < Math.abs(lines); i++) {
+            char[] blank = new char[cells[0].length];
+            Arrays.fill(blank, ' ');
+            below.remove(lines > 0 ? height - 1 : 0);
+            below.add(lines > 0 ? 0 : height - 1, blank);
+        }
+        for (int i = 0; i < height; i++) {
+            cells[row + i] = below.get(i);
         }
     }
 

@@ -42,6 +42,19 @@ class StatusScreenTest {
     }
 
     @Test
+    void movesLinesUpAndDown() throws Exception {
+        List<String> lines = numbered("line", 24);
+        Screen seen = new Screen(80, 10);
+        try (StatusScreen screen = new StatusScreen(terminal(80, 10))) {
+            for (int first : new int[] {5, 6, 8, 4, 3, 11, 0}) {
+                screen.show(rows -> lines.subList(first, first + rows));
+
+                assertThat(seen.write(taken()).rows()).isEqualTo(lines.subList(first, first + 10));
+            }
+        }
+    }
+
+    @Test
     void cutsLinesThatAreWiderThanTheTerminal() throws Exception {
         try (StatusScreen screen = new StatusScreen(terminal(20, 3))) {
             screen.show(rows -> List.of("x".repeat(19), "y".repeat(250), "z"));
