@@ -36,6 +36,7 @@ import io.furrow.embedded.EmbeddedKafka;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.EntityBuilder;
 import io.furrow.model.ngsi.NgsiJson;
@@ -163,7 +164,7 @@ class AlarmStormIT {
     private FarmWatch watch() throws Exception {
         WatchOptions options = WatchOptions.DEFAULT
                 .with(Webhook.Settings.of(uri(hook)))
-                .with(StopRobots.Settings.of(new DeviceCommands(uri(broker), FiwareScope.DEFAULT)));
+                .with(StopRobots.Settings.of(new DeviceCommands(uri(broker), FiwareScope.DEFAULT, AccessToken.NONE)));
         return FarmWatch.start(
                 ControlPlaneProcess.settings(
                         kafka.bootstrapServers(), directory.resolve("state").toString()),

@@ -14,8 +14,8 @@ import io.moquette.broker.security.IAuthorizatorPolicy;
 import io.moquette.broker.subscriptions.Topic;
 
 /**
- * An MQTT 3.1.1 broker in this JVM, on 127.0.0.1, that lets nobody in without a user and password. A message to a topic to which
- * its sender may not publish is acknowledged and discarded, as Mosquitto does it.
+ * An MQTT 3.1.1 broker in this JVM, on 127.0.0.1 unless told otherwise, that lets nobody in without a user and password. A message to a
+ * topic to which its sender may not publish is acknowledged and discarded, as Mosquitto does it.
  */
 public final class EmbeddedMqtt implements AutoCloseable {
     private static final String HOST = "127.0.0.1";
@@ -23,6 +23,7 @@ public final class EmbeddedMqtt implements AutoCloseable {
     private static final int MAX_WAITING = 64 * 1024;
 
     private final MqttServer server;
+    private final String host;
     private final int port;
 
     /** Users who come and go while the broker runs; asked at each connection, subscription and message. */
@@ -63,8 +64,9 @@ public final class EmbeddedMqtt implements AutoCloseable {
         }
     }
 
-    private EmbeddedMqtt(MqttServer server, int port) {
+    private EmbeddedMqtt(MqttServer server, String host, int port) {
         this.server = server;
+        this.host = host;
         this.port = port;
     }
 
@@ -87,10 +89,20 @@ public final class EmbeddedMqtt implements AutoCloseable {
      * @param others who may do what they may
      */
     public static EmbeddedMqtt start(int port, Map<String, String> passwords, Users others) {
+        return start(HOST, port, passwords, others);
+    }
+
+    /**
+     * @param host address to listen on
+     * @param port 0 for a free one
+     * @param passwords of each user who may do everything
+     * @param others who may do what they may
+     */
+    public static EmbeddedMqtt start(String host, int port, Map<String, String> passwords, Users others) {
         // Found here because Moquette itself learns its port only some time after its start.
         int bound = FreePort.orFree(port);
         Properties properties = new Properties();
-        properties.setProperty("host", HOST);
+        properties.setProperty("host", host);
         properties.setProperty("port", Integer.toString(bound));
         properties.setProperty("allow_anonymous", "false");
         // Clients without an id of their own, such as mosquitto_pub, leave it to the broker to give one.
@@ -109,12 +121,13 @@ public final class EmbeddedMqtt implements AutoCloseable {
                         authenticator,
                         new Rights(passwords.keySet(), others),
                         user -> passwords.containsKey(user) || others.exists(user)));
-        return new EmbeddedMqtt(server, bound);
+        return new EmbeddedMqtt(server, host, bound);
     }
 
-    /** {@code tcp://127.0.0.1:<port>}. */
+    /** {@code tcp://<host>:<port>}, of one that listens on all addresses that of 127.0.0.1. */
     public URI uri() {
-        return URI.create("tcp://" + HOST + ":" + port);
+        String reached = host.equals("0.0.0.0") || host.equals("::") ? HOST : host;
+        return URI.create("tcp://" + (reached.contains(":") ? "[" + reached + "]" : reached) + ":" + port);
     }
 
     @Override

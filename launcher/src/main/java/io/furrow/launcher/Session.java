@@ -1,6 +1,8 @@
 package io.furrow.launcher;
 
+import java.io.IOException;
 import java.io.PrintWriter;
+import java.io.StringWriter;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.util.concurrent.CountDownLatch;
@@ -10,6 +12,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.launcher.status.Status;
+import io.furrow.launcher.status.StatusScreen;
 import io.furrow.launcher.suite.RunDirectory;
 import io.furrow.launcher.suite.Suite;
 import io.furrow.launcher.suite.SuiteSettings;
@@ -26,6 +29,7 @@ public final class Session {
     private final CountDownLatch stopRequested = new CountDownLatch(1);
     private final CountDownLatch stopped = new CountDownLatch(1);
     private volatile boolean started;
+    private volatile StatusScreen screen;
 
     public Session(PrintWriter out) {
         this.out = out;
@@ -49,7 +53,6 @@ public final class Session {
             try (Suite suite = Suite.start(settings, directory, new Progress(out));
                     AutoCloseable joined = guest.join(suite)) {
                 started = true;
-                UrlTable.print(out, suite);
                 show(suite);
                 out.println("Furrow stops …");
                 LOG.info("Stopping, {} included", joined);
@@ -60,16 +63,21 @@ public final class Session {
         return 0;
     }
 
-    private void show(Suite suite) throws InterruptedException {
-        try (Status status = new Status(
-                out,
-                System.console() != null && System.getenv("TERM") != null,
-                new Status.Shown(
-                        suite.kafka().admin(),
-                        suite.kafka().clientProperties(),
-                        suite.flink(),
-                        suite.jobs(),
-                        suite::waitingAnalytics))) {
+    private void show(Suite suite) throws IOException, InterruptedException {
+        StringWriter addresses = new StringWriter();
+        UrlTable.print(new PrintWriter(addresses), suite);
+        out.print(addresses);
+        out.flush();
+        Status.Shown shown = new Status.Shown(
+                suite.kafka().admin(),
+                suite.kafka().clientProperties(),
+                suite.flink(),
+                suite.jobs(),
+                suite::notices,
+                addresses.toString().strip().lines().map(String::strip).toList());
+        try (StatusScreen drawn = StatusScreen.open();
+                Status status = new Status(out, drawn, shown)) {
+            screen = drawn;
             status.start();
             do {
                 status.tick();
@@ -83,6 +91,10 @@ public final class Session {
      */
     private void stopFromOutside(RunDirectory directory) {
         stopRequested.countDown();
+        StatusScreen drawn = screen;
+        if (drawn != null) {
+            drawn.close();
+        }
         try {
             long timeout = started ? STOP_WITHIN.toMillis() : 0;
             if (!stopped.await(timeout, TimeUnit.MILLISECONDS)) {

@@ -20,6 +20,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -45,10 +46,12 @@ final class AgentClient {
             .build();
     private final String base;
     private final String resource;
+    private final AccessToken token;
 
     AgentClient(AgentSettings agent) {
         this.base = agent.base().toString().replaceAll("/+$", "");
         this.resource = agent.resource();
+        this.token = agent.token();
     }
 
     /**
@@ -215,6 +218,7 @@ final class AgentClient {
                 .timeout(TIMEOUT)
                 .header("fiware-service", scope.service())
                 .header("fiware-servicepath", scope.servicePath());
+        token.addTo(request::header);
         if (body != null) {
             request.header("Content-Type", "application/json");
         }

@@ -3,6 +3,8 @@ package io.furrow.provisioner;
 import java.net.URI;
 import java.time.Duration;
 
+import io.furrow.model.file.AccessToken;
+
 /**
  * The IoT Agent at which devices are provisioned.
  *
@@ -10,8 +12,9 @@ import java.time.Duration;
  * @param resource of the service groups, the same as the agent's default resource ({@code IOTA_DEFAULT_RESOURCE}): the agent finds the
  *     device behind a measure through a group of that resource only. Empty, or a path that begins with a slash
  * @param interval after which groups and devices at the agent are compared again with the desired ones; at least a second
+ * @param token of each request
  */
-public record AgentSettings(URI base, String resource, Duration interval) {
+public record AgentSettings(URI base, String resource, Duration interval, AccessToken token) {
     public static final String DEFAULT_RESOURCE = "/iot/json";
     /** With a failure or two in between, what the agent has lost is back within a minute. */
     public static final Duration DEFAULT_INTERVAL = Duration.ofSeconds(30);
@@ -31,16 +34,20 @@ public record AgentSettings(URI base, String resource, Duration interval) {
         }
     }
 
-    /** With the default resource and interval. */
+    /** With the default resource and interval, without a token. */
     public static AgentSettings at(URI base) {
-        return new AgentSettings(base, DEFAULT_RESOURCE, DEFAULT_INTERVAL);
+        return new AgentSettings(base, DEFAULT_RESOURCE, DEFAULT_INTERVAL, AccessToken.NONE);
     }
 
     public AgentSettings withResource(String other) {
-        return new AgentSettings(base, other, interval);
+        return new AgentSettings(base, other, interval, token);
     }
 
     public AgentSettings withInterval(Duration other) {
-        return new AgentSettings(base, resource, other);
+        return new AgentSettings(base, resource, other, token);
+    }
+
+    public AgentSettings withToken(AccessToken other) {
+        return new AgentSettings(base, resource, interval, other);
     }
 }

@@ -2,6 +2,8 @@ package io.furrow.provisioner;
 
 import java.io.IOException;
 import java.net.URI;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -12,10 +14,12 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.device.WantedDevice;
+import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.Provisioning.Outcome;
 
 import static org.assertj.core.api.Assertions.assertThat;
@@ -80,6 +84,18 @@ class AgentResourceTest {
     }
 
     @Test
+    void sendsTheTokenOfTheFileWithEachRequest(@TempDir Path directory) throws Exception {
+        AccessToken token =
+                AccessToken.of(Files.writeString(directory.resolve("token"), "s3cret\n"), "X-Farm", said -> {});
+        AgentSettings settings = AgentSettings.at(agent.uri()).withToken(token);
+
+        assertThat(provisioning(settings).step()).isEqualTo(DONE);
+
+        assertThat(agent.tokens).containsExactly("s3cret");
+        assertThat(settings.toString()).doesNotContain("s3cret");
+    }
+
+    @Test
     void refusesSettingsThatCannotBeRight() {
         AgentSettings settings = AgentSettings.at(URI.create("http://127.0.0.1:4041"));
 
@@ -94,7 +110,10 @@ class AgentResourceTest {
     }
 
     private Provisioning provisioning(String resource) {
-        AgentSettings settings = AgentSettings.at(agent.uri()).withResource(resource);
+        return provisioning(AgentSettings.at(agent.uri()).withResource(resource));
+    }
+
+    private Provisioning provisioning(AgentSettings settings) {
         return new Provisioning(
                 new ProvisioningSettings(new Properties(), Wanted.SCOPE, Wanted.SECRET, settings, List.of()),
                 wanted,

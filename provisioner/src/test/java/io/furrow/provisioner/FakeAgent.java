@@ -45,6 +45,8 @@ final class FakeAgent implements AutoCloseable {
     final List<String> changes = new CopyOnWriteArrayList<>();
     /** Values of {@code fiware-service}. */
     final Set<String> services = new HashSet<>();
+    /** Values of {@code X-Farm}. */
+    final Set<String> tokens = new HashSet<>();
 
     /** It answers 503 to everything. */
     volatile boolean away;
@@ -144,6 +146,7 @@ final class FakeAgent implements AutoCloseable {
             throw new Refusal(400, "MISSING_HEADERS", "Some headers were missing from the request");
         }
         services.add(service);
+        tokens.add(exchange.getRequestHeaders().getFirst("X-Farm"));
         String method = exchange.getRequestMethod();
         String path = exchange.getRequestURI().getRawPath();
         boolean ofDevices = path.startsWith("/iot/devices");

@@ -39,7 +39,7 @@ class PartsThatAlreadyRunIT {
                         kept,
                         new SuiteSettings(
                                 null,
-                                "farm",
+                                SuiteSettings.Fiware.of("farm"),
                                 "2s",
                                 null,
                                 SuiteSettings.Ports.free(),

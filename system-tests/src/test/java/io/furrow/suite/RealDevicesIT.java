@@ -40,8 +40,8 @@ class RealDevicesIT {
                 null,
                 new SuiteSettings(
                         null,
-                        "farm",
-                        "2s",
+                        usual.fiware(),
+                        usual.window(),
                         null,
                         usual.ports(),
                         null,

@@ -1,18 +1,23 @@
 package io.furrow.cli.control;
 
 import java.io.IOException;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.concurrent.ExecutorService;
 import java.util.concurrent.Executors;
 import java.util.concurrent.TimeUnit;
+import java.util.concurrent.atomic.AtomicBoolean;
+import java.util.stream.Collectors;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.jline.terminal.Attributes;
 import org.jline.terminal.Size;
 import org.jline.terminal.Terminal;
+import org.jline.terminal.Terminal.Signal;
 import org.jline.terminal.TerminalBuilder;
 import org.jline.utils.AttributedString;
 import org.jline.utils.Display;
+import org.jline.utils.InfoCmp.Capability;
 
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
@@ -34,6 +39,7 @@ final class ReplayWatch implements ControlOptions.Work {
     private final ReplayKeys keys = new ReplayKeys();
     private volatile String failure = "";
     private String printed = "";
+    private int width;
 
     /** @param path of the replay */
     ReplayWatch(ControlOptions control, String path) {
@@ -102,7 +108,9 @@ final class ReplayWatch implements ControlOptions.Work {
     void steer(Terminal terminal, ReplayEvents events, ControlApi api) throws IOException {
         Attributes before = terminal.enterRawMode();
         ExecutorService requests = Executors.newSingleThreadExecutor();
-        Display display = new Display(terminal, false);
+        Display display = sized(terminal);
+        AtomicBoolean resized = new AtomicBoolean();
+        terminal.handle(Signal.WINCH, signal -> resized.set(true));
         KeyReader reader = new KeyReader(timeout -> terminal.reader().read(timeout));
         try {
             String key = "";
@@ -114,10 +122,14 @@ final class ReplayWatch implements ControlOptions.Work {
                     keys.press(key, events.newest())
                             .ifPresent(request -> requests.execute(() -> send(api, steered(events.newest()), request)));
                 }
-                draw(terminal, display, events);
+                if (resized.getAndSet(false)) { // each terminal has its own way to break lines that do not fit any more
+                    terminal.puts(Capability.clear_screen);
+                    display = sized(terminal);
+                }
+                draw(display, events);
                 key = reader.read(DRAW_MILLIS);
             }
-            draw(terminal, display, events);
+            draw(display, events);
         } finally {
             finish(requests);
             terminal.setAttributes(before);
@@ -154,15 +166,20 @@ final class ReplayWatch implements ControlOptions.Work {
         }
     }
 
-    private void draw(Terminal terminal, Display display, ReplayEvents events) {
+    private Display sized(Terminal terminal) {
         Size size = terminal.getSize();
-        int width = size.getColumns() <= 0 ? 80 : Math.max(NARROWEST, size.getColumns());
-        display.resize(Math.max(8, size.getRows()), width);
+        width = size.getColumns() <= 0 ? 80 : Math.max(NARROWEST, size.getColumns());
+        Display display = new Display(terminal, false);
+        display.resize(size.getRows() <= 0 ? 24 : size.getRows(), width);
+        return display;
+    }
+
+    private void draw(Display display, ReplayEvents events) {
         List<AttributedString> lines =
                 ReplayView.block(events.newest(), notice(events), keys.isHelp(), width - 1).stream()
                         .map(AttributedString::new)
-                        .toList();
-        display.update(lines, -1);
+                        .collect(Collectors.toCollection(ArrayList::new));
+        display.update(lines, -1); // changes the list where it scrolls
     }
 
     private String notice(ReplayEvents events) {

@@ -21,6 +21,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import com.sun.net.httpserver.HttpExchange;
 import com.sun.net.httpserver.HttpServer;
 import org.jline.terminal.Size;
+import org.jline.terminal.Terminal.Signal;
 import org.jline.terminal.impl.ExternalTerminal;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
@@ -167,6 +168,12 @@ class ReplayWatchTest {
                     .startsWith("/api/missions/m/markers ")
                     .contains("\"note\":\"hq\"", "1777600030000");
             await().until(() -> screen.toString(UTF_8).contains("0:00:30 / 0:01:00"));
+
+            screen.reset();
+            terminal.setSize(new Size(40, 20));
+            terminal.raise(Signal.WINCH);
+            await().until(() -> screen.toString(UTF_8).contains("0:00:30 / 0:01:00"));
+            assertThat(screen.toString(UTF_8)).as("drawn on a cleared screen").contains("\033[H\033[J");
             type(keyboard, "q");
             watch.join(60_000);
             assertThat(watch.isAlive()).isFalse();

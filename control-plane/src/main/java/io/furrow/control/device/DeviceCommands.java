@@ -17,6 +17,7 @@ import com.fasterxml.jackson.databind.node.JsonNodeFactory;
 import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -37,16 +38,19 @@ public final class DeviceCommands implements CommandSender {
     private final Semaphore pending = new Semaphore(MAX_PENDING);
     private final URI contextBroker;
     private final FiwareScope scope;
+    private final AccessToken token;
     private final HttpClient client =
             HttpClient.newBuilder().connectTimeout(TIMEOUT).build();
 
     /**
      * @param contextBroker for instance {@code http://localhost:1026}
      * @param scope tenant and service path of the devices' entities
+     * @param token of each request
      */
-    public DeviceCommands(URI contextBroker, FiwareScope scope) {
+    public DeviceCommands(URI contextBroker, FiwareScope scope, AccessToken token) {
         this.contextBroker = contextBroker;
         this.scope = scope;
+        this.token = token;
     }
 
     /**
@@ -155,6 +159,7 @@ public final class DeviceCommands implements CommandSender {
         if (!scope.service().isEmpty()) {
             request.header("Fiware-Service", scope.service());
         }
+        token.addTo(request::header);
         return request.build();
     }
 

@@ -123,7 +123,7 @@ public final class RestApi implements AutoCloseable {
         readiness.require(reader::status);
         DeviceCommands commands = rest.contextBroker() == null
                 ? null
-                : new DeviceCommands(rest.contextBroker(), control.missions().scope());
+                : new DeviceCommands(rest.contextBroker(), control.missions().scope(), rest.token());
         DeviceCredentials credentials =
                 rest.secret() == null ? null : new DeviceCredentials(rest.secret(), rest.mqtt());
         DevicesResource.Means means =

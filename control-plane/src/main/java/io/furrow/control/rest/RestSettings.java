@@ -10,6 +10,7 @@ import java.util.Objects;
 import io.furrow.control.rest.access.CertificateFiles;
 import io.furrow.http.AllowedNames;
 import io.furrow.kafka.secret.SecretSource;
+import io.furrow.model.file.AccessToken;
 
 /**
  * What the REST API is started with.
@@ -22,6 +23,7 @@ import io.furrow.kafka.secret.SecretSource;
  * @param certificate of TLS; null for plain HTTP
  * @param insecure whether other addresses may be reached over plain HTTP, because a proxy in front ends TLS
  * @param contextBroker through which commands go to devices; null if none do
+ * @param token of requests to it
  * @param secret of which the devices' credentials are made; null if they are not given out
  * @param mqtt the MQTT broker as devices reach it, {@code mqtt://} or {@code mqtts://}; null if it is not known
  * @param allowed hosts and origins beside loopback and {@code host}, whether tokens are asked for or not
@@ -34,6 +36,7 @@ public record RestSettings(
         CertificateFiles certificate,
         boolean insecure,
         URI contextBroker,
+        AccessToken token,
         SecretSource secret,
         URI mqtt,
         AllowedNames allowed) {
@@ -46,53 +49,71 @@ public record RestSettings(
     /** On 127.0.0.1, over plain HTTP, without tokens, commands to devices and credentials. */
     public static RestSettings on(int port) {
         return new RestSettings(
-                "127.0.0.1", port, Duration.ofSeconds(15), null, null, false, null, null, null, AllowedNames.NONE);
+                "127.0.0.1",
+                port,
+                Duration.ofSeconds(15),
+                null,
+                null,
+                false,
+                null,
+                AccessToken.NONE,
+                null,
+                null,
+                AllowedNames.NONE);
     }
 
     public RestSettings withHost(String newHost) {
         return new RestSettings(
-                newHost, port, timeout, tokens, certificate, insecure, contextBroker, secret, mqtt, allowed);
+                newHost, port, timeout, tokens, certificate, insecure, contextBroker, token, secret, mqtt, allowed);
     }
 
     public RestSettings withTimeout(Duration newTimeout) {
         return new RestSettings(
-                host, port, newTimeout, tokens, certificate, insecure, contextBroker, secret, mqtt, allowed);
+                host, port, newTimeout, tokens, certificate, insecure, contextBroker, token, secret, mqtt, allowed);
     }
 
     public RestSettings withTokens(Path file) {
-        return new RestSettings(host, port, timeout, file, certificate, insecure, contextBroker, secret, mqtt, allowed);
+        return new RestSettings(
+                host, port, timeout, file, certificate, insecure, contextBroker, token, secret, mqtt, allowed);
     }
 
     /** @param files null for plain HTTP */
     public RestSettings withCertificate(CertificateFiles files) {
-        return new RestSettings(host, port, timeout, tokens, files, insecure, contextBroker, secret, mqtt, allowed);
+        return new RestSettings(
+                host, port, timeout, tokens, files, insecure, contextBroker, token, secret, mqtt, allowed);
     }
 
     public RestSettings withInsecure(boolean proxied) {
         return new RestSettings(
-                host, port, timeout, tokens, certificate, proxied, contextBroker, secret, mqtt, allowed);
+                host, port, timeout, tokens, certificate, proxied, contextBroker, token, secret, mqtt, allowed);
     }
 
     public RestSettings withContextBroker(URI uri) {
-        return new RestSettings(host, port, timeout, tokens, certificate, insecure, uri, secret, mqtt, allowed);
+        return new RestSettings(host, port, timeout, tokens, certificate, insecure, uri, token, secret, mqtt, allowed);
+    }
+
+    public RestSettings withToken(AccessToken ofBroker) {
+        return new RestSettings(
+                host, port, timeout, tokens, certificate, insecure, contextBroker, ofBroker, secret, mqtt, allowed);
     }
 
     public RestSettings withSecret(SecretSource newSecret) {
         return new RestSettings(
-                host, port, timeout, tokens, certificate, insecure, contextBroker, newSecret, mqtt, allowed);
+                host, port, timeout, tokens, certificate, insecure, contextBroker, token, newSecret, mqtt, allowed);
     }
 
     public RestSettings withMqtt(URI broker) {
         return new RestSettings(
-                host, port, timeout, tokens, certificate, insecure, contextBroker, secret, broker, allowed);
+                host, port, timeout, tokens, certificate, insecure, contextBroker, token, secret, broker, allowed);
     }
 
     public RestSettings withAllowed(AllowedNames names) {
-        return new RestSettings(host, port, timeout, tokens, certificate, insecure, contextBroker, secret, mqtt, names);
+        return new RestSettings(
+                host, port, timeout, tokens, certificate, insecure, contextBroker, token, secret, mqtt, names);
     }
 
     /** @throws IOException where it would listen with less than its address needs; the message says what to do */
-    void check() throws IOException {
+    public void check() throws IOException {
         if (InetAddress.getByName(host).isLoopbackAddress()) {
             return;
         }

@@ -5,6 +5,8 @@ import java.net.InetAddress;
 import java.net.InetSocketAddress;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.ArrayList;
 import java.util.List;
 
@@ -13,8 +15,10 @@ import com.sun.net.httpserver.HttpServer;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 
 import static org.assertj.core.api.Assertions.assertThat;
 import static org.assertj.core.api.Assertions.assertThatThrownBy;
@@ -24,6 +28,7 @@ class DeviceCommandsTest {
     private HttpServer broker;
     private int status = 204;
     private String answer = "";
+    private volatile String authorization;
 
     @BeforeEach
     void start() throws IOException {
@@ -61,6 +66,15 @@ class DeviceCommandsTest {
     }
 
     @Test
+    void sendsTheTokenOfTheFile(@TempDir Path directory) throws Exception {
+        Path file = Files.writeString(directory.resolve("token"), "Bearer s3cret\n");
+
+        commands(AccessToken.of(file, "Authorization", said -> {})).send("urn:x", "Thermometer", "on", "");
+
+        assertThat(authorization).isEqualTo("Bearer s3cret");
+    }
+
+    @Test
     void saysWhatTheContextBrokerRefused() {
         status = 422;
         answer = "{\"error\":\"Unprocessable\",\"description\":\"do not exist: urn:x/Thermometer - [ blink ]\"}";
@@ -93,12 +107,18 @@ class DeviceCommandsTest {
     }
 
     private DeviceCommands commands() {
+        return commands(AccessToken.NONE);
+    }
+
+    private DeviceCommands commands(AccessToken token) {
         return new DeviceCommands(
                 URI.create("http://127.0.0.1:" + broker.getAddress().getPort() + "/"),
-                new FiwareScope("farm", "/north"));
+                new FiwareScope("farm", "/north"),
+                token);
     }
 
     private void hear(HttpExchange exchange) throws IOException {
+        authorization = exchange.getRequestHeaders().getFirst("Authorization");
         heard.add("%s %s %s %s %s"
                 .formatted(
                         exchange.getRequestMethod(),

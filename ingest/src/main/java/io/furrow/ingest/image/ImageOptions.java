@@ -88,13 +88,12 @@ public final class ImageOptions {
                 folder(root), new LinkedHashSet<>(attributes), maxBytes, threads, maxInFlight, timeout, storing));
     }
 
-    /** An absolute URI without a slash at its end; a plain path is one of this machine. */
+    /** An absolute URI without a slash at its end; what begins with no scheme is a path of this machine, of any characters. */
     private String folder(String given) {
         try {
-            URI uri = new URI(given);
-            if (uri.getScheme() == null) {
-                uri = Path.of(given).toAbsolutePath().normalize().toUri();
-            }
+            URI uri = given.matches("(?s)[A-Za-z][A-Za-z0-9+.-]*:.*")
+                    ? new URI(given)
+                    : Path.of(given).toAbsolutePath().normalize().toUri();
             check(
                     uri.getPath() != null && uri.getQuery() == null && uri.getFragment() == null,
                     "--images " + given + " is no folder; write for instance file:///data/images");

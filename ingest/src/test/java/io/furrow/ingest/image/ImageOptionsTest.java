@@ -5,6 +5,7 @@ import java.nio.file.Path;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.CsvSource;
+import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 import picocli.CommandLine.Command;
 import picocli.CommandLine.Mixin;
@@ -47,6 +48,13 @@ class ImageOptionsTest {
                         .orElseThrow()
                         .root())
                 .isEqualTo("file://" + Path.of("images").toAbsolutePath());
+    }
+
+    @ParameterizedTest
+    @ValueSource(strings = {"/data dir/images", "/Höfe/a#b", "/100%/x", "/what?", "/a:b/c"})
+    void takesAPathOfAnyCharacters(String given) {
+        assertThat(parsed("--images", given).settings(Storing.ALL).orElseThrow().root())
+                .isEqualTo(Path.of(given).toUri().toString());
     }
 
     @Test

@@ -29,6 +29,7 @@ import io.furrow.control.rest.access.CertificateFiles;
 import io.furrow.kafka.secret.SecretFile;
 import io.furrow.launcher.LogFile;
 import io.furrow.launcher.option.AccessFlags;
+import io.furrow.launcher.option.FiwareAccessOptions;
 import io.furrow.launcher.option.ProvisioningOptions;
 import io.furrow.launcher.option.ReplayFlags;
 import io.furrow.launcher.option.TlsOptions;
@@ -36,7 +37,9 @@ import io.furrow.launcher.option.WatchFlags;
 import io.furrow.launcher.suite.ControlService;
 import io.furrow.launcher.suite.FarmSecretFile;
 import io.furrow.launcher.suite.PortCheck;
+import io.furrow.launcher.suite.ServerCheck;
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.AgentSettings;
 import io.furrow.provisioner.ProvisioningSettings;
 
@@ -49,6 +52,8 @@ import io.furrow.provisioner.ProvisioningSettings;
                         + "had when it died another takes over.")
 public final class ControlPlaneCommand implements Callable<Integer> {
     private static final long STOPPED_WITHIN_SECONDS = 35;
+    /** Without Kafka there is nothing to hand over; another instance takes over as after a crash. */
+    private static final long ENDED_AFTER_SECONDS = 3;
 
     @Spec
     private CommandSpec spec;
@@ -56,8 +61,8 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     @Option(
             names = "--kafka",
             paramLabel = "HOST:PORT",
-            defaultValue = "127.0.0.1:9092",
-            description = "Kafka. Default: ${DEFAULT-VALUE}.")
+            required = true,
+            description = "Kafka of the farm, whose managers this instance becomes one of.")
     private String kafka;
 
     @Option(
@@ -121,6 +126,9 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private Path log;
 
     @Mixin
+    private FiwareAccessOptions fiware;
+
+    @Mixin
     private ProvisioningOptions provisioning;
 
     @Mixin
@@ -146,12 +154,14 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                     "--iot-agent needs --farm-secret: all instances and the host of the devices make passwords of the same.");
         }
         watch.watch(null); // refuses what cannot be used before anything starts
-        provisioning.agent(fiwareService); // the same
+        AccessToken token = fiware.token();
+        provisioning.agent(fiwareService, token); // the same
         replays.settings(); // the same
-        PortCheck.free(host, port, "the REST API", "--control-port");
-        PortCheck.free(host, healthPort, "its health", "--health-port");
+        new PortCheck()
+                .add(host, port, "the REST API", "--control-port")
+                .add(host, healthPort, "its health", "--health-port")
+                .requireFree();
         CertificateFiles certificate = tls.certificate();
-        LogFile.writeTo(log);
         SecretFile secret = provisioning.secret == null
                 ? null
                 : FarmSecretFile.open(provisioning.secret, settings().client(), provisioning.replacedSecret);
@@ -161,17 +171,26 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                 .withCertificate(certificate)
                 .withInsecure(tls.insecure)
                 .withContextBroker(orion)
+                .withToken(token)
                 .withSecret(secret)
                 .withMqtt(provisioning.mqttPublic)
                 .withAllowed(access.allowed());
+        try {
+            rest.check();
+        } catch (IOException e) { // says what to do
+            throw new CommandException(e.getMessage(), e);
+        }
+        ServerCheck.awaitKafka(settings().client(), spec.commandLine().getErr(), new CountDownLatch(1));
+        LogFile.writeTo(log);
         return runUntilStopped(rest, secret);
     }
 
     private int runUntilStopped(RestSettings rest, SecretFile secret) throws InterruptedException {
         CountDownLatch stop = new CountDownLatch(1);
         CountDownLatch stopped = new CountDownLatch(1);
-        Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(stop, stopped), "stop"));
-        try (ControlService service = new ControlService(settings())) {
+        ControlService service = new ControlService(settings());
+        Runtime.getRuntime().addShutdownHook(new Thread(() -> stopFromOutside(service, stop, stopped), "stop"));
+        try (service) {
             PrintWriter out = spec.commandLine().getOut();
             out.println("The control plane starts; Ctrl-C stops it.");
             out.flush();
@@ -192,7 +211,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private ControlSettings settings() {
         Properties client = KafkaClient.settings(kafka, kafkaProperties);
         return ControlSettings.of(client)
-                .with(new MissionOptions(provisioning.startTimeout, FiwareScope.of(fiwareService, "/"), false))
+                .with(new MissionOptions(provisioning.startTimeout, fiware.scope(fiwareService), false))
                 .withStandbyReplicas(standbyReplicas)
                 .with(replays.settings());
     }
@@ -200,11 +219,11 @@ public final class ControlPlaneCommand implements Callable<Integer> {
     private URI serve(ControlService service, RestSettings rest, SecretFile secret) throws IOException {
         ControlSettings settings = settings();
         FiwareScope scope = settings.missions().scope();
-        AgentSettings agent = provisioning.agent(fiwareService);
+        AgentSettings agent = provisioning.agent(fiwareService, rest.token());
         return service.serve(
                 rest,
                 healthPort,
-                watch.watch(null).options(new DeviceCommands(orion, scope)),
+                watch.watch(null).options(new DeviceCommands(orion, scope, rest.token())),
                 agent == null
                         ? null
                         : new ProvisioningSettings(
@@ -217,10 +236,10 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                                 provisioning.accounts().connections()));
     }
 
-    private static void stopFromOutside(CountDownLatch stop, CountDownLatch stopped) {
+    private static void stopFromOutside(ControlService service, CountDownLatch stop, CountDownLatch stopped) {
         stop.countDown();
         try {
-            stopped.await(STOPPED_WITHIN_SECONDS, TimeUnit.SECONDS);
+            stopped.await(service.reachesKafka() ? STOPPED_WITHIN_SECONDS : ENDED_AFTER_SECONDS, TimeUnit.SECONDS);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
         }

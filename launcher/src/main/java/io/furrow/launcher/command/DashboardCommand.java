@@ -30,6 +30,7 @@ import io.furrow.launcher.LogFile;
 import io.furrow.launcher.option.AccessFlags;
 import io.furrow.launcher.option.TrustedProxyFlags;
 import io.furrow.launcher.suite.PortCheck;
+import io.furrow.launcher.suite.ServerCheck;
 
 /** {@code ./furrow dashboard}. */
 @Command(
@@ -146,7 +147,7 @@ public final class DashboardCommand implements Callable<Integer> {
     @Override
     public Integer call() throws InterruptedException {
         DashboardSettings settings = settings();
-        PortCheck.free(host, port, "the dashboard", "--port");
+        new PortCheck().add(host, port, "the dashboard", "--port").requireFree();
         LogFile.writeTo(log);
         CountDownLatch stop = new CountDownLatch(1);
         CountDownLatch stopped = new CountDownLatch(1);
@@ -155,6 +156,7 @@ public final class DashboardCommand implements Callable<Integer> {
             PrintWriter out = spec.commandLine().getOut();
             out.println("Dashboard: " + dashboard.uri() + "; Ctrl-C stops it.");
             out.flush();
+            ServerCheck.awaitKafka(settings.client(), spec.commandLine().getErr(), stop);
             stop.await();
             return 0;
         } catch (IOException e) { // says what is taken, and what to do

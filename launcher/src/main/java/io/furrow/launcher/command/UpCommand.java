@@ -14,8 +14,11 @@ import io.furrow.cli.option.HelpOption;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.launcher.Session;
 import io.furrow.launcher.option.FarmOptions;
+import io.furrow.launcher.option.FiwareAccessOptions;
+import io.furrow.launcher.option.ListenOptions;
 import io.furrow.launcher.option.SuiteOptions;
 import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.model.file.AccessToken;
 
 /** {@code ./furrow up}. */
 @Command(
@@ -44,6 +47,12 @@ public final class UpCommand implements Callable<Integer> {
     private String kafka;
 
     @Mixin
+    private FiwareAccessOptions access;
+
+    @Mixin
+    private ListenOptions listen;
+
+    @Mixin
     private FarmOptions farm;
 
     @Mixin
@@ -51,7 +60,8 @@ public final class UpCommand implements Callable<Integer> {
 
     @Override
     public Integer call() throws Exception {
-        SuiteSettings.Farm settings = farm.farm(options.fiwareService);
+        AccessToken token = access.token();
+        SuiteSettings.Farm settings = farm.farm(options.fiwareService, token);
         if (orion == null && settings.iotAgent() != null) {
             throw new CommandException("--iot-agent needs --orion: the stand-in of the context broker has its own.");
         }
@@ -59,7 +69,13 @@ public final class UpCommand implements Callable<Integer> {
             throw new CommandException(
                     "--simulate-devices with --orion needs --mqtt: the broker to which simulated devices publish.");
         }
+        SuiteSettings.Fiware fiware = new SuiteSettings.Fiware(
+                access.scope(options.fiwareService),
+                access.tokenFile,
+                access.tokenHeader,
+                token,
+                listen.listening(orion));
         return new Session(spec.commandLine().getOut())
-                .run(options.settings(orion, kafka, settings), options.data, suite -> () -> {});
+                .run(options.settings(orion, kafka, settings, fiware), options.data, suite -> () -> {});
     }
 }

@@ -7,6 +7,7 @@ import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.model.file.AccessToken;
 
 /** Options of {@code up} for a real farm: who may command, and an IoT Agent and an MQTT broker that already run. */
 public final class FarmOptions {
@@ -43,9 +44,9 @@ public final class FarmOptions {
         return simulates && mqtt == null;
     }
 
-    public SuiteSettings.Farm farm(String fiwareService) {
+    public SuiteSettings.Farm farm(String fiwareService, AccessToken token) {
         return new SuiteSettings.Farm(
-                provisioning.agent(fiwareService),
+                provisioning.agent(fiwareService, token),
                 mqtt,
                 provisioning.mqttPublic,
                 mqttTrusted,

@@ -9,6 +9,7 @@ import picocli.CommandLine.Option;
 import io.furrow.cli.CommandException;
 import io.furrow.cli.option.HttpUri;
 import io.furrow.launcher.suite.SuiteSettings;
+import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.AgentSettings;
 
 /** Options that say who may command, and where the devices of missions are registered. */
@@ -117,7 +118,7 @@ public final class ProvisioningOptions {
      *
      * @throws CommandException if the options do not go together or cannot be right
      */
-    public AgentSettings agent(String fiwareService) {
+    public AgentSettings agent(String fiwareService, AccessToken token) {
         if (iotAgent == null) {
             if (passwords != null || rules != null || reload != null || log != null) {
                 throw new CommandException(
@@ -135,7 +136,7 @@ public final class ProvisioningOptions {
                     "--iot-agent needs a tenant: name one with --fiware-service. An IoT Agent keeps no devices of the default one.");
         }
         try {
-            AgentSettings agent = AgentSettings.at(iotAgent);
+            AgentSettings agent = AgentSettings.at(iotAgent).withToken(token);
             agent = resource == null ? agent : agent.withResource(resource);
             return interval == null ? agent : agent.withInterval(interval);
         } catch (IllegalArgumentException e) { // says which setting is wrong

@@ -146,14 +146,14 @@ public final class SuiteOptions {
 
     /** Of the demonstration: simulated devices, and a login that anybody can try. */
     public SuiteSettings demonstration() {
-        return suite(null, null, SuiteSettings.Farm.SIMULATED);
+        return suite(null, null, SuiteSettings.Farm.SIMULATED, SuiteSettings.Fiware.of(fiwareService));
     }
 
-    public SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm) {
-        return suite(orion, kafka, farm).withoutSharedLogin();
+    public SuiteSettings settings(URI orion, String kafka, SuiteSettings.Farm farm, SuiteSettings.Fiware fiware) {
+        return suite(orion, kafka, farm, fiware).withoutSharedLogin();
     }
 
-    private SuiteSettings suite(URI orion, String kafka, SuiteSettings.Farm farm) {
+    private SuiteSettings suite(URI orion, String kafka, SuiteSettings.Farm farm, SuiteSettings.Fiware fiware) {
         SuiteSettings.Ports ports = new SuiteSettings.Ports(
                 kafkaPort,
                 connectPort,
@@ -168,7 +168,7 @@ public final class SuiteOptions {
                 dashboardPort);
         return new SuiteSettings(
                 kafkaProperties,
-                fiwareService,
+                fiware,
                 window,
                 fields,
                 ports,

@@ -8,7 +8,7 @@ import java.net.http.HttpResponse;
 import java.time.Duration;
 import java.util.Locale;
 import java.util.Map;
-import java.util.OptionalLong;
+import java.util.Optional;
 import java.util.TreeMap;
 import java.util.regex.Pattern;
 
@@ -20,7 +20,7 @@ import io.furrow.model.ngsi.NgsiJson;
 
 /**
  * How many records each job has still to read, as Flink's own metric {@code pendingRecords} says (at most 10 s old); of a job
- * with several sources, each of them.
+ * with several sources, the one that has most.
  */
 final class JobLag {
     private static final Logger LOG = LoggerFactory.getLogger(JobLag.class);
@@ -41,24 +41,24 @@ final class JobLag {
         this.jobs = jobs;
     }
 
-    /**
-     * Pending records by job, or by job and source where it has several ({@code ingest devices}); empty for one that has not
-     * told yet, or while Flink is too busy to answer.
-     */
-    Map<String, OptionalLong> read() throws InterruptedException {
-        Map<String, OptionalLong> lags = new TreeMap<>();
+    /** @param source empty where the job has one alone */
+    record Lag(String source, long records) {}
+
+    /** By job; empty for one that has not told yet, or while Flink is too busy to answer. */
+    Map<String, Optional<Lag>> read() throws InterruptedException {
+        Map<String, Optional<Lag>> lags = new TreeMap<>();
         for (String name : jobs.keySet()) {
             try {
-                lags.putAll(pending(name));
+                lags.put(name, pending(name));
             } catch (IOException e) {
                 LOG.debug("no lag of {}", name, e);
-                lags.put(name, OptionalLong.empty());
+                lags.put(name, Optional.empty());
             }
         }
         return lags;
     }
 
-    private Map<String, OptionalLong> pending(String name) throws IOException, InterruptedException {
+    private Optional<Lag> pending(String name) throws IOException, InterruptedException {
         Map<String, URI> sources = metrics.get(name);
         if (sources == null) {
             Sources found = find(jobs.get(name));
@@ -67,17 +67,14 @@ final class JobLag {
                 metrics.put(name, sources);
             }
         }
-        if (sources.isEmpty()) {
-            return Map.of(name, OptionalLong.empty());
-        }
-        Map<String, OptionalLong> lags = new TreeMap<>();
+        Optional<Lag> worst = Optional.empty();
         for (Map.Entry<String, URI> source : sources.entrySet()) {
             JsonNode sum = get(source.getValue()).path(0).path("sum");
-            lags.put(
-                    sources.size() == 1 ? name : name + " " + source.getKey(),
-                    sum.isNumber() ? OptionalLong.of(sum.longValue()) : OptionalLong.empty());
+            if (sum.isNumber() && sum.longValue() > worst.map(Lag::records).orElse(-1L)) {
+                worst = Optional.of(new Lag(sources.size() == 1 ? "" : source.getKey(), sum.longValue()));
+            }
         }
-        return lags;
+        return worst;
     }
 
     /** A source has the metric when it has read for the first time. */

@@ -1,23 +1,30 @@
 package io.furrow.launcher.status;
 
+import java.time.Duration;
+import java.util.ArrayDeque;
+import java.util.Deque;
 import java.util.HashMap;
 import java.util.Map;
 
-/** Records per second of each topic, from totals read one after the other. */
+/** Records per second of each topic within the last ten seconds, from totals read one after the other. */
 final class Rates {
-    private Map<String, Long> previous = Map.of();
-    private long previousNanos;
+    private static final long WINDOW_NANOS = Duration.ofSeconds(10).toNanos();
 
-    /** Of the time since the call before; 0 for what is seen the first time. */
+    private final Deque<Sample> samples = new ArrayDeque<>();
+
+    private record Sample(long nanos, Map<String, Long> totals) {}
+
+    /** 0 for what is seen the first time. */
     Map<String, Double> next(Map<String, Long> totals, long nowNanos) {
+        samples.removeIf(sample -> sample != samples.peekLast() && nowNanos - sample.nanos() > WINDOW_NANOS);
+        samples.addLast(new Sample(nowNanos, Map.copyOf(totals)));
         Map<String, Double> rates = new HashMap<>();
-        double seconds = Math.max(1e-3, (nowNanos - previousNanos) / 1e9);
-        totals.forEach((topic, total) -> {
-            long before = previous.getOrDefault(topic, total);
-            rates.put(topic, (total - before) / seconds);
-        });
-        previous = Map.copyOf(totals);
-        previousNanos = nowNanos;
+        totals.forEach((topic, total) -> samples.stream()
+                .filter(sample -> sample.totals().containsKey(topic))
+                .findFirst()
+                .ifPresent(first -> rates.put(
+                        topic,
+                        (total - first.totals().get(topic)) / Math.max(1e-3, (nowNanos - first.nanos()) / 1e9))));
         return rates;
     }
 }

@@ -5,29 +5,30 @@ import java.net.URI;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Collection;
+import java.util.Comparator;
 import java.util.Deque;
 import java.util.List;
 import java.util.Locale;
 import java.util.Map;
-import java.util.OptionalLong;
+import java.util.Optional;
 import java.util.Properties;
 import java.util.TreeMap;
 import java.util.concurrent.ExecutionException;
 import java.util.function.Supplier;
-import java.util.stream.Collectors;
 
 import org.apache.kafka.clients.admin.Admin;
 
+import io.furrow.launcher.status.JobLag.Lag;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.result.CollisionResult;
 import io.furrow.model.result.FieldResult;
 
 /**
- * The live status: records per second and total of each topic, the newest average of each field, collisions as they happen,
- * each job's lag. On a terminal it is drawn in place, elsewhere results come as lines and the totals every ten seconds.
+ * The live status: the newest average of each field, collisions as they happen, each job's lag, records per second and total of each topic
+ * that moves. On a terminal it is drawn in place, elsewhere results come as lines and the rest every ten seconds.
  */
 public final class Status implements AutoCloseable {
-    private static final int COLLISIONS_SHOWN = 6;
+    private static final int COLLISIONS_SHOWN = 12;
     private static final int SECONDS_BETWEEN_BLOCKS = 10;
 
     /**
@@ -36,16 +37,19 @@ public final class Status implements AutoCloseable {
      * @param client of Kafka
      * @param jobs ids by name
      * @param notices a sentence for each thing that waits for somebody
+     * @param addresses where everything is, a line each
      */
     public record Shown(
             Admin admin,
             Properties client,
             URI flink,
             Map<String, String> jobs,
-            Supplier<Collection<String>> notices) {}
+            Supplier<Collection<String>> notices,
+            List<String> addresses) {}
 
     private final PrintWriter out;
-    private final boolean inPlace;
+    private final StatusScreen screen;
+    private final List<String> addresses;
     private final TopicTotals totals;
     private final Rates rates = new Rates();
     private final JobLag lag;
@@ -53,16 +57,16 @@ public final class Status implements AutoCloseable {
     private final Supplier<Collection<String>> notices;
     private final Map<String, String> averages = new TreeMap<>();
     private final Deque<String> collisions = new ArrayDeque<>();
-    private int drawn;
     private long ticks;
 
     /**
-     * @param inPlace whether the output is a terminal that can be drawn over
+     * @param screen null where the output is no terminal that can be drawn over
      * @param suite what is shown
      */
-    public Status(PrintWriter out, boolean inPlace, Shown suite) {
+    public Status(PrintWriter out, StatusScreen screen, Shown suite) {
         this.out = out;
-        this.inPlace = inPlace;
+        this.screen = screen;
+        this.addresses = suite.addresses();
         this.totals = new TopicTotals(suite.admin());
         this.lag = new JobLag(suite.flink(), suite.jobs());
         this.results = new Results(suite.client(), this::tell);
@@ -75,15 +79,19 @@ public final class Status implements AutoCloseable {
 
     /** Reads and shows once; to be called every second. A Kafka that does not answer is shown, not fatal. */
     public void tick() throws InterruptedException {
-        boolean due = inPlace || ticks++ % SECONDS_BETWEEN_BLOCKS == 0;
+        boolean due = screen != null || ticks++ % SECONDS_BETWEEN_BLOCKS == 0;
         if (!due) {
             return;
         }
         try {
             TreeMap<String, Long> now = totals.read();
-            show(lines(now, rates.next(now, System.nanoTime()), lag.read()));
+            show(block(now, rates.next(now, System.nanoTime()), lag.read(), ""));
         } catch (ExecutionException e) {
-            show(List.of("Kafka does not tell its totals: " + e.getCause().getMessage()));
+            show(block(
+                    Map.of(),
+                    Map.of(),
+                    Map.of(),
+                    "Kafka does not tell its totals: " + e.getCause().getMessage()));
         }
     }
 
@@ -106,40 +114,54 @@ public final class Status implements AutoCloseable {
         } else {
             return;
         }
-        if (!inPlace) {
+        if (screen == null) {
             out.println((average ? "average   " : "collision ") + line);
             out.flush();
         }
     }
 
-    private synchronized List<String> lines(
-            Map<String, Long> now, Map<String, Double> perSecond, Map<String, OptionalLong> lags) {
-        List<String> lines = new ArrayList<>();
-        lines.add(String.format("%-52s %10s %12s", "topic", "per second", "total"));
-        now.forEach((topic, total) -> lines.add(
-                String.format(Locale.ROOT, "%-52s %10.1f %12d", topic, perSecond.getOrDefault(topic, 0.0), total)));
-        String known = lags.entrySet().stream()
-                .filter(job -> job.getValue().isPresent()) // one that has read nothing yet has none
-                .map(job -> job.getKey() + " " + job.getValue().getAsLong() + " records")
-                .collect(Collectors.joining("   "));
-        lines.add("lag  " + (known.isEmpty() ? "not known yet" : known));
-        lines.addAll(notices.get());
-        if (inPlace) {
-            lines.add("");
-            lines.add("averages");
-            averages.values().forEach(line -> lines.add("  " + line));
-            lines.add("collisions");
-            collisions.forEach(line -> lines.add("  " + line));
+    private synchronized StatusBlock block(
+            Map<String, Long> totals, Map<String, Double> perSecond, Map<String, Optional<Lag>> lags, String failure) {
+        List<String> moving = totals.keySet().stream()
+                .filter(topic -> perSecond.get(topic) > 0)
+                .sorted(Comparator.comparing(perSecond::get).reversed())
+                .map(topic ->
+                        String.format(Locale.ROOT, "%-50s %10.1f %12d", topic, perSecond.get(topic), totals.get(topic)))
+                .toList();
+        List<String> jobs = lags.entrySet().stream()
+                .map(job -> line(job.getKey(), job.getValue()))
+                .toList();
+        List<String> waiting = new ArrayList<>(notices.get());
+        if (!failure.isEmpty()) {
+            waiting.add(failure);
         }
-        return lines;
+        boolean inPlace = screen != null;
+        return new StatusBlock(
+                inPlace ? List.copyOf(averages.values()) : List.of(),
+                inPlace ? List.copyOf(collisions) : List.of(),
+                waiting,
+                jobs,
+                moving,
+                totals.size() - moving.size(),
+                inPlace ? addresses : List.of());
     }
 
-    private synchronized void show(List<String> lines) {
-        if (inPlace && drawn > 0) {
-            out.printf("\033[%dA\033[J", drawn); // up over what was drawn, and clear from there
+    private static String line(String job, Optional<Lag> lag) {
+        return lag.map(worst -> "%-50s %10d %s"
+                        .formatted(
+                                job,
+                                worst.records(),
+                                worst.records() == 0 || worst.source().isEmpty() ? "" : "  of " + worst.source())
+                        .stripTrailing())
+                .orElse("%-50s %10s".formatted(job, "unknown")); // has read nothing yet
+    }
+
+    private void show(StatusBlock block) {
+        if (screen != null) {
+            screen.show(block::lines);
+        } else {
+            block.lines().forEach(out::println);
+            out.flush();
         }
-        lines.forEach(out::println);
-        out.flush();
-        drawn = lines.size();
     }
 }

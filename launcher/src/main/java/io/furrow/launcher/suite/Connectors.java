@@ -6,8 +6,10 @@ import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.Optional;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.ObjectNode;
@@ -16,6 +18,7 @@ import io.furrow.cli.CommandException;
 import io.furrow.http.AllowedNames;
 import io.furrow.launcher.RestClient;
 import io.furrow.launcher.Sleep;
+import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.topic.Topics;
 
@@ -35,9 +38,19 @@ public final class Connectors {
 
     private final RestClient rest = new RestClient();
     private final URI connect;
+    private final URI health;
+    private final SuiteSettings.Fiware fiware;
 
-    public Connectors(URI connect) {
+    /** @param health page of the source */
+    Connectors(URI connect, URI health, SuiteSettings.Fiware fiware) {
         this.connect = connect;
+        this.health = health;
+        this.fiware = fiware;
+    }
+
+    /** For connectors of others. */
+    public Connectors(URI connect) {
+        this(connect, null, null);
     }
 
     /**
@@ -53,34 +66,74 @@ public final class Connectors {
      *
      * @throws CommandException if the context broker is unavailable or refuses
      */
-    void source(Source source, URI contextBroker, String service) {
-        put(
-                "ngsi-source",
-                Map.of(
-                        "producer.override.linger.ms",
-                        LINGER_MS,
-                        "producer.override.batch.size",
-                        BATCH_BYTES,
-                        "connector.class",
-                        "io.furrow.connect.source.NgsiSourceConnector",
-                        "tasks.max",
-                        "1",
-                        "listen.port",
-                        Integer.toString(source.port()),
-                        "journal.dir",
-                        source.journal().toAbsolutePath().toString(),
-                        "allowed.hosts",
-                        String.join(",", source.allowed().hosts()),
-                        "allowed.origins",
-                        String.join(",", source.allowed().origins()),
-                        "context.broker.url",
-                        contextBroker.toString(),
-                        "subscription.tenants",
-                        service.isEmpty() ? "-" : service));
-        awaitSubscribed(URI.create("http://127.0.0.1:" + source.port() + "/health"), contextBroker);
+    void source(Source source, URI contextBroker) {
+        FiwareScope scope = fiware.scope();
+        SuiteSettings.Listening listening = fiware.listening();
+        Map<String, String> settings = new HashMap<>(toBroker(contextBroker));
+        settings.putAll(Map.of(
+                "producer.override.linger.ms",
+                LINGER_MS,
+                "producer.override.batch.size",
+                BATCH_BYTES,
+                "connector.class",
+                "io.furrow.connect.source.NgsiSourceConnector",
+                "tasks.max",
+                "1",
+                "listen.port",
+                Integer.toString(source.port()),
+                "journal.dir",
+                source.journal().toAbsolutePath().toString(),
+                "allowed.hosts",
+                String.join(",", source.allowed().hosts()),
+                "allowed.origins",
+                String.join(",", source.allowed().origins()),
+                "subscription.tenants",
+                scope.service().isEmpty() ? "-" : scope.service()));
+        settings.put("listen.host", listening.host());
+        settings.put("subscription.servicepaths", scope.servicePath().replaceFirst("/$", "") + "/#");
+        if (listening.publicUrl() != null) {
+            settings.put("public.url", listening.publicUrl().toString());
+        }
+        if (listening.secret() != null) {
+            settings.put("secret.file", listening.secret().toAbsolutePath().toString());
+        }
+        put("ngsi-source", settings);
+        awaitSubscribed(contextBroker);
     }
 
-    private void awaitSubscribed(URI health, URI contextBroker) {
+    private Map<String, String> toBroker(URI contextBroker) {
+        Map<String, String> settings = new HashMap<>(Map.of("context.broker.url", contextBroker.toString()));
+        if (fiware.tokenFile() != null) {
+            settings.put(
+                    "context.broker.auth.token.file",
+                    fiware.tokenFile().toAbsolutePath().toString());
+            if (fiware.tokenHeader() != null) {
+                settings.put("context.broker.auth.header", fiware.tokenHeader());
+            }
+        }
+        return settings;
+    }
+
+    /** A sentence where the context broker says that its notifications do not arrive. */
+    Optional<String> undelivered() {
+        JsonNode seen;
+        try {
+            seen = lookAt(health);
+        } catch (UncheckedIOException e) { // of a source that starts again
+            return Optional.empty();
+        }
+        for (JsonNode subscription : seen.path("subscriptions")) {
+            long failures = subscription.path("failsInARow").asLong();
+            if (failures > 0) {
+                return Optional.of(
+                        "The context broker could not deliver its last %d notifications to %s. Check that it reaches this machine there, and --listen, --public-url and firewalls."
+                                .formatted(failures, subscription.path("url").asText()));
+            }
+        }
+        return Optional.empty();
+    }
+
+    private void awaitSubscribed(URI contextBroker) {
         Instant end = Instant.now().plus(TIMEOUT);
         while (Instant.now().isBefore(end)) {
             JsonNode seen = lookAt(health);
@@ -116,23 +169,21 @@ public final class Connectors {
      * {@link #DEAD_RESULTS}.
      */
     void sink(URI contextBroker, List<String> topics) {
-        put(
-                "ngsi-sink",
-                Map.of(
-                        "connector.class",
-                        "io.furrow.connect.sink.NgsiSinkConnector",
-                        "tasks.max",
-                        "1",
-                        "topics",
-                        String.join(",", topics),
-                        "context.broker.url",
-                        contextBroker.toString(),
-                        "errors.tolerance",
-                        "all",
-                        "errors.deadletterqueue.topic.name",
-                        DEAD_RESULTS,
-                        "errors.deadletterqueue.context.headers.enable",
-                        "true"));
+        Map<String, String> settings = new HashMap<>(toBroker(contextBroker));
+        settings.putAll(Map.of(
+                "connector.class",
+                "io.furrow.connect.sink.NgsiSinkConnector",
+                "tasks.max",
+                "1",
+                "topics",
+                String.join(",", topics),
+                "errors.tolerance",
+                "all",
+                "errors.deadletterqueue.topic.name",
+                DEAD_RESULTS,
+                "errors.deadletterqueue.context.headers.enable",
+                "true"));
+        put("ngsi-sink", settings);
     }
 
     /** Creates or changes a connector and returns when its first task runs. */

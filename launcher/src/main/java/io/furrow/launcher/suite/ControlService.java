@@ -36,6 +36,7 @@ public final class ControlService implements AutoCloseable {
     private final ControlSettings settings;
     private final Closeables parts = new Closeables();
     private final Readiness readiness = new Readiness(Clock.systemUTC());
+    private volatile Probe kafka;
     private ControlPlane managers;
     private URI health;
 
@@ -51,7 +52,7 @@ public final class ControlService implements AutoCloseable {
      * @return the state in which they are then
      */
     public String startManagers() throws IOException {
-        Probe kafka = parts.add("Kafka probe", Probe.kafka(settings.client()));
+        kafka = parts.add("Kafka probe", Probe.kafka(settings.client()));
         readiness.require(kafka::status);
         managers = parts.add("managers", ControlPlane.start(settings));
         readiness.require(managers::status);
@@ -117,6 +118,11 @@ public final class ControlService implements AutoCloseable {
                     name + " probe", Probe.http(name, URI.create(base.toString().replaceAll("/+$", "") + path)));
             readiness.show(probe::status);
         }
+    }
+
+    /** Whether Kafka has answered within the last seconds, where it was asked. */
+    public boolean reachesKafka() {
+        return kafka == null || kafka.status().state() == PartStatus.State.UP;
     }
 
     /** Base of the pages for probes. */

@@ -16,6 +16,11 @@ final class JobFolder {
 
     private JobFolder() {}
 
+    /** As Flink takes it: a URI whose path stands as it is, without percent-encoding. */
+    static String location(Path folder) {
+        return new org.apache.flink.core.fs.Path(folder.toUri()).toString();
+    }
+
     /** Deletes it with all that it holds, if it is there; what cannot be deleted stays. */
     static void delete(Path folder) {
         if (!Files.isDirectory(folder)) {

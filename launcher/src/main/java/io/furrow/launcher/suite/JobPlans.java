@@ -120,8 +120,7 @@ final class JobPlans {
         List<String> args = new ArrayList<>(List.of(own));
         args.addAll(List.of("--bootstrap-servers", kafka.bootstrapServers()));
         args.addAll(List.of(
-                "--checkpoint-dir",
-                directory.resolve("jobs").resolve(name).toUri().toString()));
+                "--checkpoint-dir", JobFolder.location(directory.resolve("jobs").resolve(name))));
         args.addAll(List.of("--parallelism", "1"));
         kafka.propertiesFile().ifPresent(file -> args.addAll(List.of("--kafka-properties", file.toString())));
         JobCommandLine.of(options).parseArgs(args.toArray(String[]::new));

@@ -48,7 +48,7 @@ final class Jobs {
         graph.setJobName(name);
         NewestState.below(directory.resolve(name))
                 .ifPresent(state -> graph.setSavepointRestoreSettings(
-                        SavepointRestoreSettings.forPath(state.toUri().toString(), false, RecoveryClaimMode.CLAIM)));
+                        SavepointRestoreSettings.forPath(JobFolder.location(state), false, RecoveryClaimMode.CLAIM)));
         running.put(name, flink.submit(graph));
     }
 
@@ -109,7 +109,7 @@ final class Jobs {
     }
 
     private CompletableFuture<String> stopWithSavepoint(String name, JobID job) {
-        String savepoints = directory.resolve(name).toUri().toString();
+        String savepoints = JobFolder.location(directory.resolve(name));
         return flink.cluster().stopWithSavepoint(job, savepoints, false, SavepointFormatType.NATIVE);
     }
 

@@ -5,7 +5,10 @@ import java.io.UncheckedIOException;
 import java.nio.channels.FileChannel;
 import java.nio.channels.FileLock;
 import java.nio.channels.OverlappingFileLockException;
+import java.nio.file.AccessDeniedException;
+import java.nio.file.FileAlreadyExistsException;
 import java.nio.file.Files;
+import java.nio.file.NoSuchFileException;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
 import java.nio.file.attribute.FileAttribute;
@@ -62,6 +65,11 @@ public final class RunDirectory implements AutoCloseable {
      * @throws CommandException if it cannot be written or another suite uses it
      */
     public static RunDirectory open(Path kept) {
+        if (kept != null && kept.toAbsolutePath().toString().contains(",")) {
+            throw new CommandException(
+                    "--data %s has a comma in its path, at which Kafka would divide it. Name another directory."
+                            .formatted(kept));
+        }
         try {
             Path path = kept == null ? Files.createTempDirectory("furrow-") : make(kept.toAbsolutePath());
             FileChannel lock = lock(path);
@@ -69,9 +77,19 @@ public final class RunDirectory implements AutoCloseable {
         } catch (IOException e) {
             throw new CommandException(
                     "Cannot write in %s (%s). Name a directory that you may write with --data."
-                            .formatted(kept == null ? System.getProperty("java.io.tmpdir") : kept, e.getMessage()),
+                            .formatted(kept == null ? System.getProperty("java.io.tmpdir") : kept, reason(e)),
                     e);
         }
+    }
+
+    /** Java's messages are the path alone. */
+    private static String reason(IOException e) {
+        if (e instanceof FileAlreadyExistsException) {
+            return e.getMessage() + " is no directory";
+        } else if (e instanceof AccessDeniedException) {
+            return "no permission for " + e.getMessage();
+        }
+        return e instanceof NoSuchFileException ? "there is no " + e.getMessage() : e.getMessage();
     }
 
     /** What is kept holds passwords and API keys of devices: nobody else may look into a directory that is made for it. */

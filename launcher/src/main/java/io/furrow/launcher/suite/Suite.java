@@ -8,6 +8,7 @@ import java.util.List;
 import java.util.Map;
 import java.util.UUID;
 import java.util.concurrent.CompletionException;
+import java.util.stream.Stream;
 
 import io.furrow.cli.CommandException;
 import io.furrow.dashboard.Dashboard;
@@ -31,7 +32,8 @@ import io.furrow.simulators.device.FleetSettings;
 
 /**
  * Everything at work in this JVM: broker, Connect worker with our connectors, Flink with our jobs, the control plane, and, unless
- * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only.
+ * a context broker was named, an MQTT broker and the FIWARE stand-in. Listens on 127.0.0.1 only, unless told otherwise for
+ * notifications and MQTT.
  */
 public final class Suite implements AutoCloseable {
     /** The MQTT user of the demonstration, who may publish as any device. */
@@ -63,6 +65,7 @@ public final class Suite implements AutoCloseable {
     private ReplayAnalytics replays;
     private final LiveAccounts accounts = new LiveAccounts();
     private final String agentPassword = UUID.randomUUID().toString();
+    private Connectors connectors;
     private URI listener;
     private URI dashboard;
 
@@ -98,6 +101,7 @@ public final class Suite implements AutoCloseable {
         SuiteFields.requireUsable(settings).forEach(progress::note);
         FarmSecretFile.requireLasting(directory, settings);
         PortCheck.free(settings);
+        ServerCheck.answering(settings);
         LogFile.writeTo(directory.resolve("furrow.log"));
         // Before anything is kept, so that a directory with data has its secret.
         Path secret = FarmSecretFile.of(directory, settings.farm().secret().file());
@@ -210,7 +214,13 @@ public final class Suite implements AutoCloseable {
             contextBroker = settings.orion();
             return;
         }
-        mqtt = farm.add("MQTT", EmbeddedMqtt.start(settings.ports().mqtt(), passwords(), new LiveUsers(accounts)));
+        mqtt = farm.add(
+                "MQTT",
+                EmbeddedMqtt.start(
+                        settings.fiware().listening().mqttHost(),
+                        settings.ports().mqtt(),
+                        passwords(),
+                        new LiveUsers(accounts)));
         fiware = farm.add("FIWARE stand-in", progress.step("MQTT and the FIWARE stand-in", this::startStandIn));
         contextBroker = fiware.contextBroker();
     }
@@ -245,13 +255,12 @@ public final class Suite implements AutoCloseable {
 
     private void connectThem() throws Exception {
         int port = FreePort.orFree(settings.ports().listener());
-        listener = URI.create("http://127.0.0.1:" + port + "/v2/notify");
-        Connectors connectors = new Connectors(connect.uri());
+        SuiteSettings.Listening listening = settings.fiware().listening();
+        listener = URI.create("http://%s:%d/v2/notify".formatted(SuiteSettings.Listening.here(listening.host()), port));
+        connectors = new Connectors(connect.uri(), listener.resolve("/health"), settings.fiware());
         progress.step("NGSI source and sink", () -> {
             connectors.source(
-                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()),
-                    contextBroker,
-                    settings.fiwareService());
+                    new Connectors.Source(port, directory.resolve("journal"), settings.allowed()), contextBroker);
             connectors.sink(
                     contextBroker, List.of(Topics.TEMPERATURE, Topics.COLLISION, Topics.PRESENCE, Topics.CONTEXT));
             return listener;
@@ -289,6 +298,10 @@ public final class Suite implements AutoCloseable {
         return listener;
     }
 
+    public SuiteSettings settings() {
+        return settings;
+    }
+
     /** The files of this suite. */
     public Path directory() {
         return directory.path();
@@ -301,9 +314,12 @@ public final class Suite implements AutoCloseable {
                         Map.Entry::getKey, job -> job.getValue().toHexString()));
     }
 
-    /** A sentence for each replay whose analytics waits for room. */
-    public Collection<String> waitingAnalytics() {
-        return replays.waiting();
+    /** A sentence for each replay whose analytics waits for room, and for a context broker that cannot notify this suite. */
+    public Collection<String> notices() {
+        return hasStandIn()
+                ? replays.waiting()
+                : Stream.concat(connectors.undelivered().stream(), replays.waiting().stream())
+                        .toList();
     }
 
     /** Whether the MQTT broker knows the login of {@link #devices()}. */
@@ -314,7 +330,13 @@ public final class Suite implements AutoCloseable {
     /** How devices reach MQTT and the stand-in; only without a context broker of one's own. */
     public FleetSettings devices() {
         return new FleetSettings(
-                contextBroker, fiware.iotAgent(), mqtt.uri(), MQTT_USER, MQTT_PASSWORD, settings.fiwareService(), "/");
+                contextBroker,
+                fiware.iotAgent(),
+                mqtt.uri(),
+                MQTT_USER,
+                MQTT_PASSWORD,
+                fiwareService(),
+                settings.fiware().scope().servicePath());
     }
 
     /** Base of the control plane's REST API. */
@@ -328,7 +350,7 @@ public final class Suite implements AutoCloseable {
     }
 
     public String fiwareService() {
-        return settings.fiwareService();
+        return settings.fiware().scope().service();
     }
 
     /** Whether the MQTT broker and the stand-in are ours. */

@@ -80,9 +80,9 @@ final class SuiteControl implements AutoCloseable {
         Properties streams = kafka.clientProperties();
         streams.setProperty("state.dir", directory.resolve("control-plane").toString());
         SuiteSettings.Missions missions = suite.farm().missions();
-        FiwareScope scope = FiwareScope.of(suite.fiwareService(), "/");
         this.settings = ControlSettings.of(streams)
-                .with(new MissionOptions(missions.startTimeout(), scope, missions.simulatedByDefault()))
+                .with(new MissionOptions(
+                        missions.startTimeout(), suite.fiware().scope(), missions.simulatedByDefault()))
                 .with(ReplaySettings.DEFAULT.withMongo(mongo));
         this.service = new ControlService(settings);
     }
@@ -101,6 +101,7 @@ final class SuiteControl implements AutoCloseable {
         api = service.serve(
                 RestSettings.on(suite.ports().control())
                         .withContextBroker(ends.contextBroker())
+                        .withToken(suite.fiware().token())
                         .withSecret(source)
                         .withMqtt(
                                 farm.mqttPublic() != null || ends.mqtt() == null
@@ -109,7 +110,9 @@ final class SuiteControl implements AutoCloseable {
                         .withTokens(farm.tokens())
                         .withAllowed(suite.allowed()),
                 suite.ports().health(),
-                suite.watch().options(new DeviceCommands(ends.contextBroker(), scope)),
+                suite.watch()
+                        .options(new DeviceCommands(
+                                ends.contextBroker(), scope, suite.fiware().token())),
                 ends.iotAgent() == null
                         ? null
                         : new ProvisioningSettings(

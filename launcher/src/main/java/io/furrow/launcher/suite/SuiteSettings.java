@@ -13,6 +13,8 @@ import io.furrow.control.device.CommandSender;
 import io.furrow.control.health.HealthOptions;
 import io.furrow.control.mission.MissionOptions;
 import io.furrow.http.AllowedNames;
+import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 import io.furrow.provisioner.AgentSettings;
 import io.furrow.provisioner.ConnectionSources;
 import io.furrow.provisioner.MeasureReports;
@@ -24,7 +26,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  * How a suite is to be started.
  *
  * @param kafkaProperties for every Kafka client; null for none
- * @param fiwareService tenant
+ * @param fiware the missions' part of the context broker, and how it is reached
  * @param window of the temperature job, for instance {@code 10s}
  * @param fields a file; null for what is on the topic, or on an own broker without fields for the demonstration farm's
  * @param orion a context broker that already runs; null to start the stand-in
@@ -37,7 +39,7 @@ import io.furrow.provisioner.account.MqttAccounts;
  */
 public record SuiteSettings(
         Path kafkaProperties,
-        String fiwareService,
+        Fiware fiware,
         String window,
         Path fields,
         Ports ports,
@@ -49,7 +51,42 @@ public record SuiteSettings(
         AllowedNames allowed,
         boolean sharedLogin) {
 
-    /** Ports on 127.0.0.1, each 0 for a free one. */
+    /**
+     * FIWARE servers.
+     *
+     * @param scope tenant and service path of the missions' devices
+     * @param tokenFile of the token that servers which already run are sent; null for none
+     * @param tokenHeader its header
+     * @param token the same
+     * @param listening where they and devices reach this suite
+     */
+    public record Fiware(
+            FiwareScope scope, Path tokenFile, String tokenHeader, AccessToken token, Listening listening) {
+        /** On this machine, without a token. */
+        public static Fiware of(String service) {
+            return new Fiware(FiwareScope.of(service, "/"), null, null, AccessToken.NONE, Listening.LOOPBACK);
+        }
+    }
+
+    /**
+     * Where notifications and measures arrive.
+     *
+     * @param host address of the listener for notifications
+     * @param publicUrl of that listener for the context broker; null for address and port
+     * @param secret file of the secret of notifications; null for none
+     * @param mqttHost address of the suite's MQTT broker
+     */
+    public record Listening(String host, URI publicUrl, Path secret, String mqttHost) {
+        public static final Listening LOOPBACK = new Listening("127.0.0.1", null, null, "127.0.0.1");
+
+        /** Address at which this machine reaches a server that listens on it. */
+        static String here(String host) {
+            String address = "0.0.0.0".equals(host) ? "127.0.0.1" : "::".equals(host) ? "::1" : host;
+            return address.contains(":") ? "[" + address + "]" : address;
+        }
+    }
+
+    /** Ports on 127.0.0.1, or on the address of {@link Listening}, each 0 for a free one. */
     public record Ports(
             int kafka,
             int connect,
@@ -171,25 +208,14 @@ public record SuiteSettings(
     /** As {@code ./furrow up} starts it: each device has a login of its own. */
     public SuiteSettings withoutSharedLogin() {
         return new SuiteSettings(
-                kafkaProperties,
-                fiwareService,
-                window,
-                fields,
-                ports,
-                orion,
-                kafka,
-                mongo,
-                farm,
-                watch,
-                allowed,
-                false);
+                kafkaProperties, fiware, window, fields, ports, orion, kafka, mongo, farm, watch, allowed, false);
     }
 
     /** A suite on free ports with its own engines and the stand-in, as tests and measurements want it. */
     public static SuiteSettings onFreePorts(String window) {
         return new SuiteSettings(
                 null,
-                "farm",
+                Fiware.of("farm"),
                 window,
                 null,
                 Ports.free(),

@@ -18,6 +18,16 @@ class RatesTest {
     }
 
     @Test
+    void isOfTheLastTenSecondsSoThatASlowTopicStaysInSight() {
+        for (int second = 0; second <= 12; second++) {
+            rates.next(Map.of("a", second < 5 ? 0L : 4L), TimeUnit.SECONDS.toNanos(second));
+        }
+
+        assertThat(rates.next(Map.of("a", 4L), TimeUnit.SECONDS.toNanos(14))).containsEntry("a", 0.4);
+        assertThat(rates.next(Map.of("a", 4L), TimeUnit.SECONDS.toNanos(30))).containsEntry("a", 0.0);
+    }
+
+    @Test
     void startsAtZeroForATopicSeenForTheFirstTime() {
         rates.next(Map.of("a", 100L), 0);
 

@@ -10,6 +10,7 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.stream.Stream;
 
+import org.junit.jupiter.api.Tag;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
@@ -17,9 +18,11 @@ import org.junit.jupiter.params.provider.CsvSource;
 import org.junit.jupiter.params.provider.ValueSource;
 import picocli.CommandLine;
 
+import io.furrow.embedded.FreePort;
 import io.furrow.launcher.Furrow;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.awaitility.Awaitility.await;
 
 class CommandLineTest {
     private final StringWriter out = new StringWriter();
@@ -78,6 +81,122 @@ class CommandLineTest {
         }
     }
 
+    @Test
+    void namesAllPortsInUseAtOnce() throws Exception {
+        try (ServerSocket one = new ServerSocket(0, 1, InetAddress.getLoopbackAddress());
+                ServerSocket two = new ServerSocket(0, 1, InetAddress.getLoopbackAddress())) {
+            String first = Integer.toString(one.getLocalPort());
+            String second = Integer.toString(two.getLocalPort());
+
+            assertThat(furrow.execute(upOnPorts(first, second))).isNotZero();
+
+            assertThat(err.toString().trim())
+                    .isEqualTo(
+                            "These ports are in use: %s of 127.0.0.1 for Flink's web UI (--flink-port), %s of 127.0.0.1 for the MQTT broker (--mqtt-port). Stop what listens there, or choose others with the options in brackets."
+                                    .formatted(first, second));
+        }
+    }
+
+    @Test
+    void refusesOnePortForTwoParts() {
+        String port = Integer.toString(FreePort.orFree(0));
+
+        assertThat(furrow.execute(upOnPorts(port, port))).isNotZero();
+
+        assertThat(err.toString()).startsWith("Port " + port + " of 127.0.0.1, meant for the MQTT broker");
+    }
+
+    @Test
+    void namesAllServersThatDoNotAnswerBeforeAnythingStarts() {
+        String silent = "127.0.0.1:" + FreePort.orFree(0);
+
+        assertThat(furrow.execute(with(
+                        upOnFreePorts(directory.resolve("data")),
+                        "--orion",
+                        "http://" + silent,
+                        "--iot-agent",
+                        "http://no-such-host.invalid:4041",
+                        "--mqtt",
+                        "tcp://" + silent,
+                        "--mongo",
+                        "mongodb://me:s3cret@" + silent,
+                        "--kafka",
+                        silent)))
+                .isNotZero();
+
+        assertThat(err.toString().lines())
+                .containsExactly(
+                        "--orion http://%s: the context broker does not answer there (Connection refused). Start it, or name another address."
+                                .formatted(silent),
+                        "--iot-agent http://no-such-host.invalid:4041: the IoT Agent does not answer there (there is no host of this name). Start it, or name another address.",
+                        "--mqtt tcp://%s: the MQTT broker does not answer there (Connection refused). Start it, or name another address."
+                                .formatted(silent),
+                        "--mongo %s: MongoDB does not answer there (nothing within 3 s). Start it, or name another address."
+                                .formatted(silent),
+                        "--kafka %s: Kafka does not answer there (nothing within 3 s). Start it, or name another address."
+                                .formatted(silent));
+        assertThat(out.toString()).doesNotContain("starting");
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+            delimiter = '|',
+            value = {
+                "--listen 0.0.0.0|--listen 0.0.0.0 lets anyone who reaches it report",
+                "--listen 0.0.0.0 --notify-secret pom.xml|--listen 0.0.0.0 lets other machines in without TLS",
+                "--mqtt-listen 0.0.0.0|--mqtt-listen 0.0.0.0 lets other machines in without TLS",
+                "--mqtt-listen 0.0.0.0 --orion http://127.0.0.1:1026|--mqtt-listen is of the suite's own MQTT broker",
+                "--listen 0.0.0.0 --notify-secret pom.xml --listen-insecure --orion http://127.0.0.1:1026|--listen 0.0.0.0 is every address",
+                "--orion http://192.0.2.1:1026|The context broker of --orion http://192.0.2.1:1026 is on another machine",
+                "--listen 0.0.0.0 --notify-secret /nowhere/x --listen-insecure|--notify-secret: /nowhere/x cannot be read",
+                "--fiware-service-path north|--fiware-service-path north is none",
+                "--fiware-token-header X-Farm|--fiware-token-header needs --fiware-token-file",
+                "--fiware-token-file /nowhere/token|--fiware-token-file: /nowhere/token cannot be read",
+                "--mqtt x --orion http://127.0.0.1:1026|--mqtt: x is no address of an MQTT broker",
+                "--mongo x|--mongo: ",
+            })
+    void refusesWhatCannotWorkOrIsOpenToAnybody(String options, String sentence) {
+        List<String> words = new ArrayList<>(List.of(upOnFreePorts(directory)));
+        words.addAll(List.of(options.split(" ")));
+
+        assertThat(furrow.execute(words.toArray(String[]::new))).isNotZero();
+
+        assertThat(err.toString()).startsWith(sentence).hasLineCount(1);
+    }
+
+    @Test
+    void refusesADirectoryThatKafkaWouldDivide() {
+        assertThat(furrow.execute(upOnFreePorts(directory.resolve("a,b")))).isNotZero();
+
+        assertThat(err.toString())
+                .startsWith("--data " + directory + "/a,b has a comma")
+                .hasLineCount(1);
+    }
+
+    @Test
+    void joinsNoKafkaThatNobodyNamed() {
+        assertThat(furrow.execute("control-plane")).isEqualTo(2);
+
+        assertThat(err.toString()).contains("--kafka");
+    }
+
+    @Tag("full")
+    @ParameterizedTest
+    @ValueSource(strings = {"control-plane --control-port 0 --health-port 0", "dashboard --port 0 --log /dev/null"})
+    void saysThatItWaitsForKafka(String words) throws Exception {
+        String silent = "127.0.0.1:" + FreePort.orFree(0);
+        Thread command = new Thread(() -> furrow.execute(with(words.split(" "), "--kafka", silent)));
+        command.start();
+        try {
+            await().untilAsserted(() -> assertThat(err.toString())
+                    .startsWith("Kafka at %s does not answer (nothing within 3 s). Check --kafka".formatted(silent))
+                    .hasLineCount(1));
+        } finally {
+            command.interrupt();
+            command.join();
+        }
+    }
+
     @ParameterizedTest
     @CsvSource({
         "dashboard, --port",
@@ -109,7 +228,8 @@ class CommandLineTest {
                 "--iot-agent=http://127.0.0.1:4041|--fiware-service=|name one with --fiware-service",
             })
     void refusesSettingsOfAnIotAgentThatCannotBeRight(String first, String second, String sentence) {
-        for (String command : List.of("up", "control-plane --farm-secret x --log " + directory.resolve("log"))) {
+        for (String command :
+                List.of("up", "control-plane --kafka 127.0.0.1:1 --farm-secret x --log " + directory.resolve("log"))) {
             List<String> words = new ArrayList<>(List.of(command.split(" ")));
             words.addAll(List.of(first, second));
 
@@ -146,7 +266,7 @@ class CommandLineTest {
         assertThat(furrow.execute(upOnFreePorts(file.resolve("below")))).isNotZero();
 
         assertThat(err.toString().trim())
-                .startsWith("Cannot write in " + file.resolve("below"))
+                .startsWith("Cannot write in %s (%s is no directory)".formatted(file.resolve("below"), file))
                 .endsWith("Name a directory that you may write with --data.")
                 .hasLineCount(1);
     }
@@ -248,6 +368,13 @@ class CommandLineTest {
 
     private static String[] with(String[] some, String... more) {
         return Stream.of(some, more).flatMap(Stream::of).toArray(String[]::new);
+    }
+
+    private String[] upOnPorts(String flink, String mqtt) {
+        return String.join(" ", upOnFreePorts(directory))
+                .replace("--flink-port 0", "--flink-port " + flink)
+                .replace("--mqtt-port 0", "--mqtt-port " + mqtt)
+                .split(" ");
     }
 
     private static String[] upOnFreePorts(Path data) {

@@ -145,7 +145,7 @@ class SuiteFieldsIT {
     private static SuiteSettings settings(Path fields, String kafka) {
         return new SuiteSettings(
                 null,
-                "farm",
+                SuiteSettings.Fiware.of("farm"),
                 "10s",
                 fields,
                 SuiteSettings.Ports.free(),

@@ -47,7 +47,8 @@ public record MongoAccess(String uri, Waits waits) implements Serializable {
         return open(uri, SELECTION_TIMEOUT);
     }
 
-    static MongoClient open(String uri, Duration selectionTimeout) {
+    /** @param selectionTimeout how long a command waits for a server that is unavailable, unless the URI says so */
+    public static MongoClient open(String uri, Duration selectionTimeout) {
         ConnectionString given = new ConnectionString(uri);
         MongoClientSettings.Builder settings = MongoClientSettings.builder()
                 .applicationName("furrow")

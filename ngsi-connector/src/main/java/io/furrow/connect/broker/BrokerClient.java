@@ -90,6 +90,7 @@ public final class BrokerClient {
             request.header("Fiware-Service", asked.scope().service());
         }
         settings.headers().forEach((name, value) -> request.setHeader(name, value.value()));
+        settings.token().addTo(request::setHeader);
         return request.build();
     }
 

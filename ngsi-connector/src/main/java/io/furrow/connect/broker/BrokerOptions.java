@@ -1,6 +1,8 @@
 package io.furrow.connect.broker;
 
+import java.io.IOException;
 import java.net.URI;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.util.List;
 import java.util.Map;
@@ -16,17 +18,22 @@ import org.apache.kafka.common.config.ConfigException;
 import org.apache.kafka.common.config.SslConfigs;
 import org.apache.kafka.common.config.types.Password;
 import org.apache.kafka.common.security.ssl.DefaultSslEngineFactory;
+import org.slf4j.Logger;
+import org.slf4j.LoggerFactory;
 
 import io.furrow.connect.OptionGroup;
 import io.furrow.connect.Validators;
+import io.furrow.model.file.AccessToken;
 
 /** Options for the connection to the context broker, shared by the sink and the source. */
 public record BrokerOptions(AbstractConfig config) {
+    private static final Logger LOG = LoggerFactory.getLogger(BrokerOptions.class);
     private static final String PREFIX = "context.broker.";
     public static final String URL = "context.broker.url";
     public static final String TIMEOUT = "context.broker.timeout.ms";
     public static final String AUTH_HEADER = "context.broker.auth.header";
     public static final String AUTH_TOKEN = "context.broker.auth.token";
+    public static final String AUTH_TOKEN_FILE = "context.broker.auth.token.file";
     static final String TRUSTSTORE = PREFIX + SslConfigs.SSL_TRUSTSTORE_LOCATION_CONFIG;
     static final String TRUSTSTORE_TYPE = PREFIX + SslConfigs.SSL_TRUSTSTORE_TYPE_CONFIG;
     static final String TRUSTSTORE_PASSWORD = PREFIX + SslConfigs.SSL_TRUSTSTORE_PASSWORD_CONFIG;
@@ -38,6 +45,7 @@ public record BrokerOptions(AbstractConfig config) {
     /** Checks constraints between options. */
     public BrokerOptions {
         trust(config);
+        token(config);
     }
 
     /** @param urlHelp the description of the URL's absence if the URL is optional; if empty, the URL is required */
@@ -75,6 +83,15 @@ public record BrokerOptions(AbstractConfig config) {
                 "Token",
                 "Token that is sent with every request to the context broker, for the proxy that guards it; empty for"
                         + " none. With the header Authorization it is the whole value, for instance Bearer abc.");
+        group.low()
+                .text(
+                        AUTH_TOKEN_FILE,
+                        null,
+                        ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "a path"),
+                        "Token file",
+                        "File on the worker whose first line is the token, instead of " + AUTH_TOKEN
+                                + ": a file that changes is read again without a restart, as tokens that expire need it."
+                                + " Unset for none.");
         group.low()
                 .recommending("X-Auth-Token", "Authorization", "apikey")
                 .text(
@@ -121,7 +138,23 @@ public record BrokerOptions(AbstractConfig config) {
         Password token = config.getPassword(AUTH_TOKEN);
         Map<String, Password> headers =
                 token.value().isEmpty() ? Map.of() : Map.of(config.getString(AUTH_HEADER), token);
-        return new BrokerSettings(url, Duration.ofMillis(config.getLong(TIMEOUT)), headers, trust(config));
+        return new BrokerSettings(url, Duration.ofMillis(config.getLong(TIMEOUT)), headers, trust(config))
+                .withToken(token(config));
+    }
+
+    private static AccessToken token(AbstractConfig config) {
+        String file = config.getString(AUTH_TOKEN_FILE);
+        if (file == null || file.isEmpty()) {
+            return AccessToken.NONE;
+        }
+        if (!config.getPassword(AUTH_TOKEN).value().isEmpty()) {
+            throw new ConfigException(AUTH_TOKEN_FILE, file, "excludes " + AUTH_TOKEN);
+        }
+        try {
+            return AccessToken.of(Path.of(file), config.getString(AUTH_HEADER), LOG::warn);
+        } catch (IOException e) {
+            throw new ConfigException(AUTH_TOKEN_FILE, file, e.getMessage());
+        }
     }
 
     private static Optional<SSLContext> trust(AbstractConfig config) {

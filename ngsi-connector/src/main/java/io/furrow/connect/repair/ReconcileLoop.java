@@ -136,6 +136,8 @@ public final class ReconcileLoop implements AutoCloseable {
             if (charge.failing) {
                 detail.put("problem", charge.problem);
             }
+            detail.put("url", charge.caretaker.url());
+            detail.put("failsInARow", charge.caretaker.delivered().failsInARow());
         }
         return details;
     }

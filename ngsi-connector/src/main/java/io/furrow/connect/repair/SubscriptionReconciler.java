@@ -26,6 +26,7 @@ import io.furrow.connect.repair.LateRecords.Late;
 import io.furrow.connect.repair.entity.BrokerEntities;
 import io.furrow.connect.repair.entity.Identities;
 import io.furrow.connect.repair.entity.KnownEntities;
+import io.furrow.connect.subscription.DeliveryReport;
 import io.furrow.connect.subscription.SubscriptionClient;
 import io.furrow.connect.subscription.SubscriptionStatus;
 import io.furrow.connect.subscription.WantedSubscription;
@@ -55,6 +56,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
     private long turnedAway;
     private final ListingSchedule listings;
     private volatile Duration gap = Duration.ZERO;
+    private volatile DeliveryReport delivered = DeliveryReport.NOTHING_SENT;
 
     /** The subscription and its entities. */
     record Target(SubscriptionClient keeper, BrokerEntities entities, BrokerUptime uptime) {
@@ -156,6 +158,7 @@ public final class SubscriptionReconciler implements AutoCloseable {
         long failed = means.ledger().turnedAway.sum() + means.ledger().overload.sum();
         long arrived = means.live().arrivedOf(subscription);
         SubscriptionStatus kept = keep(now);
+        delivered = kept.report();
         Verdict verdict = balance.look(kept, new Arrived(arrived, means.live().arrivedOf(kept.id())));
         reasonIn(verdict).ifPresent(this::miss);
         if (wasRestarted(kept)) {
@@ -179,6 +182,16 @@ public final class SubscriptionReconciler implements AutoCloseable {
             repair(kept, verdict, now);
         }
         known.flush();
+    }
+
+    /** Where its notifications go. */
+    String url() {
+        return keeper.wanted().target().url();
+    }
+
+    /** What the context broker said about its notifications at the last poll. */
+    DeliveryReport delivered() {
+        return delivered;
     }
 
     private SubscriptionStatus keep(Instant now) throws BrokerException {

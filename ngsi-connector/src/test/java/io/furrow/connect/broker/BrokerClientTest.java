@@ -8,6 +8,8 @@ import java.net.ServerSocket;
 import java.net.Socket;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.time.Duration;
 import java.time.ZoneOffset;
 import java.time.ZonedDateTime;
@@ -23,10 +25,12 @@ import org.apache.kafka.common.config.types.Password;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.Timeout;
+import org.junit.jupiter.api.io.TempDir;
 import org.junit.jupiter.params.ParameterizedTest;
 import org.junit.jupiter.params.provider.ValueSource;
 
 import io.furrow.model.event.FiwareScope;
+import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -195,6 +199,22 @@ class BrokerClientTest {
             new Socket(socket.getInetAddress(), socket.getLocalPort()).close();
             served.join();
         }
+    }
+
+    @Test
+    void sendsTheTokenThatTheFileHoldsAtTheTime(@TempDir Path directory) throws Exception {
+        Path file = Files.writeString(directory.resolve("token"), "first");
+        CompletableFuture<String> token = new CompletableFuture<>();
+        answering = exchange -> {
+            token.complete(exchange.getRequestHeaders().getFirst("X-Auth-Token"));
+            answer(exchange, 200, "[]");
+        };
+        BrokerSettings settings = BrokerSettings.of(URI.create(url()), Duration.ofSeconds(5))
+                .withToken(AccessToken.of(file, null, said -> {}));
+
+        new BrokerClient(settings).send(BrokerRequest.get(PLOT, "/v2/entities"));
+
+        assertThat(token).isCompletedWithValue("first");
     }
 
     @Test

@@ -57,8 +57,31 @@ class BrokerOptionsTest {
                 .isEmpty();
     }
 
+    @Test
+    void takesTheTokenFromAFileInstead() throws Exception {
+        Path file = Files.writeString(directory.resolve("token"), "Bearer x\n");
+        Map<String, String> given = Map.of(
+                BrokerOptions.URL,
+                "http://orion:1026",
+                BrokerOptions.AUTH_TOKEN_FILE,
+                file.toString(),
+                BrokerOptions.AUTH_HEADER,
+                "Authorization");
+        Map<String, String> sent = new HashMap<>();
+
+        options(Optional.empty(), given).settings().token().addTo(sent::put);
+
+        assertThat(sent).containsExactly(Map.entry("Authorization", "Bearer x"));
+        Map<String, String> both = new HashMap<>(given);
+        both.put(BrokerOptions.AUTH_TOKEN, "y");
+        assertThatThrownBy(() -> options(Optional.empty(), both))
+                .isInstanceOf(ConfigException.class)
+                .hasMessageContaining("excludes " + BrokerOptions.AUTH_TOKEN);
+    }
+
     @ParameterizedTest
     @CsvSource({
+        "context.broker.auth.token.file, /nowhere/token",
         "context.broker.auth.header, Host",
         "context.broker.auth.header, two words",
         "context.broker.auth.token, ä",

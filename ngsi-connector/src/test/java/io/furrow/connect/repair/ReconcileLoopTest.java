@@ -87,6 +87,19 @@ class ReconcileLoopTest {
     }
 
     @Test
+    void saysWhereNotificationsGoAndThatTheyDoNotArrive() {
+        start(Mode.OFF);
+
+        broker.put("/", "e", "T", 1);
+
+        await().untilAsserted(() -> {
+            JsonNode told = ledger.toJson().get("subscriptions").get(0);
+            assertThat(told.path("url").asText()).isEqualTo(NOBODY);
+            assertThat(told.path("failsInARow").asLong()).isPositive();
+        });
+    }
+
+    @Test
     void leavesTheSubscriptionToOthersWhileItRests() {
         start(Mode.CHANGES);
         caretakers.rest(true);

@@ -83,6 +83,7 @@ class NgsiSourceConfigTest {
         "listen.max.connections, 0",
         "secret.header, 'a b'",
         "secret.previous, old",
+        "secret.file, /nowhere/secret",
         "ssl.client.auth, required",
         "ssl.client.auth, sometimes",
         "ssl.truststore.location, /a",

@@ -11,6 +11,7 @@ import java.util.Map;
 import java.util.OptionalLong;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import org.apache.kafka.common.config.types.Password;
 import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -50,6 +51,19 @@ class OwnSubscriptionsTest {
 
         assertThat(target.path("url").asText()).isEqualTo("https://127.0.0.1:8091/v2/notify");
         assertThat(target.at("/headers/X-Farm").asText()).isEqualTo("known-to-both");
+    }
+
+    @Test
+    void carryTheSecretOfAFile() throws Exception {
+        Path file = Files.writeString(directory.resolve("secret"), "known-to-both\nformer\n");
+
+        assertThat(targetOf(Map.of("secret.file", file.toString()))
+                        .at("/headers/X-Furrow-Secret")
+                        .asText())
+                .isEqualTo("known-to-both");
+        assertThat(config(Map.of("secret.file", file.toString())).security().secrets())
+                .extracting(Password::value)
+                .containsExactly("known-to-both", "former");
     }
 
     @Test

@@ -46,14 +46,14 @@ public final class ImageFiles implements ImageStore {
 
     /** @throws IOException if there is no file system for this kind of URI */
     public static ImageFiles in(String root) throws IOException {
-        return new ImageFiles(root, new Path(root).getFileSystem());
+        return new ImageFiles(root, path(root).getFileSystem());
     }
 
     /** Writes an image unless it is there already. */
     @Override
     public StoredImage store(ImageName name, Image image) throws IOException {
         String first = root + "/" + name.path(image.format());
-        String url = switch (found(new Path(first), image)) {
+        String url = switch (found(path(first), image)) {
             case NOTHING -> write(first, image);
             case THE_SAME -> named(first);
             case ANOTHER -> storeBeside(name, image);
@@ -68,9 +68,9 @@ public final class ImageFiles implements ImageStore {
 
     private String storeBeside(ImageName name, Image image) throws IOException {
         String second = root + "/" + name.path(image.format(), image.sha256());
-        Found found = found(new Path(second), image);
+        Found found = found(path(second), image);
         if (found == Found.ANOTHER) {
-            files.delete(new Path(second), false); // nothing but a damaged file of the same image can have its hash
+            files.delete(path(second), false); // nothing but a damaged file of the same image can have its hash
         }
         return found == Found.THE_SAME ? named(second) : write(second, image);
     }
@@ -99,7 +99,7 @@ public final class ImageFiles implements ImageStore {
     }
 
     private String write(String url, Image image) throws IOException {
-        Path target = new Path(url);
+        Path target = path(url);
         if (atomicPut) {
             put(target, image.bytes(), WriteMode.OVERWRITE);
             return url;
@@ -116,14 +116,17 @@ public final class ImageFiles implements ImageStore {
     /** A file's name is on the disk when its folder is, that of a new folder when the one above is. */
     private String named(String url) throws IOException {
         if (local) {
-            java.nio.file.Path top = folder(new Path(root)).getParent();
-            for (var each = folder(new Path(url).getParent());
-                    each != null && !each.equals(top);
-                    each = each.getParent()) {
+            java.nio.file.Path top = folder(path(root)).getParent();
+            for (var each = folder(path(url).getParent()); each != null && !each.equals(top); each = each.getParent()) {
                 LocalFolder.sync(each);
             }
         }
         return url;
+    }
+
+    /** Flink takes the text of a path as it stands, without the percent-encoding of a URL. */
+    private static Path path(String url) {
+        return new Path(URI.create(url));
     }
 
     private static java.nio.file.Path folder(Path path) {

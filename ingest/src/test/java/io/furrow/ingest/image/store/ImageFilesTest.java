@@ -49,6 +49,17 @@ class ImageFilesTest {
     }
 
     @Test
+    void writesBelowAFolderWhoseNameAUrlCannotHave() throws Exception {
+        Path root = folder.resolve("Höfe #1, 100% x");
+        Image image = image(Pictures.png(1));
+
+        StoredImage stored = ImageFiles.in(root.toUri().toString()).store(NAME, image);
+
+        assertThat(Path.of(java.net.URI.create(stored.url()))).isEqualTo(root.resolve(FIRST));
+        assertThat(everything()).containsExactly(root.getFileName() + "/" + FIRST);
+    }
+
+    @Test
     void writesTheSameImageOnce() throws Exception {
         files().store(NAME, image(Pictures.png(1)));
         FileTime old = FileTime.fromMillis(1_000_000);

@@ -1,5 +1,8 @@
 package io.furrow.connect.source.option;
 
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.util.List;
 import java.util.Set;
 import java.util.stream.Collectors;
@@ -20,6 +23,7 @@ public record SecurityOptions(AbstractConfig config) {
     static final String SECRET_HEADER = "secret.header";
     static final String SECRET = "secret";
     static final String SECRET_PREVIOUS = "secret.previous";
+    static final String SECRET_FILE = "secret.file";
     static final String ALLOWED_TENANTS = "allowed.tenants";
 
     /** Stands for a notification without a tenant; no tenant can have this name. */
@@ -30,6 +34,10 @@ public record SecurityOptions(AbstractConfig config) {
                 && !config.getPassword(SECRET_PREVIOUS).value().isEmpty()) {
             throw new ConfigException(SECRET_PREVIOUS, Password.HIDDEN, "needs " + SECRET + " beside it");
         }
+        if (!config.getPassword(SECRET).value().isEmpty() && config.getString(SECRET_FILE) != null) {
+            throw new ConfigException(SECRET_FILE, config.getString(SECRET_FILE), "excludes " + SECRET);
+        }
+        inFile(config);
     }
 
     public static void define(ConfigDef options) {
@@ -43,6 +51,14 @@ public record SecurityOptions(AbstractConfig config) {
                         + " included.");
         secret(group, SECRET, "Secret that each notification must carry, else it is answered 401. Empty for none.");
         secret(group, SECRET_PREVIOUS, "Second secret that is accepted while senders change to the first.");
+        group.text(
+                SECRET_FILE,
+                null,
+                ConfigDef.LambdaValidator.with((name, value) -> {}, () -> "a path"),
+                "Secret file",
+                "File on the worker, read at the start, whose first line is the secret and whose second, if there is one, the previous"
+                        + " secret, instead of " + SECRET + " and " + SECRET_PREVIOUS
+                        + ": neither is in the connector's configuration then. Unset for none.");
         group.list(
                 ALLOWED_TENANTS,
                 "",
@@ -75,10 +91,35 @@ public record SecurityOptions(AbstractConfig config) {
 
     /** The accepted secrets; empty if none is required. */
     public List<Password> secrets() {
-        return Stream.of(SECRET, SECRET_PREVIOUS)
-                .map(config::getPassword)
-                .filter(secret -> !secret.value().isEmpty())
-                .toList();
+        List<Password> inFile = inFile(config);
+        return inFile.isEmpty()
+                ? Stream.of(SECRET, SECRET_PREVIOUS)
+                        .map(config::getPassword)
+                        .filter(secret -> !secret.value().isEmpty())
+                        .toList()
+                : inFile;
+    }
+
+    private static List<Password> inFile(AbstractConfig config) {
+        String file = config.getString(SECRET_FILE);
+        if (file == null) {
+            return List.of();
+        }
+        List<Password> secrets;
+        try {
+            secrets = Files.readAllLines(Path.of(file)).stream()
+                    .map(String::strip)
+                    .filter(line -> !line.isEmpty())
+                    .map(Password::new)
+                    .toList();
+        } catch (IOException e) {
+            throw new ConfigException(SECRET_FILE, file, "cannot be read (" + e + "); name a file with a secret");
+        }
+        if (secrets.isEmpty() || secrets.size() > 2) {
+            throw new ConfigException(SECRET_FILE, file, "holds no secret: one line, or two during a change");
+        }
+        secrets.forEach(secret -> requireHeaderValue(SECRET_FILE, secret));
+        return secrets;
     }
 
     /** In lower case, the empty text for no tenant; empty if all are allowed. */
