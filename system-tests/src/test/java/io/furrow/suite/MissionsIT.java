@@ -126,6 +126,11 @@ class MissionsIT {
                 RunningSuite.start(kept, SuiteSettings.onFreePorts("2s").withoutSharedLogin())) {
             Suite suite = running.suite();
             String device = "urn:ngsi-ld:Thermometer:own";
+            await().atMost(TIMEOUT)
+                    .until(() -> send(suite, "GET", "/ready", "")
+                            .path("status")
+                            .asText()
+                            .equals("ready"));
             send(suite, "POST", "/api/domains", "{\"domain\":\"north\"}");
             send(suite, "POST", "/api/missions/hoeing/start", """
                     {"domain": "north", "devices": [{"type": "Thermometer", "id": "%s", "simulated": false}]}
