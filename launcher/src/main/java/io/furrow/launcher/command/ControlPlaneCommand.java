@@ -156,6 +156,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
         watch.watch(null); // refuses what cannot be used before anything starts
         AccessToken token = fiware.token();
         provisioning.agent(fiwareService, token); // the same
+        provisioning.mqttPublic(); // the same
         replays.settings(); // the same
         new PortCheck()
                 .add(host, port, "the REST API", "--control-port")
@@ -173,7 +174,7 @@ public final class ControlPlaneCommand implements Callable<Integer> {
                 .withContextBroker(orion)
                 .withToken(token)
                 .withSecret(secret)
-                .withMqtt(provisioning.mqttPublic)
+                .withMqtt(provisioning.mqttPublic())
                 .withAllowed(access.allowed());
         try {
             rest.check();

@@ -48,7 +48,7 @@ public final class FarmOptions {
         return new SuiteSettings.Farm(
                 provisioning.agent(fiwareService, token),
                 mqtt,
-                provisioning.mqttPublic,
+                provisioning.mqttPublic(),
                 mqttTrusted,
                 provisioning.accounts(),
                 provisioning.secret(),

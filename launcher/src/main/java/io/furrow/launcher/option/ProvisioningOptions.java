@@ -3,6 +3,7 @@ package io.furrow.launcher.option;
 import java.net.URI;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.List;
 
 import picocli.CommandLine.Option;
 
@@ -94,7 +95,7 @@ public final class ProvisioningOptions {
             description =
                     "MQTT broker as devices reach it, for their credentials: mqtt://host[:port], or mqtts:// with TLS. Default of up: "
                             + "its own broker, else that of --mqtt; of control-plane: none.")
-    public URI mqttPublic;
+    private URI mqttPublic;
 
     @Option(
             names = "--start-timeout",
@@ -112,6 +113,22 @@ public final class ProvisioningOptions {
                     "Ask for a token at the control plane's REST API: lines '<name> <token> <role>', the role viewer, operator or "
                             + "admin. Read again when it changes. Default: anyone who reaches 127.0.0.1 may do everything.")
     public Path tokens;
+
+    /**
+     * The MQTT broker as devices reach it; null if it is not named.
+     *
+     * @throws CommandException if it is no address of one
+     */
+    public URI mqttPublic() {
+        if (mqttPublic != null
+                && (mqttPublic.getHost() == null
+                        || !List.of("mqtt", "mqtts", "tcp", "ssl").contains(mqttPublic.getScheme()))) {
+            throw new CommandException(
+                    "--mqtt-public-url must be mqtt://host[:port], or mqtts://host[:port] with TLS, not '%s'."
+                            .formatted(mqttPublic));
+        }
+        return mqttPublic;
+    }
 
     /**
      * The IoT Agent; null if none is named.

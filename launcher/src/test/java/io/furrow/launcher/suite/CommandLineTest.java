@@ -222,7 +222,8 @@ class CommandLineTest {
             delimiter = '|',
             value = {
                 "--iot-agent-resource|/iot/d|--iot-agent-interval need --iot-agent",
-                "--mqtt-password-file=passwords|--mqtt-acl-file=rules|--mqtt-reload need --iot-agent",
+                "--mqtt-password-file=passwords|--mqtt-acl-file=rules|--mqtt-reload and --mqtt-log need --iot-agent",
+                "--mqtt-public-url=farm.lan|--fiware-service=farm|must be mqtt://host",
                 "--iot-agent=http://127.0.0.1:4041|--iot-agent-resource=json|must be empty or begin with '/'",
                 "--iot-agent=http://127.0.0.1:4041|--iot-agent-interval=0s|at least a second",
                 "--iot-agent=http://127.0.0.1:4041|--fiware-service=|name one with --fiware-service",
