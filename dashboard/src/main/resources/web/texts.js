@@ -126,7 +126,7 @@ export const texts = {
 
   credentials: {
     title: 'Logins of {mission}', hint: 'What its real devices need to report over MQTT. They hold until the mission is stopped. Whoever has a login reports as that device.', none: 'None of its devices is real, or has a login of Furrow.',
-    download: 'All {count} as CSV', code: 'Login of {device} as a code for a camera', sends: 'It may send: {names}',
+    download: 'Download as CSV ({count})', code: 'Login of {device} as a code for a camera', sends: 'It may send: {names}',
     facts: { host: 'Broker', port: 'Port', tls: 'TLS', user: 'User', password: 'Password', measures: 'Publishes to', commands: 'Subscribes to', results: 'Answers commands on' },
   },
   missions: {

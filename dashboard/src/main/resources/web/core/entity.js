@@ -269,18 +269,27 @@ function hasPosition(reported) {
 /**
  * @param {Entity} entity
  * @param {number} now of what is shown, epoch ms
+ * @param {string|null} period as its mission says, ISO 8601; null if it does not
  * @returns {'ok'|'look'|'stale'|'off'}
  */
-export function stateOf(entity, now) {
+export function stateOf(entity, now, period = null) {
   const word = entity.word?.toLowerCase() ?? '';
   if (OFF_WORDS.has(word)) {
     return 'off';
   }
-  const timeout = entity.period === null ? STALE_AFTER : Math.max(10_000, Math.min(10 * STALE_AFTER, 3 * entity.period));
+  const desired = millisOf(period);
+  const seen = entity.period === null ? STALE_AFTER : Math.min(10 * STALE_AFTER, 3 * entity.period);
+  const timeout = Math.max(10_000, desired === null ? seen : 3 * desired);
   if (now - entity.time > timeout) {
     return 'stale';
   }
   return entity.suspect || entity.positionFault || LOOK_WORDS.has(word) ? 'look' : 'ok';
+}
+
+/** Of a duration as the control plane writes it, for instance PT1H30M or PT0.5S; else null. */
+function millisOf(duration) {
+  const parts = /^PT(?:(\d+)H)?(?:(\d+)M)?(?:([\d.]+)S)?$/.exec(duration ?? '');
+  return parts && 1000 * (3600 * (parts[1] ?? 0) + 60 * (parts[2] ?? 0) + Number(parts[3] ?? 0));
 }
 
 function text(value) {

@@ -102,7 +102,7 @@ class Store extends Taking(Object) {
   }
 
   stateOf(entity) {
-    return stateOf(entity, this.now());
+    return stateOf(entity, this.now(), this.devices.get(entity.id)?.period);
   }
 
   /** Whether what is shown stands for now, or was recorded. */

@@ -67,7 +67,7 @@ function reach(known, entity, { outside }, { now }) {
   if (seen === 0) {
     return { level: outside ? 'warning' : 'unknown', what: 'reach', text: 'neverSeen', values: {} };
   }
-  const silent = known?.health?.silent || now - seen > OLD_REPORT;
+  const silent = known?.health?.silent ?? now - seen > OLD_REPORT;
   return { level: silent ? 'warning' : 'ok', what: 'reach', text: silent ? 'silent' : 'seen', values: { ago: now - seen } };
 }
 
