@@ -71,7 +71,7 @@ class MissionsIT {
 
         Locator detail = farm.find("furrow-missions .mission-detail");
         assertThat(detail.locator(".pill").first()).hasText("starting");
-        assertThat(detail.locator(".device-table tbody")).containsText("Thermometer:own-2");
+        assertThat(detail.locator(".device-table tbody")).containsText("Thermometer own-2");
         // Three of its periods are no silence, however long they are.
         String states = "import('/core/entity.js').then(({ stateOf }) => [2_700_000, 2_700_001].map((age) => "
                 + "stateOf({ word: '', period: null, time: 0 }, age, 'PT15M')).join())";
