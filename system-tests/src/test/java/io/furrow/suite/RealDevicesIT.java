@@ -8,8 +8,6 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.Map;
-import java.util.stream.Collectors;
-import java.util.stream.IntStream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
@@ -155,7 +153,7 @@ class RealDevicesIT {
     void simulatesThoseOfAMissionThatAreSimulatedAlone() throws Exception {
         start("mixed", """
                 {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "area": "field-1"},
-                {"name": "real", "type": "WeatherStation", "count": 40, "at": [%s]}""".formatted(apart(40)));
+                {"name": "real", "type": "WeatherStation", "count": 40, "at": %s}""".formatted(PLACE));
         await().atMost(TIMEOUT)
                 .until(() -> mission("mixed").at("/status/confirmed").asInt() == 40);
         JsonNode logins = send("GET", "/api/missions/mixed/credentials", "");
@@ -172,14 +170,8 @@ class RealDevicesIT {
                 .hasSize(40)
                 .allMatch(each -> each.at("/Temperature/value").asInt() == 21
                         && each.path("Humidity").isMissingNode());
+        assertThat(send("GET", "/api/alarms", "").findValuesAsText("kind")).doesNotContain("collision");
         send("POST", "/api/missions/mixed/stop", "{}");
-    }
-
-    /** Places some 50 m from each other: none of the devices is too close to another. */
-    private static String apart(int count) {
-        return IntStream.range(0, count)
-                .mapToObj(number -> "{\"latitude\": %s, \"longitude\": -3.6}".formatted(40.4 + number / 2000.0))
-                .collect(Collectors.joining(","));
     }
 
     private static void start(String mission, String devices) throws Exception {

@@ -81,7 +81,8 @@ final class PlannedDevices {
                     from,
                     null,
                     0,
-                    carrier);
+                    carrier,
+                    group.settings().has("at"));
             String device = group.type() != null ? ids.get(i).replace("+", "%2B") : null;
             ObjectNode none = JsonNodeFactory.instance.objectNode();
             devices.add(new WantedDevice(

@@ -42,6 +42,21 @@ class MissionDevicesTest {
         assertThat(farm.device("urn:ngsi-ld:Robot:m-1").version().carriedBy()).isNull();
     }
 
+    @Test
+    void saysThatADeviceWithAGivenPlaceIsStationary() throws Exception {
+        ObjectNode placed = instance.objectNode();
+        placed.putObject("at").put("latitude", 40.3).put("longitude", -3.5);
+        farm.start(
+                "m",
+                "north",
+                new DeviceGroup(null, null, "Thermometer", 1, null, null, false, placed),
+                new DeviceGroup(null, null, "Robot", 1, null, null, false, instance.objectNode()));
+
+        assertThat(farm.device("urn:ngsi-ld:Thermometer:m-1").version().stationary())
+                .isTrue();
+        assertThat(farm.device("urn:ngsi-ld:Robot:m-1").version().stationary()).isFalse();
+    }
+
     /** However many devices share an area, it is written once. */
     @Test
     void writesTheSettingsOfAGroupOnce() throws Exception {

@@ -23,6 +23,7 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param until event time at which it ends, epoch ms; null if it holds until the next version
  * @param sequence grows with every version of a device; a version with a smaller one is out of date
  * @param carriedBy id of the entity that carries this one; null if none does
+ * @param stationary whether it stays where it is: two such devices never collide
  */
 public record DeviceVersion(
         String id,
@@ -33,16 +34,31 @@ public record DeviceVersion(
         long from,
         Long until,
         long sequence,
-        String carriedBy) {
+        String carriedBy,
+        boolean stationary) {
     public DeviceVersion {
         Objects.requireNonNull(id);
         Objects.requireNonNull(domain);
         Objects.requireNonNull(mission);
     }
 
+    /** A device that may move. */
+    public DeviceVersion(
+            String id,
+            String service,
+            String servicePath,
+            String domain,
+            String mission,
+            long from,
+            Long until,
+            long sequence,
+            String carriedBy) {
+        this(id, service, servicePath, domain, mission, from, until, sequence, carriedBy, false);
+    }
+
     /**
-     * Reads the value of a record. {@code service}, {@code servicePath}, {@code domain}, {@code mission}, {@code until} and
-     * {@code carriedBy} may be missing or null; members of other names are skipped.
+     * Reads the value of a record. {@code service}, {@code servicePath}, {@code domain}, {@code mission}, {@code until},
+     * {@code carriedBy} and {@code stationary} may be missing or null; members of other names are skipped.
      *
      * @throws UnreadableException with {@link Reason#NOT_JSON}, or {@link Reason#NOT_AN_EVENT} where it is no such object
      */
@@ -66,7 +82,8 @@ public record DeviceVersion(
                 from,
                 until,
                 number(json, "sequence"),
-                json.hasNonNull("carriedBy") ? text(json, "carriedBy") : null);
+                json.hasNonNull("carriedBy") ? text(json, "carriedBy") : null,
+                json.path("stationary").asBoolean());
     }
 
     /** The record's key: tenant, service path and id, because two tenants may have devices of one id. */
@@ -81,12 +98,13 @@ public record DeviceVersion(
 
     /** The same, ended at a time. */
     public DeviceVersion endingAt(long time) {
-        return new DeviceVersion(id, service, servicePath, domain, mission, from, time, sequence, carriedBy);
+        return new DeviceVersion(
+                id, service, servicePath, domain, mission, from, time, sequence, carriedBy, stationary);
     }
 
     /** The same with another sequence. */
     public DeviceVersion numbered(long other) {
-        return new DeviceVersion(id, service, servicePath, domain, mission, from, until, other, carriedBy);
+        return new DeviceVersion(id, service, servicePath, domain, mission, from, until, other, carriedBy, stationary);
     }
 
     /** UTF-8 JSON; members without a value are left out. */
@@ -104,6 +122,9 @@ public record DeviceVersion(
         json.put("sequence", sequence);
         if (carriedBy != null) {
             json.put("carriedBy", carriedBy);
+        }
+        if (stationary) {
+            json.put("stationary", true);
         }
         return json;
     }

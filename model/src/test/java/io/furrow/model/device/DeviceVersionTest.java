@@ -26,7 +26,7 @@ class DeviceVersionTest {
             7,
             "urn:ngsi-ld:Tractor:2");
     private static final DeviceVersion THERMOMETER =
-            new DeviceVersion("urn:ngsi-ld:Thermometer:1", "", "/", "north", "", 0, null, 0, null);
+            new DeviceVersion("urn:ngsi-ld:Thermometer:1", "", "/", "north", "", 0, null, 0, null, true);
 
     @Test
     void isWrittenAndReadAsItsGoldenJson() throws Exception {

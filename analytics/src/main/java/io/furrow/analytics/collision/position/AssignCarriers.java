@@ -19,10 +19,11 @@ import io.furrow.flink.device.DeviceVersions;
 import io.furrow.flink.kafka.TopicSnapshot;
 import io.furrow.flink.time.Epochs;
 import io.furrow.model.device.DeviceVersion;
+import io.furrow.model.event.FiwareScope;
 
 /**
  * Assigns to each position what carries its device: what the entity named, else what {@code service.devices} says as
- * of the position's time. Key: the device, which has no state here; its positions are on their way to the stage that
+ * of the position's time. The ground carries a stationary device. Key: the device, which has no state here; its positions are on their way to the stage that
  * has.
  *
  * <p><b>State</b>: every device's versions, the same at each subtask.
@@ -42,6 +43,9 @@ public final class AssignCarriers
     private static final long serialVersionUID = 1L;
     /** Longer than positions are late and still count. */
     private static final Duration KEPT = Duration.ofDays(1);
+
+    /** Carries the devices that do not move, so that they are parts of one aggregate; no identity is without a scope. */
+    private static final String GROUND = "ground";
 
     private static final Duration FOR_EVER = Duration.ofMillis(Epochs.SPAN);
 
@@ -69,15 +73,21 @@ public final class AssignCarriers
             return;
         }
         Optional<String> carrier = devices.at(fix.identity(), fix.time(), context.getBroadcastState(DEVICES))
-                .map(DeviceVersion::carriedBy)
-                .filter(id -> !id.isEmpty());
-        out.collect(carrier.isEmpty() ? fix : fix.carriedBy(fix.scope().identity(carrier.get())));
+                .map(device -> carrier(device, fix.scope()));
+        out.collect(carrier.isEmpty() ? fix : fix.carriedBy(carrier.get()));
     }
 
     @Override
     public void processBroadcastElement(DeviceChange change, Context context, Collector<PositionFix> out)
             throws Exception {
         devices.note(change, context.getBroadcastState(DEVICES));
+    }
+
+    private static String carrier(DeviceVersion device, FiwareScope scope) {
+        if (device.carriedBy() != null && !device.carriedBy().isEmpty()) {
+            return scope.identity(device.carriedBy());
+        }
+        return device.stationary() ? GROUND : null;
     }
 
     private static final class AsTheyAre implements DeviceLookup.StateCodec<DeviceVersions> {

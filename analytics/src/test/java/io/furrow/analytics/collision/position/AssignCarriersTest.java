@@ -51,6 +51,18 @@ class AssignCarriersTest {
     }
 
     @Test
+    void letsTheGroundCarryWhatDoesNotMove() throws Exception {
+        change(1, stationary("thermometer", "/"));
+        change(2, stationary("station", "/north"));
+        PositionFix thermometer = assigned(Fixes.east("thermometer", 0, 1500));
+        PositionFix station = assigned(Fixes.of("farm|/north|station", "station", "m", 0, 10, 1500));
+
+        assertThat(thermometer.sharesAggregateWith(station)).isTrue();
+        assertThat(thermometer.sharesAggregateWith(assigned(Fixes.east("robot", 0, 1500))))
+                .isFalse();
+    }
+
+    @Test
     void leavesTheCarrierThatTheEntityNames() throws Exception {
         PositionFix named = Fixes.carriedBy("drone", Fixes.east("camera", 0, 1500));
         assertThat(assigned(named)).isEqualTo(named);
@@ -100,6 +112,10 @@ class AssignCarriersTest {
 
     private void change(long offset, DeviceVersion version) throws Exception {
         operator.processElement2(new DeviceChange(version.key(), 0, offset, version.from(), version), 0);
+    }
+
+    private static DeviceVersion stationary(String id, String servicePath) {
+        return new DeviceVersion(id, "farm", servicePath, "", "", 1000, null, 1, null, true);
     }
 
     private static DeviceVersion version(long from, long sequence, String carrier) {
