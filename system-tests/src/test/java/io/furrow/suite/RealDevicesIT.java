@@ -8,6 +8,7 @@ import java.nio.file.Path;
 import java.time.Duration;
 import java.util.LinkedHashMap;
 import java.util.Map;
+import java.util.stream.Stream;
 
 import com.fasterxml.jackson.databind.JsonNode;
 import org.junit.jupiter.api.AfterAll;
@@ -27,6 +28,8 @@ class RealDevicesIT {
     private static final Duration TIMEOUT = Duration.ofSeconds(60);
     private static final HttpClient HTTP = HttpClient.newHttpClient();
     private static final String PLACE = "{\"latitude\": 40.3134, \"longitude\": -3.4831}";
+
+    private static final String PLACE_REPORT = "'{\"lat\": 40.3134, \"lon\": -3.4831}'";
 
     private static RunningSuite running;
 
@@ -153,25 +156,34 @@ class RealDevicesIT {
     void simulatesThoseOfAMissionThatAreSimulatedAlone() throws Exception {
         start("mixed", """
                 {"type": "Thermometer", "count": 40, "simulated": true, "period": "PT1S", "area": "field-1"},
-                {"name": "real", "type": "WeatherStation", "count": 40, "at": %s}""".formatted(PLACE));
+                {"name": "real", "type": "WeatherStation", "count": 39, "at": %s},
+                {"type": "Robot"}""".formatted(PLACE));
         await().atMost(TIMEOUT)
                 .until(() -> mission("mixed").at("/status/confirmed").asInt() == 40);
         JsonNode logins = send("GET", "/api/missions/mixed/credentials", "");
         assertThat(logins).hasSize(40);
         for (JsonNode login : logins) {
-            assertThat(login.path("device").asText()).contains("WeatherStation");
-            Command.run("sh", "-c", login.path("example").asText());
+            String device = login.path("device").asText();
+            assertThat(device).containsAnyOf("WeatherStation", "Robot");
+            String example = login.path("example").asText();
+            Command.run(
+                    "sh", "-c", device.contains("Robot") ? example.replaceFirst("'\\{.*}'", PLACE_REPORT) : example);
         }
         await().atMost(TIMEOUT)
                 .untilAsserted(() ->
                         assertThat(mission("mixed").path("status").toString()).contains("\"confirmed\":80"));
         JsonNode stations = running.ngsi().entities("type=WeatherStation&idPattern=.*mixed.*");
         assertThat(stations)
-                .hasSize(40)
+                .hasSize(39)
                 .allMatch(each -> each.at("/Temperature/value").asInt() == 21
                         && each.path("Humidity").isMissingNode());
-        assertThat(send("GET", "/api/alarms", "").findValuesAsText("kind")).doesNotContain("collision");
+        await().atMost(TIMEOUT).until(() -> texts().anyMatch(text -> text.matches(".*Robot.* and .*Station.* apart")));
+        assertThat(texts()).noneMatch(text -> text.matches(".*Station.* and .*Station.* apart"));
         send("POST", "/api/missions/mixed/stop", "{}");
+    }
+
+    private static Stream<String> texts() throws Exception {
+        return send("GET", "/api/alarms", "").findValuesAsText("text").stream();
     }
 
     private static void start(String mission, String devices) throws Exception {
