@@ -34,7 +34,7 @@ final class Body {
                 return object;
             }
         } catch (UnreadableException e) {
-            throw new ProblemException(ErrorCode.NOT_JSON, e.getMessage());
+            throw new ProblemException(ErrorCode.NOT_JSON, "the body is not JSON: " + e.getMessage());
         }
         throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is no JSON object");
     }
