@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.util.List;
 import java.util.Optional;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
@@ -25,6 +26,7 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.device.CredentialCsv;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
 import io.furrow.control.health.SilenceCause;
@@ -46,6 +48,9 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class DevicesResource {
+    /** For who asks for it; who takes anything gets JSON. */
+    static final String CSV = CredentialCsv.TYPE + ";qs=0.5";
+
     private static final String DEVICE = "device";
     private static final String GENERATION = "generation";
     private static final int MAX_AUDITED_LENGTH = 200;
@@ -100,6 +105,17 @@ public final class DevicesResource {
         return secret(means.credentials().of(device));
     }
 
+    /** The same as a file for spreadsheets. */
+    @GET
+    @RolesAllowed(Role.ADMINS)
+    @Path("{device}/credentials")
+    @Produces(CSV)
+    public Response credentialsAsCsv(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
+        WantedDevice device = provisioned(id);
+        audit(Caller.user(request), "credentials", about(id), null);
+        return csv(List.of(means.credentials().of(device)));
+    }
+
     /** The credentials as a QR code, for what has a camera. */
     @GET
     @RolesAllowed(Role.ADMINS)
@@ -131,6 +147,12 @@ public final class DevicesResource {
 
     static Response secret(JsonNode credentials) {
         return JsonResponses.json(200, credentials)
+                .header("Cache-Control", "no-store")
+                .build();
+    }
+
+    static Response csv(Iterable<? extends JsonNode> credentials) {
+        return Response.ok(CredentialCsv.of(credentials), CredentialCsv.TYPE + ";charset=utf-8")
                 .header("Cache-Control", "no-store")
                 .build();
     }
@@ -257,9 +279,7 @@ public final class DevicesResource {
                 view.find(Topics.DEVICES_CONNECTION, key).orElseGet(JsonNodeFactory.instance::objectNode);
         JsonNode health = device.path("health");
         Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
-        if (!connection.isEmpty() && (heard == null || health.path("silent").booleanValue())) {
-            cause(connection, heard).ifPresent(cause -> connection.put("cause", cause.text()));
-        }
+        silence(connection, device).ifPresent(cause -> connection.put("cause", cause.text()));
         if (heard != null) {
             long time = health.path("lastSeen").longValue();
             connection
@@ -271,9 +291,23 @@ public final class DevicesResource {
         return connection.isEmpty() ? device : device.set("connection", connection);
     }
 
-    private static Optional<SilenceCause> cause(ObjectNode connection, Long heard) {
+    private static Optional<SilenceCause> silence(ObjectNode connection, ObjectNode device) {
+        if (connection.isEmpty()) {
+            return Optional.empty();
+        }
+        long from = device.path("from").longValue();
+        long heard = device.path("health").path("heard").longValue();
+        JsonNode status = device.path("status");
+        boolean current =
+                status.path("sequence").longValue() >= device.path("sequence").longValue();
         try {
-            return SilenceCause.of(DeviceConnection.read(NgsiJson.write(connection)), heard);
+            DeviceConnection known = DeviceConnection.read(NgsiJson.write(connection));
+            if (heard >= from && heard > 0) {
+                boolean silent = device.path("health").path("silent").booleanValue();
+                return silent ? SilenceCause.of(known, heard) : Optional.empty();
+            }
+            String failure = current ? status.path("reason").textValue() : null;
+            return Optional.of(SilenceCause.ofUnheard(known, failure, from));
         } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
             return Optional.empty();
         }
