@@ -16,7 +16,9 @@ import io.furrow.model.ngsi.UnreadableException;
 
 /** Bodies of requests: one JSON object, as strictly read as everything else. */
 final class Body {
-    private static final long MAX_SKIPPED = 16L * 1024 * 1024;
+    /** Who sends more sees his connection end. */
+    private static final long MAX_READ = 64L * 1024 * 1024;
+
     private static final Duration TIMEOUT = Duration.ofSeconds(10);
     private static final int BUFFER_BYTES = 8192;
 
@@ -39,15 +41,26 @@ final class Body {
         throw new ProblemException(ErrorCode.NOT_A_REQUEST, "the body is no JSON object");
     }
 
-    /** At most so many. In time, because whoever sends slowly occupies a thread. What is too large is read, or many a client would see no answer. */
-    static byte[] bytes(InputStream body, long most) throws IOException {
-        long end = System.nanoTime() + TIMEOUT.toNanos();
+    /** At most so many. What is too large is read too, or many a client would see no answer. */
+    static byte[] bytes(InputStream body, int most) throws IOException {
         ByteArrayOutputStream kept = new ByteArrayOutputStream();
+        if (read(body, most, kept) > most) {
+            throw ProblemException.tooLarge(-1, most);
+        }
+        return kept.toByteArray();
+    }
+
+    /** Reads what is left and forgets it. */
+    static void drain(InputStream body) throws IOException {
+        read(body, 0, new ByteArrayOutputStream(0));
+    }
+
+    /** In time, because whoever sends slowly occupies a thread. */
+    private static long read(InputStream body, int most, ByteArrayOutputStream kept) throws IOException {
+        long end = System.nanoTime() + TIMEOUT.toNanos();
         byte[] buffer = new byte[BUFFER_BYTES];
         long total = 0;
-        for (int count = body.read(buffer);
-                count >= 0 && total <= Math.max(most, MAX_SKIPPED);
-                count = body.read(buffer)) {
+        for (int count = body.read(buffer); count >= 0 && total <= MAX_READ; count = body.read(buffer)) {
             total += count;
             if (total <= most) {
                 kept.write(buffer, 0, count);
@@ -57,9 +70,6 @@ final class Body {
                         408, "request-timeout", "the body did not come within %d s".formatted(TIMEOUT.toSeconds()));
             }
         }
-        if (total > most) {
-            throw ProblemException.tooLarge(-1);
-        }
-        return kept.toByteArray();
+        return total;
     }
 }

@@ -117,7 +117,7 @@ public final class CommandClient implements AutoCloseable {
             throw new ProblemException(ErrorCode.NOT_JSON, "a text of the body is not Unicode");
         }
         if (value.length > Limits.REQUEST_BYTES) {
-            throw ProblemException.tooLarge(value.length);
+            throw ProblemException.tooLarge(value.length, Limits.REQUEST_BYTES);
         }
         return value;
     }
