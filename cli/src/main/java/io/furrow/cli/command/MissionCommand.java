@@ -27,6 +27,7 @@ import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.mission.export.Exported;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.text.Counts;
+import io.furrow.model.text.FailureText;
 
 /** {@code ./furrow mission}. */
 @Command(
@@ -178,7 +179,7 @@ public final class MissionCommand extends MissionControl {
                     e);
         } catch (MongoException e) {
             return failed("MongoDB at %s: %s. Check that it runs, and --mongo."
-                    .formatted(new MongoAccess(kept.mongo, null), e.getMessage()));
+                    .formatted(new MongoAccess(kept.mongo, null), FailureText.of(e)));
         } catch (UncheckedIOException e) {
             return failed(e.getCause().getMessage());
         } catch (IOException e) {
