@@ -68,8 +68,6 @@ class RefusedRequestsIT {
             String body = "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(bytes)));
             assertThat(client.error(client.send("POST", "/api/domains", body))).isEqualTo("413 too-large");
         }
-        assertThat(client.error(client.send("POST", "/api/fields", " ".repeat(3 * FieldsResource.LARGEST))))
-                .isEqualTo("413 too-large");
         String body =
                 "{\"domain\":\"large\",\"area\":%s}".formatted(area.formatted("x".repeat(Limits.REQUEST_BYTES - 400)));
         assertThat(client.send("POST", "/api/domains", body).statusCode()).isEqualTo(201);
