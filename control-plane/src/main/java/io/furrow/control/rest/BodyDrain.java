@@ -17,7 +17,8 @@ import org.slf4j.LoggerFactory;
 /**
  * Reads what was left of a body before the answer is written. Otherwise Jetty ends the connection while the client still sends, or sends
  * its next request, and the client sees no answer. A resource that takes no body may answer on a thread that must not wait: its body is
- * read before. Whoever is refused for who he is may occupy no thread; his connection ends, and the answer says so.
+ * read before. Whoever is refused for who he is may occupy no thread: what has come is read, then
+ * his connection ends, and the answer says so.
  */
 final class BodyDrain implements ContainerRequestFilter, ContainerResponseFilter {
     private static final Logger LOG = LoggerFactory.getLogger(BodyDrain.class);
@@ -37,10 +38,14 @@ final class BodyDrain implements ContainerRequestFilter, ContainerResponseFilter
     }
 
     @Override
-    public void filter(ContainerRequestContext request, ContainerResponseContext response) {
+    public void filter(ContainerRequestContext request, ContainerResponseContext response) throws IOException {
         if (!UNREAD.contains(response.getStatus())) {
             drain(request);
-        } else if (request.hasEntity()) {
+        } else if (request.getLength() > 0 || request.getHeaderString("Transfer-Encoding") != null) {
+            InputStream body = request.getEntityStream();
+            while (body.available() > 0) {
+                body.skipNBytes(body.available());
+            }
             response.getHeaders().putSingle("Connection", "close");
         }
     }
