@@ -2,6 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
+import java.lang.reflect.Method;
 import java.util.Set;
 import java.util.stream.Stream;
 
@@ -17,8 +18,8 @@ import org.slf4j.LoggerFactory;
 /**
  * Reads what was left of a body before the answer is written. Otherwise Jetty ends the connection while the client still sends, or sends
  * its next request, and the client sees no answer. A resource that takes no body may answer on a thread that must not wait: its body is
- * read before. Whoever is refused for who he is may occupy no thread: what has come is read, then
- * his connection ends, and the answer says so.
+ * read before. Whoever is refused for who he is may occupy no thread: what has come is read, then his connection ends, and the answer
+ * says so.
  */
 final class BodyDrain implements ContainerRequestFilter, ContainerResponseFilter {
     private static final Logger LOG = LoggerFactory.getLogger(BodyDrain.class);
@@ -30,8 +31,9 @@ final class BodyDrain implements ContainerRequestFilter, ContainerResponseFilter
 
     @Override
     public void filter(ContainerRequestContext request) {
+        Method method = resource.getResourceMethod(); // null of what Jersey answers by itself
         boolean takesBody =
-                Stream.of(resource.getResourceMethod().getParameterTypes()).anyMatch(InputStream.class::equals);
+                method != null && Stream.of(method.getParameterTypes()).anyMatch(InputStream.class::equals);
         if (!takesBody) {
             drain(request);
         }
