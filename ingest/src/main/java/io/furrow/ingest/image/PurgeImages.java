@@ -89,8 +89,8 @@ public final class PurgeImages implements Callable<Integer> {
         }
         PrintWriter out = spec.commandLine().getOut();
         out.printf(
-                "%s %s, %s; kept %d.%n",
-                dryRun ? "Would delete" : "Deleted", Counts.of(deleted, "file"), Counts.of(deletedBytes, "byte"), kept);
+                "%s %s, %d bytes; kept %d.%n",
+                dryRun ? "Would delete" : "Deleted", Counts.of(deleted, "file"), deletedBytes, kept);
         out.flush();
         return 0;
     }

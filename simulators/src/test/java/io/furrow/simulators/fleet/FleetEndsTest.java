@@ -103,7 +103,8 @@ class FleetEndsTest {
 
         FarmFleet.start(farm(THERMOMETER), Subscriber.access(settings)).close();
         try (FarmFleet fleet = FarmFleet.start(farm(ROBOT), Subscriber.access(settings), 500, Clock.systemUTC())) {
-            await().until(() -> !ends.asked("/v2/op/update").isEmpty());
+            await().until(() ->
+                    fleet.reports() > 0 && !ends.asked("/v2/op/update").isEmpty());
         }
 
         for (String path : List.of("/iot/services", "/iot/devices", "/v2/op/update")) {
