@@ -3,7 +3,6 @@ package io.furrow.control.rest;
 import java.io.IOException;
 import java.io.InputStream;
 import java.util.List;
-import java.util.Optional;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.RejectedExecutionException;
@@ -29,18 +28,14 @@ import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CredentialCsv;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
-import io.furrow.control.health.SilenceCause;
 import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
@@ -93,7 +88,7 @@ public final class DevicesResource {
     @Path("{device}")
     public Response get(@PathParam(DEVICE) String id) {
         String key = means.scope().identity(id);
-        return JsonResponses.ok(withConnection(key, withSettings(described(key, find(id)))));
+        return JsonResponses.ok(devices.withConnection(key, withSettings(described(key, find(id)))));
     }
 
     @GET
@@ -271,46 +266,6 @@ public final class DevicesResource {
             }
         });
         return wanted;
-    }
-
-    /** The device with what is known of how it is connected; lists of devices leave that out. */
-    private ObjectNode withConnection(String key, ObjectNode device) {
-        ObjectNode connection =
-                view.find(Topics.DEVICES_CONNECTION, key).orElseGet(JsonNodeFactory.instance::objectNode);
-        JsonNode health = device.path("health");
-        Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
-        silence(connection, device).ifPresent(cause -> connection.put("cause", cause.text()));
-        if (heard != null) {
-            long time = health.path("lastSeen").longValue();
-            connection
-                    .putObject("lastReport")
-                    .put("time", time)
-                    .put("received", heard)
-                    .put("offset", heard - time);
-        }
-        return connection.isEmpty() ? device : device.set("connection", connection);
-    }
-
-    private static Optional<SilenceCause> silence(ObjectNode connection, ObjectNode device) {
-        if (connection.isEmpty()) {
-            return Optional.empty();
-        }
-        long from = device.path("from").longValue();
-        long heard = device.path("health").path("heard").longValue();
-        JsonNode status = device.path("status");
-        boolean current =
-                status.path("sequence").longValue() >= device.path("sequence").longValue();
-        try {
-            DeviceConnection known = DeviceConnection.read(NgsiJson.write(connection));
-            if (heard >= from && heard > 0) {
-                boolean silent = device.path("health").path("silent").booleanValue();
-                return silent ? SilenceCause.of(known, heard) : Optional.empty();
-            }
-            String failure = current ? status.path("reason").textValue() : null;
-            return Optional.of(SilenceCause.ofUnheard(known, failure, from));
-        } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
-            return Optional.empty();
-        }
     }
 
     /** The device with the settings of its group, which may be large: lists of devices leave them out. */
