@@ -28,7 +28,7 @@ command -v python3 >/dev/null || fail "No Python 3 found."
 
 run=$(mktemp -d "${TMPDIR:-/tmp}/furrow-deployed.XXXXXX")
 logs=$home/target/soak/deployed
-rm -rf "$logs" && mkdir -p "$logs" "$run/secrets" "$run/accounts" "$run/mosquitto-data"
+rm -rf "$logs" && mkdir -p "$logs" "$run/secrets" "$run/accounts" "$run/mosquitto-data" "$run/mosquitto-log"
 
 clean_up() {
     local code=$?
@@ -64,7 +64,7 @@ here() {
         -e "s|control-plane:8085|127.0.0.1:$control|g; s|jobmanager:8081|${rest:-127.0.0.1}|g; s|http://http|http|g" \
         -e "s|connect:8083|127.0.0.1:$worker1|g; s|connect:{port}|127.0.0.1:$retries/{port}|g; s|0\.0\.0\.0|127.0.0.1|g; s|\"8090\"|\"$notify\"|g" \
         -e "s|9249-9250|$metrics-$((metrics + 9))|g" \
-        -e "s|/opt/furrow|$archive|g; s|/run/secrets|$run/secrets|g; s|/mosquitto/config|$run/accounts|g; s|/mosquitto/data|$run/mosquitto-data|g" \
+        -e "s|/opt/furrow|$archive|g; s|/run/secrets|$run/secrets|g; s|/mosquitto/config|$run/accounts|g; s|/mosquitto/data|$run/mosquitto-data|g; s|/mosquitto/log|$run/mosquitto-log|g" \
         -e "s|/var/lib/furrow/journal|$run/journal|g; s|/var/lib/kafka/data|$run/kafka|g; s#/connectors/\(ngsi-[a-z]*\.json\)#$run/\1#g"
 }
 

@@ -19,7 +19,7 @@ export const texts = {
     lost: 'Not connected for {duration}, trying again. What is shown is from {time}.',
     lostNever: 'Not connected for {duration}, trying again. {reason}',
     away: 'The connection was away from {from} to {to}.',
-    gap: '{count} records were missed.',
+    gap: '{count record|records} missed.',
     panel: 'Alarms and devices',
     timeline: 'Timeline',
     enteredReplay: 'Replay of {mission} is shown. Commands are not sent.',
@@ -68,7 +68,7 @@ export const texts = {
     tables: { devices: 'Devices', encounters: 'Encounters', fields: 'Fields' },
     options: { trails: 'Trails', labels: 'Names', rows: 'Rows of fields' },
     legend: 'Legend', encounter: 'encounter', predicted: '{distance} in {time} s', ended: 'was {distance}', closest: 'closest {distance}',
-    devices: '{count} devices', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
+    devices: '{count device|devices}', unverified: 'unverified', suspects: '{count} suspect', noAlarms: 'no alarms',
     cluster: '{count} devices, click to open', oneSpot: '{count} devices in one spot',
     columns: { name: 'Name', kind: 'Kind', state: 'State', position: 'Position', speed: 'Speed', age: 'Heard', pair: 'Devices', phase: 'Phase', distance: 'Distance', closest: 'Closest', field: 'Field', average: 'Average', devices: 'Devices', suspects: 'Suspects' },
     speed: '{speed} m/s',
@@ -92,8 +92,8 @@ export const texts = {
     connection: {
       report: 'Last report of {time}, received {offset} later.', ahead: 'Last report of {time}: its clock is {offset} ahead.',
       unregistered: 'The IoT Agent does not know it.', login: 'Connected to the MQTT broker at {time}.', noLogin: 'Has not connected to the MQTT broker since {time}.',
-      password: 'Its password was refused {count} times, last at {time}.', user: 'Its user {user} does not exist or no longer, and was refused {count} times, last at {time}.',
-      foreign: 'Published {count} times where it may not, last at {time} to {topic}.', unreadable: '{count} of its messages could not be read, the last at {time}: {reason}. It began with {payload}',
+      password: 'Its password was refused {times} {time}.', user: 'Its user {user} does not exist or no longer, and was refused {times} {time}.',
+      foreign: 'Published {times} {time} to {topic}, where it may not.', once: 'once, at', times: '{count} times, last at', unreadable: '{count} of its messages could not be read, the last at {time}: {reason}. It began with {payload}',
     },
     none: 'No devices yet', noneHint: 'As soon as a device reports, its card is here.',
     noneYet: 'Nothing yet at this moment', noneYetHint: 'The replay has not reached a report, or none is in it.',
@@ -135,11 +135,11 @@ export const texts = {
     noTemplateList: 'The templates cannot be listed: {reason}', ownDevices: 'No template: devices of my own', ids: 'Devices that have a login already', ownHint: 'Entity ids, one a line. Empty if there are none.', type: 'Type', count: 'How many', period: 'One report every', simulated: 'Simulated', simulatedHint: 'Needs a host of simulated devices; a real device is up by its first report', moreDevices2: 'Devices of another type', lessDevices: 'Remove these devices', simulatedTemplate: 'Its devices are simulated', minutes: 'Length in minutes', minutesHint: 'Empty: until it is stopped', startNow: 'Start it at once',
     none: 'No missions yet', noneHint: 'A mission says which devices work where. Create one from a template.',
     states: { created: 'not started', starting: 'starting', running: 'running', stopping: 'stopping', stopped: 'stopped', failed: 'failed' },
-    confirmed: '{confirmed} of {devices} devices', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices that are as wanted',
+    confirmed: '{confirmed} of {devices device|devices}', missing: '{count} missing', since: 'for {age}', notYet: 'not yet', progress: 'Devices that are as wanted',
     startedAt: 'started {time}', lasts: 'for {duration}', start: 'Start', stop: 'Stop', delete: 'Delete', replay: 'Replay',
     credentials: 'Logins', startTitle: 'Start {mission}?', stopTitle: 'Stop {mission}?', stopText: 'Simulated devices are switched off; the logins of real ones end until it is started again. What it recorded stays.', deleteTitle: 'Delete {mission}?', deleteText: 'Its plan and its devices are deleted. What it recorded stays in MongoDB.',
     devices: 'Devices', deviceColumns: { device: 'Device', state: 'State', health: 'Health', battery: 'Battery', seen: 'Heard', audit: 'Commands' }, onMap: 'Show {device} on the map', auditOfDevice: 'Who commanded {device}',
-    viewer: 'You can look at everything. To command takes the role of an operator', noDevicesYet: 'Its devices are being made.', planned: '{count} devices are planned; they are made when it starts.', moreDevices: 'and {count} more',
+    viewer: 'You can look at everything. To command takes the role of an operator', noDevicesYet: 'Its devices are being made.', planned: '{count device|devices} planned, made when it starts.', moreDevices: 'and {count} more',
     check: 'Check of each device', unnamed: 'Device', levels: { ok: 'in order', unknown: 'not known', warning: 'needs a look', problem: 'in the way' },
     checkGood: 'All {count} in order', checkBad: '{bad} of {count} need a look', checkProblem: '{problems} of {count} are in the way', checkProblemMore: '{problems} of {count} are in the way, {bad} more need a look',
     findings: {
@@ -254,11 +254,11 @@ export const texts = {
   // ------------------------------------------------------------------------------------------------------------------
 
   platform: {
-    well: 'Everything is at work', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag} records behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
+    well: 'Everything is at work', wrong: 'Needs a look', partDown: '{part} is {state}. {detail}', behind: '{group} is {lag record|records} behind', hasLetters: 'Dead letters: {count}. They could not be processed and were set aside',
     parts: 'Parts', partNames: { api: 'REST API', iotAgent: 'IoT Agent', kafka: 'Kafka' }, states: { up: 'up', down: 'down', dead: 'dead' },
     lag: 'Lag', lagHint: 'Records that a consumer group has not committed yet; jobs commit with each checkpoint.', noGroups: 'No consumer group has committed anything yet.',
-    letters: 'Dead letters', noLetters: 'None in {count} topics', lettersHint: 'Their headers say what was wrong and where. Once that is repaired, bring them back:', lettersCommand: 'Commands that bring dead letters back', notKnown: 'Not known while it does not answer.',
-    hops: 'How long a report takes', hop: 'Hop', samples: '{count} reports of the last minute', hopsWait: 'A few reports are waited for …',
+    letters: 'Dead letters', noLetters: 'None in {count topic|topics}', lettersHint: 'Their headers say what was wrong and where. Once that is repaired, bring them back:', lettersCommand: 'Commands that bring dead letters back', notKnown: 'Not known while it does not answer.',
+    hops: 'How long a report takes', hop: 'Hop', samples: '{count report|reports} of the last minute', hopsWait: 'A few reports are waited for …',
     hopNames: { device: 'Device to Kafka', source: 'Kafka to domain', page: 'Domain to this page', all: 'Together' },
     hopsHint: 'By the times in the records’ headers: when the device measured, when the NGSI source took it, when ingest had routed it, and when it was here. The bright part is half of all reports, the faint ones are 95 and 99 of 100. Clocks that differ show as delay.',
   },
@@ -274,5 +274,6 @@ export function t(key, values = {}) {
     console.error(`no text ${key}`);
     return key;
   }
-  return text.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
+  const counted = text.replace(/\{(\w+) (\w+)\|(\w+)\}/g, (whole, name, one, more) => `{${name}} ${String(values[name]) === '1' ? one : more}`);
+  return counted.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }

@@ -6,6 +6,7 @@ import { t } from '../texts.js';
 export function sentencesOf({ since, loggedIn, refusedLogin, foreignTopic, unreadablePayload, registered, lastReport } = {}) {
   const sentences = [];
   const say = (name, values) => sentences.push(t(`cards.connection.${name}`, values));
+  const observed = ({ count, last }) => ({ times: t(`cards.connection.${count === 1 ? 'once' : 'times'}`, { count }), time: dateTime(last) });
   if (lastReport) {
     const { time, offset } = lastReport;
     say(offset < 0 ? 'ahead' : 'report', { time: dateTime(time), offset: duration(Math.abs(offset)) });
@@ -19,10 +20,10 @@ export function sentencesOf({ since, loggedIn, refusedLogin, foreignTopic, unrea
     say('noLogin', { time: dateTime(since) });
   }
   if (refusedLogin) {
-    say(refusedLogin.reason === 'unknown-user' ? 'user' : 'password', { ...refusedLogin, time: dateTime(refusedLogin.last) });
+    say(refusedLogin.reason === 'unknown-user' ? 'user' : 'password', { ...refusedLogin, ...observed(refusedLogin) });
   }
   if (foreignTopic) {
-    say('foreign', { ...foreignTopic, time: dateTime(foreignTopic.last) });
+    say('foreign', { ...foreignTopic, ...observed(foreignTopic) });
   }
   if (unreadablePayload) {
     say('unreadable', { ...unreadablePayload, time: dateTime(unreadablePayload.last) });

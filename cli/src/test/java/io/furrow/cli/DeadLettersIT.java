@@ -86,7 +86,7 @@ class DeadLettersIT {
         letter("dry.dead", "k", new byte[] {1}, Reason.NOT_JSON, "why", Map.of());
 
         assertThat(redrive("--topic", "dry.dead", "--dry-run"))
-                .isEqualTo("would send 1 dead letters from dry.dead to dry: 1 not-json");
+                .isEqualTo("would send 1 dead letter from dry.dead to dry: 1 not-json");
         assertThat(redrive("--topic", "dry.dead"))
                 .as("nothing was remembered as done")
                 .startsWith("sent 1 ");
@@ -100,7 +100,7 @@ class DeadLettersIT {
         letter("some.dead", "k", new byte[] {3}, Reason.NOT_JSON, "why (truncated to 1 bytes)", Map.of());
 
         assertThat(redrive("--topic", "some.dead", "--to", "elsewhere", "--reason", "not-json"))
-                .isEqualTo("sent 1 dead letters from some.dead to elsewhere: 1 not-json\n"
+                .isEqualTo("sent 1 dead letter from some.dead to elsewhere: 1 not-json\n"
                         + "left where they are: 1 not-an-entity of test, 1 truncated");
         assertThat(recordsOf("elsewhere")).extracting(ConsumerRecord::value).containsExactly(new byte[] {1});
     }
@@ -124,7 +124,7 @@ class DeadLettersIT {
 
         assertThat(redrive("--topic", "kinds.dead", "--reason", "not-json")).startsWith("sent 1 ");
         assertThat(redrive("--topic", "kinds.dead", "--reason", "too-large,not-json"))
-                .contains("sent 1 dead letters from kinds.dead to kinds: 1 too-large");
+                .contains("sent 1 dead letter from kinds.dead to kinds: 1 too-large");
         letter("kinds.dead", "d", new byte[] {4}, Reason.NOT_JSON, "why", Map.of());
         assertThat(redrive("--topic", "kinds.dead"))
                 .isEqualTo("sent 2 dead letters from kinds.dead to kinds: 1 not-an-entity, 1 not-json");
@@ -153,7 +153,7 @@ class DeadLettersIT {
         letterOf("ingest", "went.dead", 3, Reason.NOT_JSON);
 
         assertThat(redrive("--topic", "went.dead"))
-                .isEqualTo("sent 1 dead letters from went.dead to went: 1 not-json\n"
+                .isEqualTo("sent 1 dead letter from went.dead to went: 1 not-json\n"
                         + "left where they are: 1 not-an-image of ingest-images, whose event went on, "
                         + "1 refused of missions, whose event went on");
         assertThat(redrive("--topic", "went.dead", "--reason", "not-an-image"))
@@ -176,7 +176,7 @@ class DeadLettersIT {
         standIn("large.dead", "robot", new Original("nowhere", 0, 0, 2_000_000));
 
         assertThat(redrive("--topic", "large.dead", "--to", "whole"))
-                .isEqualTo("sent 1 dead letters from large.dead to whole: 1 not-json\n"
+                .isEqualTo("sent 1 dead letter from large.dead to whole: 1 not-json\n"
                         + "left where they are: 3 original gone");
         assertThat(recordsOf("whole")).singleElement().satisfies(record -> {
             assertThat(record.value()).isEqualTo(whole);

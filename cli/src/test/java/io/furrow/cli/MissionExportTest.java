@@ -50,7 +50,7 @@ class MissionExportTest {
                     .contains("\"geometry\":{\"type\":\"Point\",\"coordinates\":[-3.48,40.31]}");
             assertThat(out.toString())
                     .contains("2 events of hoeing in " + folder.resolve("hoeing.mcap"))
-                    .contains("1 events of hoeing in " + folder.resolve("hoeing.geojson"))
+                    .contains("1 event of hoeing in " + folder.resolve("hoeing.geojson"))
                     .contains("1 left out, the first: event e2: geo:point is not 'lat, lon'");
         }
     }

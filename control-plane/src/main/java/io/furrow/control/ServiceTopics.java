@@ -22,6 +22,7 @@ import org.apache.kafka.common.config.ConfigResource;
 import org.apache.kafka.common.errors.TopicExistsException;
 
 import io.furrow.model.control.Limits;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -107,7 +108,7 @@ public final class ServiceTopics {
         } catch (KafkaException | ExecutionException | TimeoutException e) {
             throw new IOException(
                     "The topics service.* cannot be prepared at %s (%s). Check the address, and that the user may create and alter them."
-                            .formatted(settings.client().get("bootstrap.servers"), e.getMessage()),
+                            .formatted(settings.client().get("bootstrap.servers"), FailureText.of(e)),
                     e);
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();

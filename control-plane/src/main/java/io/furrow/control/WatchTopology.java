@@ -44,7 +44,7 @@ final class WatchTopology {
 
         KStream<String, byte[]> statuses = ManagerInput.observed(
                 builder, Topics.MISSIONS_STATUS, "context-mission-statuses", AutoOffsetReset.earliest());
-        AnalyticsAlarms.addStarts(statuses, types, context -> HealthWatch.causesOfUnheard(context, scope));
+        AnalyticsAlarms.addStarts(statuses, types);
 
         ContextWatch.add(builder, new ContextWatch.Shared(collisions, temperatures, statuses), scope);
 

@@ -460,6 +460,7 @@ class ControlTopologyTest {
                         "mission-positions",
                         "device-statuses-positions",
                         "device-healths-positions",
+                        "device-connections-positions",
                         "replays",
                         "replay-reports",
                         "recordings",

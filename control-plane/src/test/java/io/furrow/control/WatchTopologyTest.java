@@ -11,8 +11,6 @@ import org.junit.jupiter.api.AfterEach;
 import org.junit.jupiter.api.Test;
 
 import io.furrow.model.control.Limits;
-import io.furrow.model.device.DeviceConnection;
-import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.Entity;
@@ -171,17 +169,34 @@ class WatchTopologyTest {
     }
 
     @Test
-    void saysWhyAMissionMissesADevice() throws Exception {
-        RefusedLogin refused = new RefusedLogin(12, 2000, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.t.1.0");
-        farm.pipe(
-                Topics.DEVICES_CONNECTION,
-                new FiwareScope("farm", "/").identity("t"),
-                new DeviceConnection(1000L, null, refused, null, null, true).toBytes());
-        farm.pipe(Topics.MISSIONS_STATUS, "m", status("starting", "[{'id':'t','reason':'why'}]", "'1 of 2 is not up'"));
+    void renewsTheWordsOfAnAlarmWithoutNotifyingAnew() throws Exception {
+        misses("it has not connected");
+        JsonNode raised = farm.newest(Topics.ALARMS);
+        misses("its password was refused once");
+        JsonNode reworded = farm.newest(Topics.ALARMS);
+        assertThat(reworded.path("text").asText()).isEqualTo("mission m: t (its password was refused once)");
+        assertThat(reworded.path("sequence")).isEqualTo(raised.path("sequence"));
+        assertThat(reworded.path("change").asText()).isEqualTo("opened");
+    }
 
-        assertThat(farm.newest(Topics.ALARMS).path("text").asText())
-                .isEqualTo("mission m: 1 of 2 is not up"
-                        + " (t: its password was refused 12 times, last at 1970-01-01T00:00:02Z)");
+    @Test
+    void publishesEachExtentInTheEndThoughChangesFollowOneAnotherQuickly() throws Exception {
+        misses("why");
+        farm.pipe(
+                Topics.MISSIONS_STATUS,
+                "m",
+                status("running", "[{'id':'t','reason':'why'},{'id':'u','reason':'why'}]", "'t and u'"));
+        farm.pass(Duration.ofSeconds(11));
+        JsonNode newest = farm.newest(Topics.ALARMS);
+        assertThat(newest.path("text").asText()).isEqualTo("mission m: t and u");
+        assertThat(newest.path("change").asText()).isEqualTo("updated");
+    }
+
+    private void misses(String why) {
+        farm.pipe(
+                Topics.MISSIONS_STATUS,
+                "m",
+                status("starting", "[{'id':'t','reason':'%s'}]".formatted(why), "'t (%s)'".formatted(why)));
     }
 
     private static String status(String state, String missing, String reason) {

@@ -16,6 +16,8 @@ import org.eclipse.jetty.server.Request;
 import org.eclipse.jetty.server.Response;
 import org.eclipse.jetty.util.Callback;
 
+import io.furrow.model.text.FailureText;
+
 /**
  * Forwards requests to the control plane, and answers 502 where it does not answer. A server may close a connection at the moment it is
  * used again, as after a refusal that did not wait for the body, and then nobody knows whether it has processed the request: only reads
@@ -97,7 +99,7 @@ final class ControlPlaneProxy extends ProxyHandler.Reverse {
         byte[] json = Problem.json(
                 "control-plane-away",
                 "the control plane at %s does not answer (%s); check --control-plane and that it runs"
-                        .formatted(base, failure.getMessage()));
+                        .formatted(base, FailureText.of(failure)));
         response.write(true, ByteBuffer.wrap(json), callback);
     }
 }

@@ -36,6 +36,7 @@ import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.proxy.TopicStreams;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /**
  * {@code GET /api/platform}: how the platform is. How far each consumer group is behind the ends of its topics, by the offsets that it
@@ -118,7 +119,7 @@ final class PlatformServlet extends HttpServlet {
     private static String reason(Throwable cause) {
         return cause instanceof TimeoutException || cause instanceof org.apache.kafka.common.errors.TimeoutException
                 ? "Kafka did not answer within %d s; check --kafka and that it runs".formatted(TIMEOUT.toSeconds())
-                : "Kafka does not say how it is: " + cause.getMessage();
+                : "Kafka does not say how it is: " + FailureText.of(cause);
     }
 
     private Map<TopicPartition, Long> ends() throws InterruptedException, ExecutionException, TimeoutException {
@@ -196,7 +197,7 @@ final class PlatformServlet extends HttpServlet {
             return JsonNodeFactory.instance
                     .objectNode()
                     .put("status", "away")
-                    .put("reason", "%s does not answer (%s)".formatted(readiness, e.getMessage()));
+                    .put("reason", "%s does not answer (%s)".formatted(readiness, FailureText.of(e)));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new Problem(503, "stopping", "the dashboard stops");

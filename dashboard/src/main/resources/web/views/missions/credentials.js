@@ -6,7 +6,6 @@ import { icon } from '../../core/icons.js';
 import { t } from '../../texts.js';
 
 const FACTS = ['host', 'port', 'tls', 'user', 'password', 'measures', 'commands', 'results'];
-const COLUMNS = ['device', 'deviceId', ...FACTS];
 
 /** @param {string} mission whose devices are listed */
 export async function showCredentials(mission) {
@@ -24,8 +23,10 @@ export async function showCredentials(mission) {
   document.body.append(dialog);
   dialog.showModal();
   try {
-    const devices = await api.get(`/api/missions/${encodeURIComponent(mission)}/credentials`);
-    const url = URL.createObjectURL(new Blob([csv(devices)], { type: 'text/csv' }));
+    const path = `/api/missions/${encodeURIComponent(mission)}/credentials`;
+    const devices = await api.get(path);
+    const file = devices.length > 0 && await (await api.fetch(path, { headers: { Accept: 'text/csv' } })).blob();
+    const url = file && URL.createObjectURL(file);
     urls.push(url);
     replace(body, devices.length === 0 ? h('p', null, t('credentials.none')) : [
       h('a.button', { href: url, download: `${mission}-credentials.csv`, data: { act: 'csv' } }, icon('download', 16), t('credentials.download', { count: devices.length })),
@@ -61,13 +62,4 @@ async function fill(content, device, urls) {
 
 function fact(name, value) {
   return h('div', null, h('dt', null, name), h('dd.code', null, value));
-}
-
-/** RFC 4180. */
-function csv(devices) {
-  const cell = (value) => (/[",\r\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
-  const rows = devices.map((device) => [
-    ...COLUMNS.map((name) => String(device[name] ?? '')), device.attributes.map((each) => `${each.object_id}=${each.name}`).join(' '), device.example,
-  ]);
-  return [[...COLUMNS, 'attributes', 'example'], ...rows].map((row) => row.map(cell).join(',')).join('\r\n');
 }

@@ -13,6 +13,7 @@ import org.locationtech.jts.operation.valid.IsValidOp;
 import org.locationtech.jts.operation.valid.TopologyValidationError;
 
 import io.furrow.fields.file.Georeference;
+import io.furrow.model.text.Counts;
 
 /**
  * Converts the outline of a feature to a valid area in WGS 84, or rejects it with a reason. Every repair is noted:
@@ -41,7 +42,7 @@ public final class AreaRepair {
     }
 
     public static String closed(int rings) {
-        return "closed " + Words.count(rings, "ring");
+        return "closed " + Counts.of(rings, "ring");
     }
 
     private MendedArea mended(Outline outline) throws RefusedFeatureException {
@@ -67,10 +68,10 @@ public final class AreaRepair {
 
     private void noteCounts() {
         note(heights, Outline.HEIGHTS_LEFT_OUT);
-        note(unreadable > 0, "left out " + Words.count(unreadable, "corner") + " without a number");
-        note(repeated > 0, "left out " + Words.count(repeated, "repeated corner"));
+        note(unreadable > 0, "left out " + Counts.of(unreadable, "corner") + " without a number");
+        note(repeated > 0, "left out " + Counts.of(repeated, "repeated corner"));
         note(open > 0, closed(open));
-        note(withoutArea > 0, "left out " + Words.count(withoutArea, "ring") + " without area");
+        note(withoutArea > 0, "left out " + Counts.of(withoutArea, "ring") + " without area");
     }
 
     private void note(boolean happened, String what) {

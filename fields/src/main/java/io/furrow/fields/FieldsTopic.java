@@ -32,6 +32,7 @@ import io.furrow.kafka.CommittedReader;
 import io.furrow.model.field.FieldArea;
 import io.furrow.model.field.FieldVersion;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** Reads the topic {@code service.fields} to its end and writes to it. */
@@ -177,7 +178,7 @@ public final class FieldsTopic {
     private IOException away(String what, Exception cause) {
         return new IOException(
                 "Kafka at %s cannot be %s (%s). Check the address given with --kafka."
-                        .formatted(client.getProperty("bootstrap.servers"), what, cause.getMessage()),
+                        .formatted(client.getProperty("bootstrap.servers"), what, FailureText.of(cause)),
                 cause);
     }
 }

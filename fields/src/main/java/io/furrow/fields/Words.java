@@ -8,11 +8,6 @@ public final class Words {
 
     private Words() {}
 
-    /** For instance {@code 1 ring}, {@code 2 rings}. */
-    public static String count(int count, String thing) {
-        return count + " " + thing + (count == 1 ? "" : "s");
-    }
-
     public static String shortened(Object value) {
         String text = String.valueOf(value);
         return text.length() <= MAX_LENGTH ? text : text.substring(0, MAX_LENGTH) + "…";

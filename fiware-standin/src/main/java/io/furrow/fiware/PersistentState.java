@@ -32,6 +32,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
+import io.furrow.model.ngsi.JsonProblem;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -83,7 +84,8 @@ final class PersistentState implements AutoCloseable {
                 | NgsiError e) {
             throw new IllegalStateException(
                     "the FIWARE stand-in cannot start from its state in " + file + ", the file is damaged ("
-                            + e.getMessage() + "); restore a copy, or move it away to start without state",
+                            + (e instanceof IOException read ? JsonProblem.of(read) : e.getMessage())
+                            + "); restore a copy, or move it away to start without state",
                     e);
         } catch (IOException e) {
             throw new UncheckedIOException(

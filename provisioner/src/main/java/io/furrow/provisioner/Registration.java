@@ -111,16 +111,14 @@ record Registration(
                 .put("transport", "MQTT");
         ArrayNode mapped = json.putArray("attributes");
         attributes.forEach(attribute -> {
-            ObjectNode one = mapped.addObject()
-                    .put("object_id", attribute.objectId())
-                    .put("name", attribute.name())
-                    .put("type", attribute.type());
+            ObjectNode one = attribute.toJson();
             if (attribute.unit() != null) {
                 one.putObject("metadata")
                         .putObject("unitCode")
                         .put("type", "Text")
                         .put("value", attribute.unit());
             }
+            mapped.add(one);
         });
         fix(json, fixed);
         ArrayNode orders = json.putArray("commands");

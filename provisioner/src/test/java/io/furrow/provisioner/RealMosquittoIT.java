@@ -44,7 +44,7 @@ class RealMosquittoIT extends MosquittoIT {
                 .withEnv(Map.of("MQTT_PASSWORD", "harrow", "XDG_CONFIG_HOME", "/tmp"))
                 .withFileSystemBind(SCRIPTS.toString(), "/furrow", BindMode.READ_ONLY)
                 .withFileSystemBind(folder.toString(), "/mosquitto/config", BindMode.READ_WRITE)
-                .withTmpFs(Map.of("/mosquitto/data", "rw,mode=1777"))
+                .withTmpFs(Map.of("/mosquitto/data", "rw,mode=1777", "/mosquitto/log", "rw,mode=1777"))
                 .withCreateContainerCmdModifier(command -> command.withUser(user))
                 .withExposedPorts(PORT);
         container.start();

@@ -1,6 +1,7 @@
 package io.furrow.deployment;
 
 import java.io.IOException;
+import java.io.RandomAccessFile;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.StandardCopyOption;
@@ -75,7 +76,8 @@ class ContainerScriptsTest {
                         "listener 1883",
                         "listener %d 127.0.0.1\nuser %s".formatted(port, System.getProperty("user.name")))
                 .replace("/mosquitto/config", accounts.toString())
-                .replace("/mosquitto/data", directory.resolve("data").toString());
+                .replace("/mosquitto/data", directory.resolve("data").toString())
+                .replace("/mosquitto/log", directory.toString());
         Path file = Files.writeString(directory.resolve("mosquitto.conf"), settings);
         Process broker = start("mosquitto/run", file.toString(), accounts.toString());
         try {
@@ -91,12 +93,24 @@ class ContainerScriptsTest {
             replace(accounts.resolve("passwords"), Files.readString(passwords));
 
             await().until(() -> publishes(port, "robot", "harrow"));
+            begunAnew(directory.resolve("mosquitto.log"), port);
         } finally {
             List<ProcessHandle> all = broker.descendants().toList();
             broker.destroy();
             assertThat(broker.waitFor(1, TimeUnit.MINUTES)).isTrue();
             assertThat(all).allSatisfy(process -> await().until(() -> !process.isAlive()));
         }
+    }
+
+    /** The log says who connects, and gets a successor when it is large. */
+    private void begunAnew(Path log, int port) throws Exception {
+        assertThat(log).content().contains("New client connected").contains("u'robot'");
+        try (RandomAccessFile large = new RandomAccessFile(log.toFile(), "rw")) {
+            large.setLength(50_000_001);
+        }
+        await().until(() -> Files.exists(log.resolveSibling("mosquitto.log.1")) && Files.exists(log));
+        await().until(() ->
+                publishes(port, "robot", "harrow") && Files.readString(log).contains("u'robot'"));
     }
 
     /** What the compose file asks again and again, of this broker. */

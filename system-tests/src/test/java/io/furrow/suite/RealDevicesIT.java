@@ -92,7 +92,11 @@ class RealDevicesIT {
 
         await().atMost(TIMEOUT)
                 .until(() -> mission("first").at("/status/state").asText().equals("running"));
-        assertThat(mission("first").at("/status/missing/0/reason").asText()).isEqualTo("it has not reported yet");
+        await().atMost(TIMEOUT)
+                .until(() -> mission("first")
+                        .at("/status/missing/0/reason")
+                        .asText()
+                        .startsWith("it has not connected to the MQTT broker since "));
         JsonNode entity = running.ngsi()
                 .entities("id=" + logins.path(0).path("device").asText())
                 .path(0);

@@ -13,6 +13,7 @@ import io.furrow.ingest.image.store.ImageUsage;
 import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 
 /** What is stored at this moment, asked where it is stored. */
 public final class StoredAssets {
@@ -46,7 +47,7 @@ public final class StoredAssets {
         } catch (MongoException | IllegalArgumentException e) {
             throw new IOException(
                     "MongoDB at %s: %s. Check that it runs, and --mongo."
-                            .formatted(new MongoAccess(uri, null), e.getMessage()),
+                            .formatted(new MongoAccess(uri, null), FailureText.of(e)),
                     e);
         }
     }

@@ -18,6 +18,7 @@ import io.furrow.cli.CommandException;
 import io.furrow.cli.KafkaClient;
 import io.furrow.cli.dead.Redrive;
 import io.furrow.cli.option.HelpOption;
+import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /** {@code ./furrow dead-letters}. */
@@ -108,9 +109,9 @@ public final class DeadLettersCommand {
     private void print(Redrive.Request wish, Redrive.Outcome outcome) {
         PrintWriter out = spec.commandLine().getOut();
         out.printf(
-                "%s %d dead letters from %s to %s%s%n",
+                "%s %s from %s to %s%s%n",
                 wish.dryRun() ? "would send" : "sent",
-                outcome.total(),
+                Counts.of(outcome.total(), "dead letter"),
                 wish.from(),
                 wish.to(),
                 listed(": ", outcome.fed()));

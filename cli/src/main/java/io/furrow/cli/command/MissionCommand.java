@@ -26,6 +26,8 @@ import io.furrow.ingest.mission.MissionFiles;
 import io.furrow.ingest.mission.StoredMissions;
 import io.furrow.mission.export.Exported;
 import io.furrow.mission.mongo.MongoAccess;
+import io.furrow.model.text.Counts;
+import io.furrow.model.text.FailureText;
 
 /** {@code ./furrow mission}. */
 @Command(
@@ -111,7 +113,7 @@ public final class MissionCommand extends MissionControl {
                 done[0] = format.write(source, out, told("exported"));
                 return done[0].events();
             });
-            out().printf("%,d events of %s in %s%n", done[0].events(), mission, file);
+            out().printf("%s of %s in %s%n", Counts.of(done[0].events(), "event"), mission, file);
             format.writeMarkers(source, new Path(file))
                     .ifPresent(markers -> out().printf("its markers in %s%n", markers));
             done[0].example()
@@ -134,7 +136,7 @@ public final class MissionCommand extends MissionControl {
                     String file) {
         return run(kept, missions -> {
             long count = MissionFiles.importFrom(missions, mission, new Path(file), told("imported"));
-            out().printf("%,d events of %s are now in mission %s%n", count, file, mission);
+            out().printf("%s of %s now in mission %s%n", Counts.of(count, "event"), file, mission);
         });
     }
 
@@ -154,8 +156,12 @@ public final class MissionCommand extends MissionControl {
                 known(missions, mission);
                 MissionArchive.Outcome done = archive.archive(mission);
                 out().printf(
-                                "%s: %,d events added in %d files, %,d were there, in %s%n",
-                                mission, done.added(), done.files(), done.kept(), archive.folder(mission));
+                                "%s: %s added in %s, %,d there before, in %s%n",
+                                mission,
+                                Counts.of(done.added(), "event"),
+                                Counts.of(done.files(), "file"),
+                                done.kept(),
+                                archive.folder(mission));
             }
         });
     }
@@ -173,7 +179,7 @@ public final class MissionCommand extends MissionControl {
                     e);
         } catch (MongoException e) {
             return failed("MongoDB at %s: %s. Check that it runs, and --mongo."
-                    .formatted(new MongoAccess(kept.mongo, null), e.getMessage()));
+                    .formatted(new MongoAccess(kept.mongo, null), FailureText.of(e)));
         } catch (UncheckedIOException e) {
             return failed(e.getCause().getMessage());
         } catch (IOException e) {
@@ -198,7 +204,7 @@ public final class MissionCommand extends MissionControl {
 
     private LongConsumer told(String done) {
         return count -> {
-            out().printf("\r  %,d events %s", count, done);
+            out().printf("\r  %s %s", Counts.of(count, "event"), done);
             out().flush();
         };
     }

@@ -1,5 +1,6 @@
 package io.furrow.cli.control;
 
+import java.time.Instant;
 import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.stream.Collectors;
@@ -13,6 +14,7 @@ import io.furrow.cli.command.CommandGroup;
 import io.furrow.cli.control.client.ControlApi;
 import io.furrow.cli.control.client.ControlOptions;
 import io.furrow.cli.control.table.ControlTable;
+import io.furrow.cli.control.table.DevicePage;
 
 /** {@code ./furrow device}. */
 @Command(
@@ -52,9 +54,11 @@ public final class DeviceCommand extends CommandGroup {
                         .text("REASON", "/status/reason"));
     }
 
-    @Command(name = "show", description = "Shows one device, also how it is connected and why it may be silent.")
+    @Command(
+            name = "show",
+            description = "Shows one device: why it is silent, what was heard of it, how it is connected.")
     int show(@Mixin ControlOptions control, @Parameters(paramLabel = "DEVICE", description = ID) String device) {
-        return control.showOne(DEVICES + ControlApi.part(device));
+        return control.showPage(DEVICES + ControlApi.part(device), shown -> DevicePage.of(shown, Instant.now()));
     }
 
     @Command(

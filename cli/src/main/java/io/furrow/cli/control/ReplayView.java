@@ -9,6 +9,8 @@ import java.util.Locale;
 import com.fasterxml.jackson.databind.JsonNode;
 import com.fasterxml.jackson.databind.node.TextNode;
 
+import io.furrow.model.text.Counts;
+
 /** A replay as lines of text, none wider than the terminal. */
 final class ReplayView {
     private static final int WIDEST_BAR = 60;
@@ -99,11 +101,11 @@ final class ReplayView {
         long slip = progress.path("slip").asLong();
         return String.format(
                 Locale.ROOT,
-                "%.1f events/s  late %d ms%s  %d events",
+                "%.1f events/s  late %d ms%s  %s",
                 progress.path("rate").asDouble(),
                 progress.path("lateness").asLong(),
                 slip == 0 ? "" : "  slipped " + slip + " ms",
-                progress.path("events").asLong());
+                Counts.of(progress.path("events").asLong(), "event"));
     }
 
     private static String reason(JsonNode replay) {

@@ -68,8 +68,8 @@ class MissionCommandTest {
                 .isZero();
 
         assertThat(out.toString())
-                .contains("weeding: 1 events added in 1 files, 0 were there")
-                .contains("weeding: 0 events added in 0 files, 1 were there");
+                .contains("weeding: 1 event added in 1 file, 0 there before")
+                .contains("weeding: 0 events added in 0 files, 1 there before");
     }
 
     @Test

@@ -110,12 +110,11 @@ public record Alarm(
         return affected != null;
     }
 
-    /** Whether its text, devices and extent equal those of a cause. */
-    boolean says(Cause cause) {
+    /** Whether its devices and extent equal those of a cause. */
+    boolean concerns(Cause cause) {
         Cause.Extent extent = cause.extent();
         return extent == null
-                || text.equals(cause.text())
-                        && devices.equals(cause.devices())
+                || devices.equals(cause.devices())
                         && Objects.equals(affected, extent.affected())
                         && Objects.equals(total, extent.total());
     }
@@ -162,6 +161,13 @@ public record Alarm(
         draft.describe(cause);
         draft.change = Change.UPDATED;
         draft.changed = now;
+        return draft.build();
+    }
+
+    /** Copies the text alone from the cause: that is no change, so nobody is notified of it. */
+    Alarm reworded(Cause cause) {
+        AlarmDraft draft = new AlarmDraft(this);
+        draft.text = cause.text();
         return draft.build();
     }
 

@@ -18,6 +18,7 @@ import io.furrow.control.alarm.watch.DeviceTypes;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.kafka.PartStatus;
 import io.furrow.kafka.RestartingWorker;
+import io.furrow.model.text.Counts;
 
 /**
  * Delivers alarms to a webhook and stops robots that are predicted to meet. The two actions share no thread, so that
@@ -83,8 +84,10 @@ public final class AlarmActions implements AutoCloseable {
         if (!types.isLoaded()) {
             return "waits until the types of devices are read";
         }
-        return "%d robots are being stopped, %d wait"
-                .formatted(stops.getActiveCount(), stops.getQueue().size());
+        return "%s being stopped, %d waiting"
+                .formatted(
+                        Counts.are(stops.getActiveCount(), "robot"),
+                        stops.getQueue().size());
     }
 
     /** Returns the status of each worker thread, for a health page. */

@@ -68,7 +68,8 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
     }
 
     /**
-     * Raises or updates the alarm of a group cause.
+     * Raises or updates the alarm of a group cause. If only its words changed, the alarm keeps its sequence number: whoever was
+     * notified of it is so again with its repetition.
      *
      * @param inhibitor cause, reported before, whose alarm inhibits the delivery of this one; null if none
      */
@@ -80,8 +81,17 @@ public final class AlarmCommandHandler implements CommandHandler<AlarmCommand> {
             Alarm raised = Alarm.raised(cause, muted, sequence.next(), now);
             keep(by == null ? raised : raised.inhibitedFromStart(by));
         } else {
-            change(known, new AlarmEvent.Reported(cause, by), now);
+            change(reworded(known, cause), new AlarmEvent.Reported(cause, by), now);
         }
+    }
+
+    private Alarm reworded(Alarm known, Cause cause) {
+        if (!known.concerns(cause) || known.text().equals(cause.text())) {
+            return known;
+        }
+        Alarm reworded = known.reworded(cause);
+        keep(reworded);
+        return reworded;
     }
 
     /** Closes the alarms of the given kinds that have none of the given causes. */

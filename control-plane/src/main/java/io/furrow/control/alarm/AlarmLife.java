@@ -48,7 +48,7 @@ final class AlarmLife {
 
     private static Alarm reported(Alarm alarm, AlarmEvent.Reported reported, long now) {
         boolean inhibition = !Objects.equals(alarm.inhibitedBy(), reported.inhibitedBy());
-        boolean extent = !alarm.says(reported.cause()) && now - alarm.changed() >= UPDATE_INTERVAL.toMillis();
+        boolean extent = !alarm.concerns(reported.cause()) && now - alarm.changed() >= UPDATE_INTERVAL.toMillis();
         if (!inhibition && !extent) {
             return alarm;
         }

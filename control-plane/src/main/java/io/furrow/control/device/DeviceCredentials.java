@@ -82,13 +82,11 @@ public record DeviceCredentials(Supplier<FarmSecret> secret, URI broker) {
                 .put("generation", device.generation());
         ArrayNode sent = json.putArray("attributes");
         attributes.forEach(each -> {
-            ObjectNode one = sent.addObject()
-                    .put("object_id", each.objectId())
-                    .put("name", each.name())
-                    .put("type", each.type());
+            ObjectNode one = each.toJson();
             if (each.unit() != null) {
                 one.put("unit", each.unit());
             }
+            sent.add(one);
         });
         return json.put("example", example(topic + "attrs", login, attributes));
     }

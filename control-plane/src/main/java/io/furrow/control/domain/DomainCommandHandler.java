@@ -13,6 +13,7 @@ import io.furrow.model.control.DomainCommand;
 import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.field.FieldVersion;
+import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /** Executes or rejects commands on domains. A rejected command changes nothing. */
@@ -77,8 +78,8 @@ public final class DomainCommandHandler {
         if (!active.isEmpty() && !force) {
             throw new RefusedException(
                     ErrorCode.MISSIONS_RUNNING,
-                    "%d missions run in domain '%s', '%s' among them; stop them first, or delete with force"
-                            .formatted(active.size(), domain, active.get(0)));
+                    "%s running in domain '%s', '%s' among them; stop them first, or delete with force"
+                            .formatted(Counts.are(active.size(), "mission"), domain, active.get(0)));
         }
         List<String> gone = missions.in(domain);
         gone.forEach(missions::remove);

@@ -28,7 +28,6 @@ import io.furrow.control.manager.record.GlobalStoreProcessor;
 import io.furrow.control.manager.record.Records;
 import io.furrow.control.manager.record.StoredRecords;
 import io.furrow.model.device.DeviceConnection;
-import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
@@ -101,16 +100,6 @@ public final class HealthWatch {
                                 Stream.concat(stores().stream(), AlarmManager.stores().stream())
                                         .toArray(String[]::new)),
                 "device-health-out");
-    }
-
-    /** Returns a lookup why a device that has never reported is not heard, by its id. */
-    public static Function<String, Optional<String>> causesOfUnheard(
-            ProcessorContext<?, ?> context, FiwareScope scope) {
-        Function<String, Optional<DeviceConnection>> connections = connections(context);
-        return id -> connections
-                .apply(scope.identity(id))
-                .flatMap(connection -> SilenceCause.of(connection, null))
-                .map(SilenceCause::text);
     }
 
     private static Function<String, Optional<DeviceConnection>> connections(ProcessorContext<?, ?> context) {

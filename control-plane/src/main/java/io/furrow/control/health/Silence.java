@@ -18,6 +18,7 @@ import io.furrow.control.alarm.AlarmGroup;
 import io.furrow.control.alarm.Cause;
 import io.furrow.model.control.AlarmKind;
 import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -108,6 +109,11 @@ final class Silence {
             return new Cause.Extent(silent.size(), total);
         }
 
+        /** For instance {@code 1 of 2 devices is}. @param whose follows the devices */
+        String silentOf(String whose) {
+            return Counts.areOf(silent.size(), total, "device", whose);
+        }
+
         List<Cause.Device> some() {
             return silent.stream()
                     .sorted(OLDEST)
@@ -141,18 +147,15 @@ final class Silence {
         devices.put(key, device.silent() ? device.because(cause(key, device)) : device);
     }
 
-    /** Stays as it was first said while it is of the same kind: an alarm that counts would be delivered again and again. */
+    /** Stays as it was said for a while where it only counts on. */
     private SilenceCause cause(String key, Device device) {
         SilenceCause cause = connections
                 .apply(key)
                 .flatMap(connection -> SilenceCause.of(connection, device.heard()))
                 .orElse(null);
         Device before = devices.get(key);
-        boolean same = cause != null
-                && before != null
-                && before.cause() != null
-                && before.cause().code().equals(cause.code());
-        return same ? before.cause() : cause;
+        SilenceCause shown = before == null ? null : before.cause();
+        return cause == null || cause.replaces(shown) ? cause : shown;
     }
 
     void remove(String key) {
@@ -202,8 +205,7 @@ final class Silence {
         if (members.silent.isEmpty()) {
             return;
         }
-        String text = "%d of %d devices of %s are silent"
-                .formatted(members.silent.size(), members.total, AlarmGroup.label(group));
+        String text = members.silentOf(" of " + AlarmGroup.label(group)) + " silent";
         Cause inhibitor = farm;
         if (isMost(members, alarms.isRaised(AlarmKind.SILENT_MISSION, group))) {
             String away = text + ": probably the site or its connection rather than the devices";
@@ -245,19 +247,17 @@ final class Silence {
             resumed = now;
         }
         if (quiet && isMost(all, was)) {
-            return farm("nothing arrives on %s: %d of %d devices are silent", all);
+            return farm("nothing arrives on %s: %s silent", all);
         }
         boolean recovers = resumed != null && now - resumed < Math.max(RECOVERY.toMillis(), enough);
-        return recovers && !all.silent.isEmpty()
-                ? farm("reports arrive on %s again: %d of %d devices are still silent", all)
-                : null;
+        return recovers && !all.silent.isEmpty() ? farm("reports arrive on %s again: %s still silent", all) : null;
     }
 
     private static Cause farm(String text, Members all) {
         return Cause.ofMany(
                 AlarmKind.SILENT_FARM,
                 Topics.RAW,
-                text.formatted(Topics.RAW, all.silent.size(), all.total),
+                text.formatted(Topics.RAW, all.silentOf("")),
                 all.some(),
                 all.extent());
     }

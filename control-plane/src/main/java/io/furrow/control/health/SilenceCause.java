@@ -1,5 +1,6 @@
 package io.furrow.control.health;
 
+import java.time.Duration;
 import java.time.Instant;
 import java.time.temporal.ChronoUnit;
 import java.util.ArrayList;
@@ -8,16 +9,40 @@ import java.util.List;
 import java.util.Optional;
 
 import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.ForeignTopic;
 import io.furrow.model.device.DeviceConnection.RefusedLogin;
+import io.furrow.model.device.DeviceConnection.UnreadablePayload;
+import io.furrow.model.text.Counts;
 
 /**
  * Why a device does not report, as far as its MQTT broker and the IoT Agent know.
  *
  * @param code of the kind of cause
  * @param text a part of a sentence about the device
+ * @param time when that was last observed, epoch ms; 0 if it has no time
  */
-public record SilenceCause(String code, String text) {
-    private record Observed(long time, SilenceCause cause) {}
+public record SilenceCause(String code, String text, long time) {
+    private static final String NO_MEASURE = "no-measure";
+    /** Where causes are shown, one that only counts on is renewed as often. */
+    private static final Duration RENEWAL = Duration.ofMinutes(1);
+
+    /**
+     * Why a device has not reported since it was asked for: the best reason that is known.
+     *
+     * @param connection null if nothing is known of it
+     * @param failure why it is not provisioned, as the provisioner said; null if it did not
+     * @param from since when it was asked for, epoch ms
+     */
+    public static SilenceCause ofUnheard(DeviceConnection connection, String failure, long from) {
+        boolean registered = connection != null && Boolean.TRUE.equals(connection.registered());
+        if (failure != null && !registered) {
+            return new SilenceCause("not-provisioned", failure, 0);
+        }
+        return Optional.ofNullable(connection)
+                .flatMap(known -> of(known, null))
+                .filter(cause -> !cause.code().equals(NO_MEASURE) || cause.time() >= from)
+                .orElseGet(() -> new SilenceCause("no-report", "it has not reported yet", 0));
+    }
 
     /**
      * The newest of what was observed since the last report; empty if nothing was.
@@ -26,45 +51,39 @@ public record SilenceCause(String code, String text) {
      */
     public static Optional<SilenceCause> of(DeviceConnection connection, Long heard) {
         if (Boolean.FALSE.equals(connection.registered())) {
-            return Optional.of(new SilenceCause("not-registered", "the IoT Agent does not know it"));
+            return Optional.of(new SilenceCause("not-registered", "the IoT Agent does not know it", 0));
         }
-        List<Observed> observed = new ArrayList<>();
+        List<SilenceCause> observed = new ArrayList<>();
         RefusedLogin refused = connection.refusedLogin();
         if (refused != null && (connection.loggedIn() == null || refused.last() > connection.loggedIn())) {
-            observed.add(new Observed(refused.last(), refusal(refused)));
+            observed.add(refusal(refused));
         }
         if (connection.unreadablePayload() != null) {
-            long last = connection.unreadablePayload().last();
-            String text = "%d of its messages could not be read, the last at %s: %s"
-                    .formatted(
-                            connection.unreadablePayload().count(),
-                            time(last),
-                            connection.unreadablePayload().reason());
-            observed.add(new Observed(last, new SilenceCause("unreadable-payload", text)));
+            UnreadablePayload unreadable = connection.unreadablePayload();
+            long count = unreadable.count();
+            String last = at(count == 1 ? "at" : "the last at", unreadable.last());
+            String text = "%d of its messages could not be read, %s: %s".formatted(count, last, unreadable.reason());
+            observed.add(new SilenceCause("unreadable-payload", text, unreadable.last()));
         }
         if (connection.foreignTopic() != null) {
-            long last = connection.foreignTopic().last();
-            String text = "it published %d times where it may not, last at %s to %s"
-                    .formatted(
-                            connection.foreignTopic().count(),
-                            time(last),
-                            connection.foreignTopic().topic());
-            observed.add(new Observed(last, new SilenceCause("foreign-topic", text)));
+            ForeignTopic foreign = connection.foreignTopic();
+            String text = "it published %s to %s, where it may not"
+                    .formatted(times(foreign.count(), foreign.last()), foreign.topic());
+            observed.add(new SilenceCause("foreign-topic", text, foreign.last()));
         }
         return observed.stream()
                 .filter(each -> heard == null || each.time() > heard)
-                .max(Comparator.comparingLong(Observed::time))
-                .map(Observed::cause)
+                .max(Comparator.comparingLong(SilenceCause::time))
                 .or(() -> Optional.ofNullable(login(connection, heard)));
     }
 
     private static SilenceCause refusal(RefusedLogin refused) {
         boolean unknown = refused.reason().equals(DeviceConnection.UNKNOWN_USER);
         String text = unknown
-                ? "its user %s does not exist or no longer, and was refused %d times, last at %s"
-                        .formatted(refused.user(), refused.count(), time(refused.last()))
-                : "its password was refused %d times, last at %s".formatted(refused.count(), time(refused.last()));
-        return new SilenceCause(refused.reason(), text);
+                ? "its user %s does not exist or no longer, and was refused %s"
+                        .formatted(refused.user(), times(refused.count(), refused.last()))
+                : "its password was refused " + times(refused.count(), refused.last());
+        return new SilenceCause(refused.reason(), text, refused.last());
     }
 
     private static SilenceCause login(DeviceConnection connection, Long heard) {
@@ -72,17 +91,27 @@ public record SilenceCause(String code, String text) {
             return null;
         }
         if (connection.loggedIn() == null) {
-            return new SilenceCause(
-                    "no-login", "it has not connected to the MQTT broker since %s".formatted(time(connection.since())));
+            long since = connection.since();
+            return new SilenceCause("no-login", at("it has not connected to the MQTT broker since", since), since);
         }
         return heard == null || connection.loggedIn() > heard
                 ? new SilenceCause(
-                        "no-measure",
-                        "it connected at %s and has sent nothing since".formatted(time(connection.loggedIn())))
+                        NO_MEASURE,
+                        at("it connected at", connection.loggedIn()) + " and has sent nothing since",
+                        connection.loggedIn())
                 : null;
     }
 
-    private static Instant time(long ms) {
-        return Instant.ofEpochMilli(ms).truncatedTo(ChronoUnit.SECONDS);
+    /** Whether it is shown in place of an earlier one of the same device. */
+    public boolean replaces(SilenceCause shown) {
+        return shown == null || !shown.code().equals(code) || time - shown.time() >= RENEWAL.toMillis();
+    }
+
+    private static String times(long count, long last) {
+        return at(Counts.times(count) + (count == 1 ? ", at" : ", last at"), last);
+    }
+
+    private static String at(String words, long ms) {
+        return words + " " + Instant.ofEpochMilli(ms).truncatedTo(ChronoUnit.SECONDS);
     }
 }

@@ -26,6 +26,7 @@ import io.furrow.model.control.RequestExcerpt;
 import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.control.Requests;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -183,7 +184,7 @@ public final class CommandProcessor<C extends Command>
         } catch (RuntimeException e) { // a fault of ours, which must not keep the other requests from being answered
             RecordOrigin origin = RecordOrigin.of(record).orElseThrow();
             LOG.error("the request {} failed and changed nothing; it is a dead letter", origin, e);
-            context().forward(DeadLetters.of(record, origin, Reason.FAILED, e.toString()));
+            context().forward(DeadLetters.of(record, origin, Reason.FAILED, FailureText.of(e)));
             return Requests.refusal(
                     new RefusedException(
                             ErrorCode.INTERNAL_ERROR, "the manager failed at it and changed nothing; its log says why"),

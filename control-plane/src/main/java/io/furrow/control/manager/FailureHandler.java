@@ -26,6 +26,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.RequestExcerpt;
 import io.furrow.model.event.DeadLetter;
 import io.furrow.model.ngsi.Reason;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -47,7 +48,7 @@ public final class FailureHandler
                 record.key(),
                 record.value(),
                 record.headers(),
-                new DeadLetter(Reason.NOT_AN_EVENT, failure.toString(), DeadLetters.STAGE, source))));
+                new DeadLetter(Reason.NOT_AN_EVENT, FailureText.of(failure), DeadLetters.STAGE, source))));
     }
 
     @Override
@@ -108,7 +109,8 @@ public final class FailureHandler
             return List.of();
         }
         List<ProducerRecord<byte[], byte[]>> letters = new ArrayList<>();
-        DeadLetter letter = new DeadLetter(Reason.FAILED, failure.toString(), DeadLetters.STAGE, origin.toString());
+        DeadLetter letter =
+                new DeadLetter(Reason.FAILED, FailureText.of(failure), DeadLetters.STAGE, origin.toString());
         letters.add(
                 letter(origin.topic(), context.sourceRawKey(), context.sourceRawValue(), context.headers(), letter));
         if (ManagerTopic.isManager(origin.topic())) {

@@ -10,6 +10,7 @@ import io.furrow.control.manager.record.OversizedRecordException;
 import io.furrow.control.manager.record.RecordOrigin;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Handles records one by one, each as a whole or not at all; one that cannot be read or handled becomes a dead letter, so that it
@@ -55,7 +56,7 @@ final class GuardedWork {
             setAside(record, Reason.TOO_LARGE, e.getMessage());
         } catch (RuntimeException e) { // a fault of ours, which must not keep the other records from being handled
             LOG.error("{} failed and changed nothing", described(record), e);
-            setAside(record, Reason.FAILED, e.toString());
+            setAside(record, Reason.FAILED, FailureText.of(e));
         }
     }
 

@@ -7,6 +7,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.ObjectMapper;
 
+import io.furrow.model.ngsi.JsonProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -31,9 +32,9 @@ public final class StateJson {
     /** Reads the value of a record that another process wrote. */
     public static <T> T readRecord(byte[] value, Class<T> type) throws UnreadableException {
         try {
-            return read(value, type);
-        } catch (UncheckedIOException e) {
-            throw new UnreadableException(Reason.NOT_AN_EVENT, e.getMessage(), e);
+            return MAPPER.readValue(value, type);
+        } catch (IOException e) {
+            throw new UnreadableException(Reason.NOT_AN_EVENT, JsonProblem.of(e), e);
         }
     }
 

@@ -226,7 +226,7 @@ final class DeviceAssignments {
         if (known == null) {
             farm.quota().use(Limits.DEVICE_BYTES);
         }
-        records.devices().put(version.key(), DeviceState.asked(numbered));
+        records.devices().put(version.key(), DeviceState.asked(numbered, known));
         outbox.put(Topics.DEVICES, version.key(), numbered.toBytes());
     }
 }

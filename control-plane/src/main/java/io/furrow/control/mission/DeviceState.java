@@ -2,6 +2,8 @@ package io.furrow.control.mission;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
+import io.furrow.control.health.SilenceCause;
+import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
@@ -13,11 +15,14 @@ import io.furrow.model.ngsi.UnreadableException;
  * @param confirmed whether it is in the desired state: its host says so, or a real device has reported
  * @param reason why it is not, as its host or the provisioner says; null if neither said anything
  * @param forgotten whether only its generation is remembered, because its mission was deleted
+ * @param connection how a real device was connected when that last explained something else; null if nothing is known of it
  */
-record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean forgotten) {
-    static DeviceState asked(WantedDevice device) {
+record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean forgotten, DeviceConnection connection) {
+    /** @param before null if it was never asked for */
+    static DeviceState asked(WantedDevice device, DeviceState before) {
         try {
-            return new DeviceState(NgsiJson.read(device.toBytes()), false, null, false);
+            DeviceConnection connection = before == null ? null : before.connection();
+            return new DeviceState(NgsiJson.read(device.toBytes()), false, null, false, connection);
         } catch (UnreadableException e) {
             throw new IllegalStateException("a device is not read as it was written", e);
         }
@@ -36,22 +41,32 @@ record DeviceState(JsonNode wanted, boolean confirmed, String reason, boolean fo
     }
 
     DeviceState reported(boolean asWanted, String why) {
-        return new DeviceState(wanted, asWanted, why, forgotten);
+        return new DeviceState(wanted, asWanted, why, forgotten, connection);
+    }
+
+    /** Returns the same instance if it says nothing new. */
+    DeviceState connected(DeviceConnection newConnection) {
+        DeviceState next = new DeviceState(wanted, confirmed, reason, forgotten, newConnection);
+        return next.silence().replaces(silence()) ? next : this;
+    }
+
+    private SilenceCause silence() {
+        return SilenceCause.ofUnheard(connection, reason, device().version().from());
     }
 
     MissionStatus.Missing missing() {
         WantedDevice device = device();
         String why = reason;
-        if (why == null && device.running()) {
-            why = device.simulated()
-                    ? "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host"
-                    : "it has not reported yet";
+        if (device.running() && !device.simulated()) {
+            why = silence().text();
+        } else if (device.running() && why == null) {
+            why = "nothing simulates it: start ./furrow up with --simulate-devices, or ./furrow device-host";
         }
         return new MissionStatus.Missing(device.version().id(), why);
     }
 
     DeviceState asForgotten() {
-        return new DeviceState(wanted, confirmed, reason, true);
+        return new DeviceState(wanted, confirmed, reason, true, null);
     }
 
     /** How often its credentials were rotated. */

@@ -15,6 +15,7 @@ import io.furrow.model.control.Limits;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.topic.Topics;
@@ -223,6 +224,17 @@ public final class MissionCommandHandler implements DomainMissions {
                 && health.heard() >= known.device().version().from();
         if (isUp) {
             changed(known, known.reported(true, null), now);
+        }
+    }
+
+    /** Takes what is known of the connection of a device: why a real one has not reported yet. */
+    public void reported(String key, DeviceConnection connection, long now) {
+        DeviceState known = records.devices().get(key);
+        if (known != null && !known.device().simulated()) {
+            DeviceState next = known.connected(connection);
+            if (next != known) {
+                changed(known, next, now);
+            }
         }
     }
 

@@ -30,12 +30,13 @@ import io.furrow.model.control.CommandResult;
 import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.topic.Topics;
 
 /**
  * Answers {@code service.missionmanager}, keeps {@code service.missions}, {@code .missions.status}, {@code .templates} and {@code
- * .devices}, and reads {@code service.devices.status} and {@code service.devices.health}.
+ * .devices}, and reads {@code service.devices.status}, {@code .health} and {@code .connection}.
  */
 public final class MissionManager {
     private static final String MISSIONS = "missions";
@@ -84,6 +85,10 @@ public final class MissionManager {
             MissionCommandHandler handler = handler(context, outbox, options);
             return (key, value, now) -> handler.reported(key, StateJson.readRecord(value, DeviceHealth.class), now);
         };
+        BiFunction<ProcessorContext<?, ?>, EventPublisher, StatusProcessor.Reports> connections = (context, outbox) -> {
+            MissionCommandHandler handler = handler(context, outbox, options);
+            return (key, value, now) -> handler.reported(key, DeviceConnection.read(value), now);
+        };
 
         OutputRecord.send(
                 ManagerInput.requests(builder, TOPIC)
@@ -102,6 +107,14 @@ public final class MissionManager {
                 ManagerInput.statuses(builder, Topics.DEVICES_HEALTH, "device-healths")
                         .process(() -> new StatusProcessor(healths), Named.as("take-device-healths"), storesWith()),
                 "first-reports-out");
+
+        OutputRecord.send(
+                ManagerInput.statuses(builder, Topics.DEVICES_CONNECTION, "device-connections")
+                        .process(
+                                () -> new StatusProcessor(connections),
+                                Named.as("take-device-connections"),
+                                storesWith()),
+                "silences-out");
     }
 
     private static String[] storesWith(String... further) {

@@ -5,6 +5,7 @@ import java.util.List;
 import java.util.stream.Collectors;
 
 import io.furrow.control.manager.StateJson;
+import io.furrow.model.text.Counts;
 
 /**
  * How far a mission is: remembered, and a record of {@code service.missions.status} under its name. The methods are the
@@ -179,11 +180,9 @@ public record MissionStatus(
                 .limit(MAX_EXPLAINED)
                 .map(each -> "%s (%s)".formatted(each.id(), each.reason()))
                 .collect(Collectors.joining(", "));
-        return "%d of %d devices %s not up: %s%s"
+        return "%s not up: %s%s"
                 .formatted(
-                        away,
-                        devices,
-                        away == 1 ? "is" : "are",
+                        Counts.areOf(away, devices, "device", ""),
                         some,
                         away > MAX_EXPLAINED ? " and " + (away - MAX_EXPLAINED) + " more" : "");
     }

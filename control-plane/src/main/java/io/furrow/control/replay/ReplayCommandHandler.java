@@ -22,6 +22,7 @@ import io.furrow.model.control.ReplayCommand;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.ReplayStatus;
 import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -101,8 +102,8 @@ final class ReplayCommandHandler implements CommandHandler<ReplayCommand> {
         if (playing.get() + further > settings.max()) {
             throw new RefusedException(
                     ErrorCode.QUOTA_EXCEEDED,
-                    "%d replays are not over, of at most %d (--max-replays); stop one that is not needed any more"
-                            .formatted(playing.get(), settings.max()));
+                    "%s not over, of at most %d (--max-replays); stop one that is not needed any more"
+                            .formatted(Counts.are(playing.get(), "replay"), settings.max()));
         }
     }
 

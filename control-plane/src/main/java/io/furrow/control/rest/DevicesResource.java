@@ -2,7 +2,7 @@ package io.furrow.control.rest;
 
 import java.io.IOException;
 import java.io.InputStream;
-import java.util.Optional;
+import java.util.List;
 import java.util.concurrent.CompletionException;
 import java.util.concurrent.CompletionStage;
 import java.util.concurrent.RejectedExecutionException;
@@ -25,20 +25,17 @@ import jakarta.ws.rs.core.MediaType;
 import jakarta.ws.rs.core.Response;
 
 import io.furrow.control.audit.AuditEntry;
+import io.furrow.control.device.CredentialCsv;
 import io.furrow.control.device.DeviceCommands;
 import io.furrow.control.device.DeviceCredentials;
-import io.furrow.control.health.SilenceCause;
 import io.furrow.control.rest.access.Caller;
 import io.furrow.control.rest.access.Role;
 import io.furrow.control.rest.view.CommandClient;
 import io.furrow.control.rest.view.DesiredDevices;
 import io.furrow.control.rest.view.ServiceView;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.device.DeviceConnection;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
-import io.furrow.model.ngsi.NgsiJson;
-import io.furrow.model.ngsi.UnreadableException;
 import io.furrow.model.topic.Topics;
 
 /** {@code /api/devices}: what is requested of them, what they are, how they are, and commands to them. */
@@ -46,6 +43,9 @@ import io.furrow.model.topic.Topics;
 @Consumes(MediaType.APPLICATION_JSON)
 @Produces(MediaType.APPLICATION_JSON)
 public final class DevicesResource {
+    /** For who asks for it; who takes anything gets JSON. */
+    static final String CSV = CredentialCsv.TYPE + ";qs=0.5";
+
     private static final String DEVICE = "device";
     private static final String GENERATION = "generation";
     private static final int MAX_AUDITED_LENGTH = 200;
@@ -88,7 +88,7 @@ public final class DevicesResource {
     @Path("{device}")
     public Response get(@PathParam(DEVICE) String id) {
         String key = means.scope().identity(id);
-        return JsonResponses.ok(withConnection(key, withSettings(described(key, find(id)))));
+        return JsonResponses.ok(devices.withConnection(key, withSettings(described(key, find(id)))));
     }
 
     @GET
@@ -98,6 +98,17 @@ public final class DevicesResource {
         WantedDevice device = provisioned(id);
         audit(Caller.user(request), "credentials", about(id), null);
         return secret(means.credentials().of(device));
+    }
+
+    /** The same as a file for spreadsheets. */
+    @GET
+    @RolesAllowed(Role.ADMINS)
+    @Path("{device}/credentials")
+    @Produces(CSV)
+    public Response credentialsAsCsv(@Context ContainerRequestContext request, @PathParam(DEVICE) String id) {
+        WantedDevice device = provisioned(id);
+        audit(Caller.user(request), "credentials", about(id), null);
+        return csv(List.of(means.credentials().of(device)));
     }
 
     /** The credentials as a QR code, for what has a camera. */
@@ -131,6 +142,12 @@ public final class DevicesResource {
 
     static Response secret(JsonNode credentials) {
         return JsonResponses.json(200, credentials)
+                .header("Cache-Control", "no-store")
+                .build();
+    }
+
+    static Response csv(Iterable<? extends JsonNode> credentials) {
+        return Response.ok(CredentialCsv.of(credentials), CredentialCsv.TYPE + ";charset=utf-8")
                 .header("Cache-Control", "no-store")
                 .build();
     }
@@ -249,34 +266,6 @@ public final class DevicesResource {
             }
         });
         return wanted;
-    }
-
-    /** The device with what is known of how it is connected; lists of devices leave that out. */
-    private ObjectNode withConnection(String key, ObjectNode device) {
-        ObjectNode connection =
-                view.find(Topics.DEVICES_CONNECTION, key).orElseGet(JsonNodeFactory.instance::objectNode);
-        JsonNode health = device.path("health");
-        Long heard = health.hasNonNull("heard") ? health.path("heard").longValue() : null;
-        if (!connection.isEmpty() && (heard == null || health.path("silent").booleanValue())) {
-            cause(connection, heard).ifPresent(cause -> connection.put("cause", cause.text()));
-        }
-        if (heard != null) {
-            long time = health.path("lastSeen").longValue();
-            connection
-                    .putObject("lastReport")
-                    .put("time", time)
-                    .put("received", heard)
-                    .put("offset", heard - time);
-        }
-        return connection.isEmpty() ? device : device.set("connection", connection);
-    }
-
-    private static Optional<SilenceCause> cause(ObjectNode connection, Long heard) {
-        try {
-            return SilenceCause.of(DeviceConnection.read(NgsiJson.write(connection)), heard);
-        } catch (UnreadableException e) { // a later version wrote it, or somebody else: it is shown as it is
-            return Optional.empty();
-        }
     }
 
     /** The device with the settings of its group, which may be large: lists of devices leave them out. */

@@ -39,7 +39,7 @@ public final class JsonExceptionMapper implements ExceptionMapper<Throwable> {
         return switch (status.getStatusCode()) {
             case 404 -> "there is nothing here; /openapi.json has what there is";
             case 405 -> "this method is not for this path; /openapi.json has those that are";
-            case 406 -> "answers are application/json only";
+            case 406 -> "the answer has none of the media types asked for; most are application/json only";
             case 415 -> "a body must be application/json";
             default -> "the request was refused: " + status.getReasonPhrase();
         };

@@ -81,6 +81,19 @@ public final class MissionsResource {
     @RolesAllowed(Role.ADMINS)
     @Path("{mission}/credentials")
     public Response credentials(@Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
+        return DevicesResource.secret(credentialsOf(request, mission));
+    }
+
+    /** The same as a file for spreadsheets. */
+    @GET
+    @RolesAllowed(Role.ADMINS)
+    @Path("{mission}/credentials")
+    @Produces(DevicesResource.CSV)
+    public Response credentialsAsCsv(@Context ContainerRequestContext request, @PathParam(MISSION) String mission) {
+        return DevicesResource.csv(credentialsOf(request, mission));
+    }
+
+    private ArrayNode credentialsOf(ContainerRequestContext request, String mission) {
         get(mission);
         DevicesResource.requireSecret(credentials);
         ArrayNode all = JsonNodeFactory.instance.arrayNode();
@@ -90,7 +103,7 @@ public final class MissionsResource {
                         .forEach(device -> all.add(credentials.of(device)));
         managers.audit(AuditEntry.ofDevice(
                 System.currentTimeMillis(), Caller.user(request), "credentials", named(mission), null));
-        return DevicesResource.secret(all);
+        return all;
     }
 
     /** Appends to the device list of a mission that is not active. */

@@ -2,7 +2,6 @@ package io.furrow.control.rest;
 
 import io.furrow.control.rest.access.Caller;
 import io.furrow.model.control.ErrorCode;
-import io.furrow.model.control.Limits;
 
 /** A request that is answered with an error; the message is its {@code reason}. */
 public final class ProblemException extends RuntimeException {
@@ -49,11 +48,12 @@ public final class ProblemException extends RuntimeException {
                         .formatted(Caller.KEY));
     }
 
-    public static ProblemException tooLarge(long bytes) {
+    /** @param bytes below 0 if they were not counted */
+    public static ProblemException tooLarge(long bytes, int most) {
         return new ProblemException(
                 ErrorCode.TOO_LARGE,
-                "the request has %s bytes, and may have %d; send a long list of devices in several requests"
-                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), Limits.REQUEST_BYTES));
+                "the request has %s bytes, and may have %d; send a long list of devices or fields in several requests"
+                        .formatted(bytes < 0 ? "more" : Long.toString(bytes), most));
     }
 
     public static ProblemException notReady() {

@@ -147,6 +147,7 @@ public final class RestApi implements AutoCloseable {
         resources.forEach(resource -> config.register(resource.getClass()));
         config.register(new Instances(resources));
         config.register(metrics);
+        config.register(new Body.Drain());
         config.register(new JsonExceptionMapper());
         if (tokens != null) {
             config.register(tokens);

@@ -49,7 +49,7 @@ class DeviceHealthTrackerTest {
         assertThat(known().silent()).isFalse();
         tracker.passTime(START + LONG_ENOUGH + 10_000);
         assertThat(known().silent()).isTrue();
-        assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 devices of mission m are silent: " + ID);
+        assertThat(alarms()).extracting(Alarm::text).containsExactly("1 of 1 device of mission m is silent: " + ID);
     }
 
     /** As it was first said: an alarm that counts would be delivered again and again. */
@@ -64,7 +64,7 @@ class DeviceHealthTrackerTest {
 
         assertThat(alarms())
                 .extracting(Alarm::text)
-                .containsExactly("1 of 1 devices of mission m are silent: " + ID
+                .containsExactly("1 of 1 device of mission m is silent: " + ID
                         + " (its password was refused 12 times, last at 2023-11-14T22:13:21Z)");
 
         connection = new DeviceConnection(START, null, null, null, null, false);

@@ -23,7 +23,7 @@ class SilenceCauseTest {
                 .isEqualTo("its user furrow.d.m.d.1.0 does not exist or no longer, and was refused 2 times, last at "
                         + AT + "2Z");
         assertThat(text(START, REFUSED, FOREIGN, null, null))
-                .isEqualTo("it published 3 times where it may not, last at " + AT + "3Z to /k/e/attrs");
+                .isEqualTo("it published 3 times, last at " + AT + "3Z to /k/e/attrs, where it may not");
         assertThat(text(START, REFUSED, FOREIGN, UNREADABLE, null))
                 .isEqualTo("4 of its messages could not be read, the last at " + AT + "4Z: no JSON");
     }
@@ -51,7 +51,37 @@ class SilenceCauseTest {
     @Test
     void saysThatTheAgentDoesNotKnowIt() {
         assertThat(SilenceCause.of(new DeviceConnection(START, START, REFUSED, null, null, false), null))
-                .contains(new SilenceCause("not-registered", "the IoT Agent does not know it"));
+                .contains(new SilenceCause("not-registered", "the IoT Agent does not know it", 0));
+    }
+
+    @Test
+    void saysOnceOfWhatHappenedOnce() {
+        RefusedLogin refused = new RefusedLogin(1, START + 2000, DeviceConnection.WRONG_PASSWORD, "u");
+        assertThat(text(null, refused, null, null, null)).isEqualTo("its password was refused once, at " + AT + "2Z");
+        assertThat(text(START, null, new ForeignTopic(1, START + 3000, "/k/e/attrs"), null, null))
+                .isEqualTo("it published once, at " + AT + "3Z to /k/e/attrs, where it may not");
+        assertThat(text(START, null, null, new UnreadablePayload(1, START + 4000, "no JSON", "{"), null))
+                .isEqualTo("1 of its messages could not be read, at " + AT + "4Z: no JSON");
+    }
+
+    @Test
+    void knowsTheBestReasonOfADeviceThatHasNotReportedSinceItWasAskedFor() {
+        assertThat(unheard(null, null)).isEqualTo("it has not reported yet");
+        assertThat(unheard(null, "not provisioned: why")).isEqualTo("not provisioned: why");
+        assertThat(unheard(connection(null, false), "not provisioned: why")).isEqualTo("not provisioned: why");
+        assertThat(unheard(connection(null, true), "not provisioned: why")).startsWith("it has not connected");
+        assertThat(unheard(connection(START + 1000, true), null)).startsWith("it connected at " + AT + "1Z");
+        assertThat(unheard(connection(START - 1, true), null))
+                .as("what it sent before, it sent to an earlier run")
+                .isEqualTo("it has not reported yet");
+    }
+
+    private static DeviceConnection connection(Long loggedIn, boolean registered) {
+        return new DeviceConnection(START, loggedIn, null, null, null, registered);
+    }
+
+    private static String unheard(DeviceConnection connection, String failure) {
+        return SilenceCause.ofUnheard(connection, failure, START).text();
     }
 
     private static String text(

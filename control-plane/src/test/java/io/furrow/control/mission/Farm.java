@@ -26,6 +26,8 @@ import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.control.mission.MissionDevices;
 import io.furrow.model.control.mission.MissionPlan;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceStatus;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.MissionDeviceLists;
@@ -163,6 +165,12 @@ final class Farm {
                 null,
                 false);
         run(() -> missionHandler.reported(version.key(), health, now));
+    }
+
+    /** What is known of the connection of a device that has not logged in. @param refused null if no login was refused */
+    void connect(WantedDevice device, RefusedLogin refused) {
+        DeviceConnection connection = new DeviceConnection(now - TIMEOUT, null, refused, null, null, true);
+        run(() -> missionHandler.reported(device.version().key(), connection, now));
     }
 
     /** The host of simulated devices does what is requested, and real devices report. */

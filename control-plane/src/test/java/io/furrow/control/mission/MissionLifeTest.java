@@ -13,6 +13,8 @@ import io.furrow.model.control.MissionCommand;
 import io.furrow.model.control.mission.DeviceGroup;
 import io.furrow.model.control.mission.MissionPlan;
 import io.furrow.model.control.mission.MissionTemplate;
+import io.furrow.model.device.DeviceConnection;
+import io.furrow.model.device.DeviceConnection.RefusedLogin;
 import io.furrow.model.device.DeviceStatus.State;
 import io.furrow.model.device.DeviceVersion;
 import io.furrow.model.device.WantedDevice;
@@ -126,6 +128,37 @@ class MissionLifeTest {
         farm.hostAll();
         assertThat(farm.status("m").reason()).isNull();
         assertThat(farm.status("m").confirmed()).isEqualTo(4);
+    }
+
+    @Test
+    void saysTheBestReasonThatIsKnownOfADeviceThatItMisses() throws Exception {
+        farm.start("m", "north", Farm.real("Thermometer", 1));
+        WantedDevice thermometer = farm.device("urn:ngsi-ld:Thermometer:m-1");
+        farm.connect(thermometer, null);
+        farm.pass(Farm.TIMEOUT);
+        assertThat(reason()).startsWith("it has not connected to the MQTT broker since ");
+
+        farm.connect(thermometer, refused(1));
+        assertThat(reason()).startsWith("its password was refused once, at ");
+        assertThat(farm.status("m").reason()).contains("urn:ngsi-ld:Thermometer:m-1 (" + reason() + ")");
+        int written = farm.outbox.all().size();
+        farm.now += 59_000;
+        farm.connect(thermometer, refused(7));
+        assertThat(farm.outbox.all()).as("it counts on").hasSize(written);
+        farm.now += 1000;
+        farm.connect(thermometer, refused(8));
+        assertThat(reason()).startsWith("its password was refused 8 times, last at ");
+
+        farm.hear(thermometer, farm.now);
+        assertThat(farm.status("m").missing()).isEmpty();
+    }
+
+    private String reason() {
+        return farm.status("m").missing().get(0).reason();
+    }
+
+    private RefusedLogin refused(long count) {
+        return new RefusedLogin(count, farm.now, DeviceConnection.WRONG_PASSWORD, "furrow.d.m.x.1.0");
     }
 
     @Test

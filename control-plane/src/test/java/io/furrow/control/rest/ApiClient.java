@@ -70,7 +70,9 @@ public final class ApiClient {
                         ? new FirstBytes()
                         : HttpResponse.BodySubscribers.ofByteArray());
         if (described) {
-            ASKED.add(description.check(request.method(), request.uri().getPath(), answer.statusCode(), answer.body()));
+            String type = answer.headers().firstValue("Content-Type").orElse("").replaceFirst(";.*", "");
+            ASKED.add(description.check(
+                    request.method(), request.uri().getPath(), answer.statusCode(), type, answer.body()));
         }
         return answer;
     }

@@ -49,7 +49,7 @@ final class OpenApiDocument {
     }
 
     /** Fails where the answer to a request is not described, or not as it is described. Answers its operation. */
-    String check(String method, String path, int status, byte[] body) throws Exception {
+    String check(String method, String path, int status, String type, byte[] body) throws Exception {
         String template = json.path("paths").properties().stream()
                 .map(Map.Entry::getKey)
                 .filter(each -> path.matches(each.replaceAll("\\{[a-z]+}", "[^/]+")))
@@ -63,8 +63,8 @@ final class OpenApiDocument {
         assertThat(answer.isMissingNode())
                 .as("%s %s with %d is not described", method, template, status)
                 .isFalse();
-        JsonNode schema = answer.path("content").path("application/json").path("schema");
-        if (!schema.isMissingNode()) {
+        JsonNode schema = answer.path("content").path(type).path("schema");
+        if (!schema.isMissingNode() && type.equals("application/json")) {
             ObjectNode root = schema.deepCopy();
             root.set("components", json.path("components").deepCopy());
             close(root);

@@ -21,6 +21,7 @@ import io.furrow.control.readiness.Readiness;
 import io.furrow.http.AllowedNames;
 
 import static org.assertj.core.api.Assertions.assertThat;
+import static org.assertj.core.api.Assertions.assertThatThrownBy;
 import static org.awaitility.Awaitility.await;
 
 /** What the API does not let pass. */
@@ -62,6 +63,32 @@ class RestApiAccessIT {
                 }
             }
             assertThat(answer).isEqualTo("HTTP/1.1 408");
+        }
+    }
+
+    /** What is refused early is answered after its body: else the connection would end, and with it the next request. */
+    @Test
+    void answersTheNextRequestOfAConnectionThoughABodyWasNotNeeded() throws Exception {
+        for (String refused :
+                List.of("POST /api/fields?domain=a.b", "POST /api/nosuch", "DELETE /api/domains/nosuch")) {
+            URI uri = running.api().uri();
+            try (Socket socket = new Socket(uri.getHost(), uri.getPort())) {
+                socket.setSoTimeout(200);
+                String head = refused
+                        + " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n";
+                socket.getOutputStream().write(head.getBytes(StandardCharsets.US_ASCII));
+                assertThatThrownBy(() -> socket.getInputStream().read())
+                        .as(refused)
+                        .isInstanceOf(SocketTimeoutException.class);
+                socket.setSoTimeout((int) RunningApi.TIMEOUT.toMillis());
+                String next = "{\"a\": 1 }GET /health HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+                socket.getOutputStream().write(next.getBytes(StandardCharsets.US_ASCII));
+
+                assertThat(new String(socket.getInputStream().readAllBytes(), StandardCharsets.US_ASCII))
+                        .as(refused)
+                        .startsWith("HTTP/1.1 4")
+                        .contains("HTTP/1.1 200");
+            }
         }
     }
 

@@ -5,6 +5,7 @@ import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Duration;
 import java.time.Instant;
+import java.util.List;
 import java.util.stream.Collectors;
 import java.util.stream.IntStream;
 
@@ -153,6 +154,18 @@ class RestApiIT {
                         .body())
                 .asString()
                 .startsWith("<svg");
+        for (String path : List.of("/api/missions/hoeing/credentials", "/api/devices/robot-1/credentials")) {
+            assertThat(client.send("GET", path, null, "Accept", "text/csv").body())
+                    .asString()
+                    .startsWith("device,deviceId,host,")
+                    .contains("\r\nrobot-1,robot-1,")
+                    .hasLineCount(2);
+            assertThat(running.client()
+                            .send("GET", path, null, "Accept", "application/json, */*")
+                            .body())
+                    .asString()
+                    .contains("{\"device\":\"robot-1\"");
+        }
         running.refused("GET", "/api/missions/nosuch/credentials", null, 404, "unknown-mission");
 
         JsonNode rotated = client.json(client.send("POST", "/api/devices/" + id + "/credentials", null));

@@ -19,6 +19,7 @@ import com.fasterxml.jackson.databind.JsonNode;
 import io.furrow.dashboard.Problem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /** Asks the control plane whose token it is. An answer counts for some seconds, so a token that is taken back does not for longer. */
 public final class Users {
@@ -96,7 +97,7 @@ public final class Users {
             }
             return new User(name, Role.of(user.path("role").asText()));
         } catch (IOException | UnreadableException | IllegalArgumentException e) {
-            throw away(me, String.valueOf(e.getMessage()));
+            throw away(me, FailureText.of(e));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw away(me, "the dashboard stops");

@@ -20,6 +20,7 @@ import org.slf4j.LoggerFactory;
 
 import io.furrow.dashboard.proxy.ProxyLimits;
 import io.furrow.dashboard.proxy.StreamCounters;
+import io.furrow.model.text.FailureText;
 
 /** The one consumer of a topic, from its end on, for all streams of it; on a thread of its own. */
 public final class TopicFeed implements AutoCloseable {
@@ -116,7 +117,7 @@ public final class TopicFeed implements AutoCloseable {
             fail("topic '%s' is not there any more".formatted(topic));
         } catch (RuntimeException e) { // streams that nobody serves would stay open
             LOG.warn("topic {} cannot be read any more", topic, e);
-            fail("topic '%s' cannot be read (%s)".formatted(topic, e.getMessage()));
+            fail("topic '%s' cannot be read (%s)".formatted(topic, FailureText.of(e)));
         } finally {
             atEnd.countDown();
         }

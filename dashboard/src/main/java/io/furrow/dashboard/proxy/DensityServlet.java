@@ -16,6 +16,7 @@ import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.feed.TopicDensity;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 
 /** {@code GET /api/density/<topic>?from&to&width}: how many records a topic has, bucket by bucket, epoch ms. */
 public final class DensityServlet extends HttpServlet {
@@ -61,7 +62,10 @@ public final class DensityServlet extends HttpServlet {
                     "kafka-away",
                     "the times of topic '%s' cannot be read (%s); check --kafka and that it runs"
                             .formatted(
-                                    topic, cause.getMessage() == null ? "no answer within 15 s" : cause.getMessage()));
+                                    topic,
+                                    cause instanceof TimeoutException
+                                            ? "no answer within 15 s"
+                                            : FailureText.of(cause)));
         } catch (InterruptedException e) {
             Thread.currentThread().interrupt();
             throw new Problem(503, "stopping", "the dashboard stops");

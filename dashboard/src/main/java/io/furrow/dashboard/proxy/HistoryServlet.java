@@ -18,6 +18,7 @@ import io.furrow.dashboard.Problem;
 import io.furrow.dashboard.auth.Credentials;
 import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.TopicHistory;
+import io.furrow.model.text.FailureText;
 
 /** {@code GET /api/history/<topic>}: what a topic holds of a stretch of time. At most {@value #AT_ONCE} are read at once. */
 public final class HistoryServlet extends HttpServlet {
@@ -74,7 +75,7 @@ public final class HistoryServlet extends HttpServlet {
                     503,
                     "kafka-away",
                     "topic '%s' cannot be read (%s); check --kafka and that it runs"
-                            .formatted(range.topic(), e.getMessage()));
+                            .formatted(range.topic(), FailureText.of(e)));
         } finally {
             free.release();
         }

@@ -23,6 +23,7 @@ import io.furrow.dashboard.feed.FeedRecord;
 import io.furrow.dashboard.feed.KnownState;
 import io.furrow.dashboard.feed.TopicFeeds;
 import io.furrow.dashboard.feed.TopicRules;
+import io.furrow.model.text.FailureText;
 
 /** All streams of a server, over sockets and as events: begins and ends them, and looks after them meanwhile. */
 public final class TopicStreams implements AutoCloseable {
@@ -179,7 +180,7 @@ public final class TopicStreams implements AutoCloseable {
                     stream.end(e.getMessage());
                 } catch (KafkaException e) {
                     LOG.warn("topic {} cannot be read", request.topic(), e);
-                    stream.end("topic '%s' cannot be read (%s)".formatted(request.topic(), e.getMessage()));
+                    stream.end("topic '%s' cannot be read (%s)".formatted(request.topic(), FailureText.of(e)));
                 } catch (InterruptedException e) {
                     Thread.currentThread().interrupt();
                 }

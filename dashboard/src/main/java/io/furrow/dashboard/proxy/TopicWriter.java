@@ -21,6 +21,7 @@ import io.furrow.dashboard.feed.TopicRules;
 import io.furrow.model.control.AdminCommands;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 
 /** Writes what sockets send, in the name of their user. */
 final class TopicWriter implements AutoCloseable {
@@ -100,7 +101,7 @@ final class TopicWriter implements AutoCloseable {
                 503,
                 "not-written",
                 "Kafka did not take it for topic '%s' within 10 s (%s); it may still come, send it again with its requestId"
-                        .formatted(topic, failure.getMessage()));
+                        .formatted(topic, FailureText.of(failure)));
     }
 
     @Override

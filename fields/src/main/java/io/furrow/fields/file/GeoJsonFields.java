@@ -19,6 +19,7 @@ import io.furrow.fields.Rings;
 import io.furrow.fields.Words;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.Counts;
 
 /**
  * Reads GeoJSON (RFC 7946), with the member {@code crs} of its predecessor of 2008. The order is x, y in every
@@ -99,7 +100,7 @@ final class GeoJsonFields {
         collect(geometry, polygons, notes);
         int turned = turned(polygons);
         if (turned > 0) {
-            notes.add("reversed " + Words.count(turned, "ring") + " to the orientation of RFC 7946");
+            notes.add("reversed " + Counts.of(turned, "ring") + " to the orientation of RFC 7946");
         }
         return new Outline(polygons, notes);
     }

@@ -13,7 +13,7 @@ import org.locationtech.jts.geom.Coordinate;
 
 import io.furrow.fields.Outline;
 import io.furrow.fields.Rings;
-import io.furrow.fields.Words;
+import io.furrow.model.text.Counts;
 
 /** Reads the main file of a Shapefile (.shp), as specified by "ESRI Shapefile Technical Description", July 1998. */
 final class ShapeRecords {
@@ -127,7 +127,7 @@ final class ShapeRecords {
             }
         }
         if (turned > 0) {
-            notes.add("distinguished shells from holes by their position, because " + Words.count(turned, "ring")
+            notes.add("distinguished shells from holes by their position, because " + Counts.of(turned, "ring")
                     + " had the wrong orientation");
         }
         return notes;

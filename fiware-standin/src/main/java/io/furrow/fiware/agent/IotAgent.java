@@ -176,10 +176,16 @@ public final class IotAgent implements ContextBroker.Commands {
                 return;
             }
             reaction.to(device.get(), NgsiJson.read(payload));
-        } catch (UnreadableException | NgsiError e) {
-            history.unreadable(apikey, deviceId, payload, e.getMessage());
-            refuse(apikey + "/" + deviceId, what + " of device " + deviceId + ": " + e.getMessage());
+        } catch (UnreadableException e) {
+            unreadable(what, apikey, deviceId, payload, "not JSON: " + e.getMessage());
+        } catch (NgsiError e) {
+            unreadable(what, apikey, deviceId, payload, e.getMessage());
         }
+    }
+
+    private void unreadable(String what, String apikey, String deviceId, byte[] payload, String why) {
+        history.unreadable(apikey, deviceId, payload, why);
+        refuse(apikey + "/" + deviceId, what + " of device " + deviceId + ": " + why);
     }
 
     /** Counts each, logs the first of each cause only. */

@@ -9,9 +9,9 @@ import java.util.List;
 import java.util.Set;
 
 import com.fasterxml.jackson.core.JsonParser;
-import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.core.JsonToken;
 
+import io.furrow.model.ngsi.JsonProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -68,10 +68,8 @@ record ImageSpan(String attribute, int from, int to, boolean escaped) {
                 }
             }
             return spans;
-        } catch (JsonProcessingException e) {
-            throw new UnreadableException(Reason.NOT_JSON, e.getOriginalMessage(), e);
-        } catch (IOException e) { // Jackson's answer to bytes that are not UTF-8
-            throw new UnreadableException(Reason.NOT_JSON, e.getMessage(), e);
+        } catch (IOException e) {
+            throw new UnreadableException(Reason.NOT_JSON, JsonProblem.of(e), e);
         }
     }
 

@@ -23,6 +23,7 @@ import picocli.CommandLine.Spec;
 
 import io.furrow.flink.job.FileSystemOptions;
 import io.furrow.ingest.image.store.ImageFiles;
+import io.furrow.model.text.Counts;
 
 /**
  * Deletes images whose event time, by the name of their file, is older than allowed; leaves every other file alone.
@@ -88,7 +89,8 @@ public final class PurgeImages implements Callable<Integer> {
         }
         PrintWriter out = spec.commandLine().getOut();
         out.printf(
-                "%s %d files, %d bytes; kept %d.%n", dryRun ? "Would delete" : "Deleted", deleted, deletedBytes, kept);
+                "%s %s, %d bytes; kept %d.%n",
+                dryRun ? "Would delete" : "Deleted", Counts.of(deleted, "file"), deletedBytes, kept);
         out.flush();
         return 0;
     }

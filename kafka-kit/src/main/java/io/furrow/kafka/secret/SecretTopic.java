@@ -20,6 +20,7 @@ import io.furrow.kafka.CommittedReader;
 import io.furrow.model.device.FarmSecret;
 import io.furrow.model.device.SecretFingerprints;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -65,7 +66,7 @@ public final class SecretTopic {
         } catch (KafkaException | UnreadableException e) {
             throw new IOException(
                     "it cannot be found out whether the secret of this process, %s, is that of the farm: %s at %s (%s)"
-                            .formatted(own, Topics.SECRETS, client.get("bootstrap.servers"), e.getMessage()),
+                            .formatted(own, Topics.SECRETS, client.get("bootstrap.servers"), FailureText.of(e)),
                     e);
         }
     }

@@ -21,6 +21,7 @@ import picocli.CommandLine.Spec;
 import io.furrow.cli.CommandException;
 import io.furrow.cli.option.HelpOption;
 import io.furrow.launcher.option.FiwareOptions;
+import io.furrow.model.text.Counts;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.fleet.FleetAccess;
@@ -89,7 +90,7 @@ public final class ScenarioCommand implements Callable<Integer> {
         Thread hook = new Thread(() -> stopFromOutside(stop, stopped), "stop");
         Runtime.getRuntime().addShutdownHook(hook);
         try (FarmFleet fleet = FarmFleet.start(farm, access)) {
-            out.printf("%,d devices run; Ctrl-C stops them.%n", farm.devices().size());
+            out.printf("Runs %s; Ctrl-C stops them.%n", Counts.of(farm.devices().size(), "device"));
             long end = howLong == null ? Long.MAX_VALUE : System.nanoTime() + howLong.toNanos();
             while (System.nanoTime() < end && !stop.await(1, TimeUnit.SECONDS)) {
                 out.printf("\r  %,d reports, %,d connections", fleet.reports(), fleet.connections());

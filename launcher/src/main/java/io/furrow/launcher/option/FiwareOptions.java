@@ -5,6 +5,7 @@ import java.net.URI;
 import java.nio.file.Files;
 import java.nio.file.Path;
 
+import picocli.CommandLine.Mixin;
 import picocli.CommandLine.Option;
 
 import io.furrow.launcher.suite.Suite;
@@ -63,12 +64,17 @@ public final class FiwareOptions {
             description = "Tenant. Default: ${DEFAULT-VALUE}.")
     private String service;
 
+    @Mixin
+    private FiwareAccessOptions access;
+
     /** @throws IOException if the file of the password cannot be read */
     public FleetSettings settings() throws IOException {
         String password = passwordFile == null
                 ? Suite.MQTT_PASSWORD
                 : Files.readString(passwordFile).lines().findFirst().orElse("").strip();
-        return new FleetSettings(orion, iotAgent, mqtt, user, password, service, "/")
-                .withIotAgentResource(iotAgentResource);
+        String path = access.scope(service).servicePath();
+        return new FleetSettings(orion, iotAgent, mqtt, user, password, service, path)
+                .withIotAgentResource(iotAgentResource)
+                .withToken(access.token());
     }
 }

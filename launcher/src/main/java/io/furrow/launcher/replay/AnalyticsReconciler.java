@@ -157,7 +157,7 @@ final class AnalyticsReconciler {
 
     private void wait(WantedAnalytics replay, int missing, int free) {
         String why =
-                "No analytics on %s yet: it wants %d jobs, %d fit. It begins when others end; stop a replay that is not needed."
+                "No analytics on %s yet: jobs that it wants: %d, that fit: %d. It begins when others end; stop a replay that is not needed."
                         .formatted(replay.topic(), missing, free);
         if (waiting.put(replay.topic(), why) == null) {
             LOG.warn(why);

@@ -8,6 +8,7 @@ import java.util.Locale;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.result.CollisionResult;
 import io.furrow.model.result.FieldResult;
+import io.furrow.model.text.Counts;
 
 /** Result entities as one line of text each. */
 final class ResultLines {
@@ -24,10 +25,10 @@ final class ResultLines {
                 .orElse("");
         return String.format(
                 Locale.ROOT,
-                "%-12s %6.2f °C   %d devices, %s%s   window to %s",
+                "%-12s %6.2f °C   %s, %s%s   window to %s",
                 entity.text(FieldResult.FIELD).orElse("?"),
                 entity.number(FieldResult.AVERAGE_TEMPERATURE).orElse(Double.NaN),
-                entity.number(FieldResult.DEVICES).orElse(0.0).intValue(),
+                Counts.of(entity.number(FieldResult.DEVICES).orElse(0.0).longValue(), "device"),
                 entity.text(FieldResult.QUALITY).orElse("?"),
                 suspects,
                 clock(entity, FieldResult.WINDOW_END));

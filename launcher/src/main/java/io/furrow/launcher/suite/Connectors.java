@@ -20,6 +20,7 @@ import io.furrow.launcher.RestClient;
 import io.furrow.launcher.Sleep;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.Counts;
 import io.furrow.model.topic.Topics;
 
 /** Puts the two NGSI connectors into a Connect cluster through its REST API. */
@@ -126,8 +127,10 @@ public final class Connectors {
             long failures = subscription.path("failsInARow").asLong();
             if (failures > 0) {
                 return Optional.of(
-                        "The context broker could not deliver its last %d notifications to %s. Check that it reaches this machine there, and --listen, --public-url and firewalls."
-                                .formatted(failures, subscription.path("url").asText()));
+                        "The context broker could not deliver its last %s to %s. Check that it reaches this machine there, and --listen, --public-url and firewalls."
+                                .formatted(
+                                        Counts.of(failures, "notification"),
+                                        subscription.path("url").asText()));
             }
         }
         return Optional.empty();

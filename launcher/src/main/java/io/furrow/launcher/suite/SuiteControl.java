@@ -124,7 +124,8 @@ final class SuiteControl implements AutoCloseable {
                                 simulates || farm.accounts().gateways(),
                                 ends.connections()));
         if (simulates) {
-            devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), source));
+            devices = DeviceHost.start(HostSettings.of(client, ends.mqtt(), ends.contextBroker(), source)
+                    .withToken(suite.fiware().token()));
             service.require(this::deviceHost);
         }
         return api;

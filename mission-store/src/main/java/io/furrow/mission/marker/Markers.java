@@ -25,6 +25,7 @@ import io.furrow.mission.mongo.MissionCollections;
 import io.furrow.mission.mongo.MongoAccess;
 import io.furrow.mission.mongo.MongoRecordings;
 import io.furrow.mission.mongo.SharedClient;
+import io.furrow.model.text.FailureText;
 
 /**
  * The markers of all missions, in the collection {@code markers} beside these: {@code _id}, {@code mission} (as its collection has it), {@code
@@ -206,7 +207,7 @@ public final class Markers implements AutoCloseable {
         } catch (MongoException e) {
             throw new RecordingException(
                     "The markers of mission %s cannot be reached at %s: %s. Check that MongoDB runs there and answers."
-                            .formatted(mission, where, e.getMessage()),
+                            .formatted(mission, where, FailureText.of(e)),
                     e);
         }
     }

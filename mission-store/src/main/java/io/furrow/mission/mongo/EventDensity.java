@@ -15,6 +15,7 @@ import org.bson.Document;
 import org.bson.conversions.Bson;
 
 import io.furrow.mission.RecordingException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Counts the events of stored missions by event time. MongoDB counts, by its index on event time alone, where it keeps that; no
@@ -70,7 +71,7 @@ public final class EventDensity implements AutoCloseable {
         } catch (MongoException e) {
             throw new RecordingException(
                     "The events of mission %s cannot be counted at %s: %s. Check that MongoDB runs there and answers."
-                            .formatted(mission, where, e.getMessage()),
+                            .formatted(mission, where, FailureText.of(e)),
                     e);
         }
     }

@@ -13,6 +13,7 @@ import com.mongodb.client.model.Sorts;
 import org.bson.RawBsonDocument;
 
 import io.furrow.mission.RecordingException;
+import io.furrow.model.text.FailureText;
 
 /**
  * Lists the missions that are stored in MongoDB: by the names of collections, and by the first and last entry of their
@@ -115,7 +116,7 @@ public final class MissionCatalog implements AutoCloseable {
         } catch (MongoException e) {
             throw new RecordingException(
                     "Which missions are stored cannot be read from %s: %s. Check that MongoDB runs there and answers."
-                            .formatted(where, e.getMessage()),
+                            .formatted(where, FailureText.of(e)),
                     e);
         }
     }

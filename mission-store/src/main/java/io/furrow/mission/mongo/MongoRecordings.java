@@ -13,6 +13,7 @@ import io.furrow.mission.Recording;
 import io.furrow.mission.RecordingException;
 import io.furrow.mission.RecordingInterruptedException;
 import io.furrow.mission.Recordings;
+import io.furrow.model.text.FailureText;
 
 /**
  * The missions that {@code ingest} keeps in MongoDB. All recordings of a server that are open in one process share a client.
@@ -77,7 +78,7 @@ public record MongoRecordings(String uri, String database, Duration selectionTim
         }
         return new RecordingException(
                 "Mission %s cannot be read from %s: %s. Check that MongoDB runs there and answers."
-                        .formatted(mission, where, failure.getMessage()),
+                        .formatted(mission, where, FailureText.of(failure)),
                 failure);
     }
 

@@ -7,6 +7,7 @@ import com.fasterxml.jackson.annotation.JsonInclude;
 import com.fasterxml.jackson.databind.DeserializationFeature;
 import com.fasterxml.jackson.databind.ObjectMapper;
 
+import io.furrow.model.ngsi.JsonProblem;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.Reason;
 import io.furrow.model.ngsi.UnreadableException;
@@ -67,7 +68,7 @@ public record DeviceConnection(
         try {
             return MAPPER.readValue(value, DeviceConnection.class);
         } catch (IOException e) {
-            throw new UnreadableException(Reason.NOT_JSON, "no record of a device's connection: " + e.getMessage());
+            throw new UnreadableException(Reason.NOT_JSON, "no record of a device's connection: " + JsonProblem.of(e));
         }
     }
 

@@ -6,6 +6,8 @@ import java.util.Map;
 import java.util.regex.Pattern;
 
 import com.fasterxml.jackson.databind.JsonNode;
+import com.fasterxml.jackson.databind.node.JsonNodeFactory;
+import com.fasterxml.jackson.databind.node.ObjectNode;
 
 import io.furrow.model.control.RefusedException;
 import io.furrow.model.control.RequestMembers;
@@ -89,6 +91,15 @@ public record MeasuredAttribute(String objectId, String name, String type, Strin
                 name,
                 json.path("type").asText("Number"),
                 json.path("unit").textValue());
+    }
+
+    /** As both its group and the IoT Agent name it; each has its own member for the unit. */
+    public ObjectNode toJson() {
+        return JsonNodeFactory.instance
+                .objectNode()
+                .put("object_id", objectId)
+                .put("name", name)
+                .put("type", type);
     }
 
     /** Checks the member {@code attributes} of a group. */

@@ -5,7 +5,6 @@ import java.io.UncheckedIOException;
 
 import com.fasterxml.jackson.core.JsonFactory;
 import com.fasterxml.jackson.core.JsonGenerator;
-import com.fasterxml.jackson.core.JsonProcessingException;
 import com.fasterxml.jackson.core.SerializableString;
 import com.fasterxml.jackson.core.StreamReadConstraints;
 import com.fasterxml.jackson.core.StreamReadFeature;
@@ -88,13 +87,11 @@ public final class NgsiJson {
         try {
             return reading.read();
         } catch (StreamConstraintsException e) {
-            throw new UnreadableException(Reason.TOO_DEEP, e.getOriginalMessage(), e);
-        } catch (JsonProcessingException e) {
-            throw new UnreadableException(Reason.NOT_JSON, e.getOriginalMessage(), e);
+            throw new UnreadableException(Reason.TOO_DEEP, JsonProblem.of(e), e);
         } catch (NumberFormatException e) { // Jackson's answer to an exponent beyond that of a BigDecimal
             throw new UnreadableException(Reason.TOO_DEEP, "a number's exponent is out of range", e);
-        } catch (IOException e) { // Jackson's answer to bytes that are not UTF-8
-            throw new UnreadableException(Reason.NOT_JSON, e.getMessage(), e);
+        } catch (IOException e) {
+            throw new UnreadableException(Reason.NOT_JSON, JsonProblem.of(e), e);
         }
     }
 

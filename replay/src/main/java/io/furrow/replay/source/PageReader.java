@@ -24,6 +24,7 @@ import io.furrow.mission.Skipped;
 import io.furrow.mission.StoredEvent;
 import io.furrow.model.control.replay.ReplayPlan;
 import io.furrow.model.control.replay.WantedReplay;
+import io.furrow.model.text.FailureText;
 import io.furrow.replay.playback.Fetch;
 import io.furrow.replay.playback.Fetched;
 import io.furrow.replay.playback.ReadyEvent;
@@ -140,7 +141,7 @@ final class PageReader implements AutoCloseable {
         } catch (RuntimeException | Error e) { // a fault of the reader is this replay's end, and nobody else's
             release();
             LOG.error("Recording of replay {} cannot be read", replay.replay(), e);
-            out.accept(new Fetched.Gone(fetch.epoch(), "the recording cannot be read: " + e));
+            out.accept(new Fetched.Gone(fetch.epoch(), "the recording cannot be read: " + FailureText.of(e)));
         }
     }
 

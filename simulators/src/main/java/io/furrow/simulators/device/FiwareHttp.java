@@ -56,6 +56,7 @@ public final class FiwareHttp {
         if (!settings.fiwareService().isBlank()) {
             request.header("fiware-service", settings.fiwareService());
         }
+        settings.token().addTo(request::header);
         return request.build();
     }
 }

@@ -2,6 +2,8 @@ package io.furrow.simulators.device;
 
 import java.net.URI;
 
+import io.furrow.model.file.AccessToken;
+
 /**
  * The FIWARE endpoints of simulated devices, and their credentials.
  *
@@ -12,6 +14,7 @@ import java.net.URI;
  * @param fiwareService tenant; blank for the default one
  * @param servicePath {@code /} for the root
  * @param iotAgentResource of service groups, the IoT Agent's default resource; may be empty
+ * @param token for a proxy that guards context broker and IoT Agent
  */
 public record FleetSettings(
         URI contextBroker,
@@ -21,10 +24,11 @@ public record FleetSettings(
         String mqttPassword,
         String fiwareService,
         String servicePath,
-        String iotAgentResource) {
+        String iotAgentResource,
+        AccessToken token) {
     public static final String DEFAULT_RESOURCE = "/iot/json";
 
-    /** With the default resource. */
+    /** With the default resource, and without a token. */
     public FleetSettings(
             URI contextBroker,
             URI iotAgent,
@@ -33,12 +37,34 @@ public record FleetSettings(
             String mqttPassword,
             String fiwareService,
             String servicePath) {
-        this(contextBroker, iotAgent, mqtt, mqttUser, mqttPassword, fiwareService, servicePath, DEFAULT_RESOURCE);
+        this(
+                contextBroker,
+                iotAgent,
+                mqtt,
+                mqttUser,
+                mqttPassword,
+                fiwareService,
+                servicePath,
+                DEFAULT_RESOURCE,
+                AccessToken.NONE);
     }
 
     public FleetSettings withIotAgentResource(String resource) {
         return new FleetSettings(
-                contextBroker, iotAgent, mqtt, mqttUser, mqttPassword, fiwareService, servicePath, resource);
+                contextBroker, iotAgent, mqtt, mqttUser, mqttPassword, fiwareService, servicePath, resource, token);
+    }
+
+    public FleetSettings withToken(AccessToken newToken) {
+        return new FleetSettings(
+                contextBroker,
+                iotAgent,
+                mqtt,
+                mqttUser,
+                mqttPassword,
+                fiwareService,
+                servicePath,
+                iotAgentResource,
+                newToken);
     }
 
     @Override

@@ -43,7 +43,8 @@ final class Robots {
     private RobotLink link(FiwareScope scope) {
         return new RobotLink(
                 new FleetSettings(
-                        settings.contextBroker(), null, null, null, null, scope.service(), scope.servicePath()),
+                                settings.contextBroker(), null, null, null, null, scope.service(), scope.servicePath())
+                        .withToken(settings.token()),
                 events);
     }
 

@@ -19,6 +19,7 @@ import picocli.CommandLine.Option;
 import picocli.CommandLine.Spec;
 
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.file.AccessToken;
 import io.furrow.model.file.PrivateFile;
 import io.furrow.model.file.ReloadedFile;
 import io.furrow.simulators.mqtt.MqttAccess;
@@ -84,6 +85,23 @@ public final class DeviceHostCommand implements Callable<Integer> {
     private URI contextBroker;
 
     @Option(
+            names = "--fiware-token-file",
+            paramLabel = "FILE",
+            defaultValue = "${env:FURROW_FIWARE_TOKEN_FILE:-}",
+            description =
+                    "File whose first line is a token for the proxy that guards the context broker. Read again when it changes. Default: "
+                            + "$FURROW_FIWARE_TOKEN_FILE, else none is sent.")
+    private String tokenFile;
+
+    @Option(
+            names = "--fiware-token-header",
+            paramLabel = "NAME",
+            defaultValue = "${env:FURROW_FIWARE_TOKEN_HEADER:-" + AccessToken.DEFAULT_HEADER + "}",
+            description = "Header of that token. Default: $FURROW_FIWARE_TOKEN_HEADER, else "
+                    + AccessToken.DEFAULT_HEADER + ".")
+    private String tokenHeader;
+
+    @Option(
             names = "--farm-secret",
             paramLabel = "FILE",
             required = true,
@@ -140,7 +158,9 @@ public final class DeviceHostCommand implements Callable<Integer> {
         }
         client.setProperty("bootstrap.servers", kafka);
         MqttAccess access = new MqttAccess(mqtt, trusted.isBlank() ? null : Path.of(trusted), qos);
-        return new HostSettings(client, access, contextBroker, secret(), seed);
+        AccessToken token =
+                tokenFile.isBlank() ? AccessToken.NONE : AccessToken.of(Path.of(tokenFile), tokenHeader, LOG::warn);
+        return new HostSettings(client, access, contextBroker, secret(), token, seed);
     }
 
     private ReloadedFile<FarmSecret> secret() throws IOException {

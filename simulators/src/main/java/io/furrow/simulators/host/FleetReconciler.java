@@ -21,6 +21,7 @@ import io.furrow.model.device.MissionDeviceLists;
 import io.furrow.model.device.WantedDevice;
 import io.furrow.model.event.FiwareScope;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.simulators.fleet.FarmFleet;
 import io.furrow.simulators.robot.WorkField;
 import io.furrow.simulators.scenario.SimulatedDevice;
@@ -171,7 +172,7 @@ final class FleetReconciler {
                 failed(step, device, e.getMessage());
             } catch (RuntimeException e) { // such as unforeseen geometry; other devices shall run
                 LOG.warn("device {} cannot be simulated", device.device(), e);
-                failed(step, device, "it cannot be simulated: " + e);
+                failed(step, device, "it cannot be simulated: " + FailureText.of(e));
             }
         });
         missions.values().forEach(add);

@@ -42,7 +42,8 @@ final class HostLoop implements AutoCloseable {
 
     HostLoop(HostSettings settings) {
         Properties kafka = settings.kafka();
-        FleetSettings fiware = new FleetSettings(settings.contextBroker(), null, null, null, null, "", "/");
+        FleetSettings fiware = new FleetSettings(settings.contextBroker(), null, null, null, null, "", "/")
+                .withToken(settings.token());
         this.secret = new FarmSecretCheck(settings.secret());
         FleetAccess access = new FleetAccess(fiware, settings.mqtt(), FleetAccess.Logins.of(secret));
         this.records = new WantedRecords(

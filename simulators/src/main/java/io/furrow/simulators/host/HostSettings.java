@@ -5,6 +5,7 @@ import java.util.Properties;
 import java.util.function.Supplier;
 
 import io.furrow.model.device.FarmSecret;
+import io.furrow.model.file.AccessToken;
 import io.furrow.simulators.mqtt.MqttAccess;
 
 /**
@@ -14,12 +15,22 @@ import io.furrow.simulators.mqtt.MqttAccess;
  * @param mqtt the MQTT broker of the devices
  * @param contextBroker base of the NGSI-v2 API that robots write to, as in {@code http://127.0.0.1:1026}
  * @param secret source of API keys and passwords, the same as the control plane's; polled for changes
+ * @param token for a proxy that guards the context broker
  * @param seed other seeds create other devices: elsewhere in their area, other noise
  */
 public record HostSettings(
-        Properties kafka, MqttAccess mqtt, URI contextBroker, Supplier<FarmSecret> secret, long seed) {
-    /** With the seed 0. */
+        Properties kafka,
+        MqttAccess mqtt,
+        URI contextBroker,
+        Supplier<FarmSecret> secret,
+        AccessToken token,
+        long seed) {
+    /** Without a token, with the seed 0. */
     public static HostSettings of(Properties kafka, MqttAccess mqtt, URI contextBroker, Supplier<FarmSecret> secret) {
-        return new HostSettings(kafka, mqtt, contextBroker, secret, 0);
+        return new HostSettings(kafka, mqtt, contextBroker, secret, AccessToken.NONE, 0);
+    }
+
+    public HostSettings withToken(AccessToken newToken) {
+        return new HostSettings(kafka, mqtt, contextBroker, secret, newToken, seed);
     }
 }

@@ -7,6 +7,7 @@ import java.util.List;
 
 import com.fasterxml.jackson.core.JsonProcessingException;
 
+import io.furrow.model.ngsi.JsonProblem;
 import io.furrow.model.ngsi.NgsiJson;
 
 /**
@@ -36,7 +37,7 @@ public record Farm(String apiKey, List<SimulatedDevice> devices) {
             return new FarmReader(start).farm(JsonMembers.of(NgsiJson.mapper().readTree(json), ""));
         } catch (JsonProcessingException e) {
             UnusableScenarioException refused = new UnusableScenarioException(
-                    "line " + e.getLocation().getLineNr(), "is not valid JSON: " + e.getOriginalMessage());
+                    "line " + e.getLocation().getLineNr(), "is not valid JSON: " + JsonProblem.words(e));
             refused.initCause(e);
             throw refused;
         }

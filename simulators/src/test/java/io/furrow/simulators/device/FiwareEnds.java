@@ -14,6 +14,7 @@ import com.sun.net.httpserver.HttpServer;
 import org.awaitility.Awaitility;
 
 import io.furrow.embedded.EmbeddedMqtt;
+import io.furrow.model.file.AccessToken;
 import io.furrow.model.ngsi.NgsiJson;
 
 /** A real MQTT broker, and one HTTP server in the place of IoT Agent and context broker that records what it is asked. */
@@ -21,7 +22,7 @@ public final class FiwareEnds implements AutoCloseable {
     public static final String USER = "farmer";
     public static final String PASSWORD = "plough";
 
-    public record Asked(String path, String service, String servicePath, JsonNode body) {}
+    public record Asked(String path, String service, String servicePath, String token, JsonNode body) {}
 
     private final List<Asked> asked = new CopyOnWriteArrayList<>();
     private final HttpServer http;
@@ -35,6 +36,7 @@ public final class FiwareEnds implements AutoCloseable {
                     exchange.getRequestURI().getPath(),
                     exchange.getRequestHeaders().getFirst("fiware-service"),
                     exchange.getRequestHeaders().getFirst("fiware-servicepath"),
+                    exchange.getRequestHeaders().getFirst(AccessToken.DEFAULT_HEADER),
                     NgsiJson.mapper().readTree(exchange.getRequestBody()));
             int answer = status.applyAsInt(request);
             asked.add(request);

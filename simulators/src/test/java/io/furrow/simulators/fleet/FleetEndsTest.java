@@ -4,6 +4,8 @@ import java.io.ByteArrayInputStream;
 import java.io.IOException;
 import java.net.URI;
 import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
 import java.time.Clock;
 import java.time.Instant;
 import java.util.List;
@@ -13,7 +15,9 @@ import org.junit.jupiter.api.AfterAll;
 import org.junit.jupiter.api.BeforeAll;
 import org.junit.jupiter.api.BeforeEach;
 import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
 
+import io.furrow.model.file.AccessToken;
 import io.furrow.simulators.device.FiwareEnds;
 import io.furrow.simulators.device.FleetSettings;
 import io.furrow.simulators.scenario.Farm;
@@ -90,6 +94,25 @@ class FleetEndsTest {
                 .containsExactly("Temperature", "Status", "Time", "Latitude", "Longitude", "Location");
         assertThat(device.path("static_attributes").findValuesAsText("value")).containsExactly("farm", "weeding");
         assertThat(device.path("commands").findValuesAsText("name")).containsExactly("on", "off", "restart");
+    }
+
+    @Test
+    void sendsATokenToTheProxyThatGuardsAgentAndBroker(@TempDir Path directory) throws Exception {
+        Path file = Files.writeString(directory.resolve("token"), "letmein\n");
+        FleetSettings settings = ends.settings().withToken(AccessToken.of(file, null, warning -> {}));
+
+        FarmFleet.start(farm(THERMOMETER), Subscriber.access(settings)).close();
+        try (FarmFleet fleet = FarmFleet.start(farm(ROBOT), Subscriber.access(settings), 500, Clock.systemUTC())) {
+            await().until(() ->
+                    fleet.reports() > 0 && !ends.asked("/v2/op/update").isEmpty());
+        }
+
+        for (String path : List.of("/iot/services", "/iot/devices", "/v2/op/update")) {
+            assertThat(ends.asked(path))
+                    .as(path)
+                    .isNotEmpty()
+                    .allSatisfy(request -> assertThat(request.token()).isEqualTo("letmein"));
+        }
     }
 
     @Test

@@ -67,16 +67,30 @@ public final class ControlApi {
      * @throws ControlPlaneException if it is unavailable or refuses
      */
     public JsonNode send(String method, String path, JsonNode body) {
-        HttpRequest request = request(method, path, body);
+        return read(answer(request(method, path, body).build()));
+    }
+
+    /**
+     * What a path has in another form than JSON.
+     *
+     * @throws ControlPlaneException if it is unavailable or refuses
+     */
+    public String text(String path, String type) {
+        HttpRequest request =
+                request("GET", path, null).setHeader("Accept", type).build();
+        return new String(answer(request), StandardCharsets.UTF_8);
+    }
+
+    private byte[] answer(HttpRequest request) {
         HttpResponse<byte[]> answer = ask(request);
         for (int attempt = 1; answer.statusCode() == NOT_READY && attempt < ATTEMPTS; attempt++) {
             sleep(answer.headers().firstValue("Retry-After").orElse(""));
             answer = ask(request);
         }
-        JsonNode json = read(answer.body());
         if (answer.statusCode() / 100 == 2) {
-            return json;
+            return answer.body();
         }
+        JsonNode json = read(answer.body());
         String reason = json.path("reason").asText("it answers " + answer.statusCode());
         if (answer.statusCode() == NO_TOKEN) {
             throw new ControlPlaneException(
@@ -117,7 +131,7 @@ public final class ControlApi {
         }
     }
 
-    private HttpRequest request(String method, String path, JsonNode body) {
+    private HttpRequest.Builder request(String method, String path, JsonNode body) {
         BodyPublisher publisher =
                 body == null ? BodyPublishers.noBody() : BodyPublishers.ofByteArray(NgsiJson.write(body));
         HttpRequest.Builder request = HttpRequest.newBuilder(
@@ -132,7 +146,7 @@ public final class ControlApi {
         if (token != null) {
             request.header("Authorization", "Bearer " + token);
         }
-        return request.build();
+        return request;
     }
 
     private HttpResponse<byte[]> ask(HttpRequest request) {

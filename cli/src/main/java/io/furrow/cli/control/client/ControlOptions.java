@@ -4,7 +4,9 @@ import java.io.IOException;
 import java.io.PrintWriter;
 import java.net.URI;
 import java.nio.file.Path;
+import java.util.List;
 import java.util.Map;
+import java.util.function.Function;
 import java.util.stream.Collectors;
 import javax.net.ssl.SSLContext;
 
@@ -87,6 +89,18 @@ public final class ControlOptions {
         return run(api -> shown(api.get(path)));
     }
 
+    /** Prints the object that a path has as a page for people. */
+    public int showPage(String path, Function<JsonNode, List<String>> page) {
+        return run(api -> {
+            JsonNode object = api.get(path);
+            if (isJson()) {
+                print(object);
+            } else {
+                page.apply(object).forEach(out()::println);
+            }
+        });
+    }
+
     private void shown(JsonNode object) throws IOException {
         if (isJson()) {
             print(object);
@@ -98,21 +112,20 @@ public final class ControlOptions {
     /** Prints the credentials that a path has, of one device or of many. */
     public int showCredentials(String path) {
         return runWith(api -> {
+            if (output == Output.CSV) {
+                out().print(api.text(path, "text/csv"));
+                return;
+            }
             JsonNode answer = api.get(path);
             JsonNode devices = answer.isArray()
                     ? answer
                     : JsonNodeFactory.instance.arrayNode().add(answer);
-            switch (output) {
-                case JSON -> print(answer);
-                case CSV -> CredentialList.csv(devices).forEach(out()::println);
-                case ENV -> CredentialList.env(devices).forEach(out()::println);
-                case TABLE -> {
-                    if (answer.isArray()) {
-                        CredentialList.table().lines(answer).forEach(out()::println);
-                    } else {
-                        members(answer);
-                    }
-                }
+            if (output == Output.ENV) {
+                CredentialList.env(devices).forEach(out()::println);
+            } else if (answer.isArray() && !isJson()) {
+                CredentialList.table().lines(answer).forEach(out()::println);
+            } else {
+                shown(answer);
             }
         });
     }

@@ -111,7 +111,7 @@ public final class ControlTable {
                 .orElse(MissingNode.getInstance());
     }
 
-    private static String age(Duration age) {
+    static String age(Duration age) {
         if (age.compareTo(Duration.ofMinutes(2)) < 0) {
             return Math.max(0, age.toSeconds()) + "s";
         } else if (age.compareTo(Duration.ofHours(2)) < 0) {
@@ -129,8 +129,12 @@ public final class ControlTable {
                                 : value.asText())
                         .replaceFirst("\\.\\d+Z$", "Z");
             case AGE -> age(Duration.ofMillis(clock.millis() - value.asLong()));
-            case TEXT ->
-                ControlOptions.text(value).replaceAll("\\p{Cntrl}", " "); // one line, and nothing that a terminal obeys
+            case TEXT -> printable(ControlOptions.text(value));
         };
+    }
+
+    /** One line, and nothing that a terminal obeys. */
+    static String printable(String text) {
+        return text.replaceAll("\\p{Cntrl}", " ");
     }
 }

@@ -8,7 +8,7 @@ import java.util.stream.StreamSupport;
 
 import com.fasterxml.jackson.databind.JsonNode;
 
-/** Credentials of devices as text: as a table, as CSV (RFC 4180), and as variables of a shell. */
+/** Credentials of devices as text: as a table, and as variables of a shell. */
 public final class CredentialList {
     private static final List<String> COLUMNS = List.of(
             "device",
@@ -37,20 +37,6 @@ public final class CredentialList {
                 .text("MEASURES", "/measures");
     }
 
-    /** A line of titles, and one per device. */
-    public static List<String> csv(JsonNode devices) {
-        List<String> lines = new ArrayList<>();
-        lines.add(String.join(",", COLUMNS) + ",attributes,example");
-        for (JsonNode device : devices) {
-            List<String> cells = new ArrayList<>();
-            COLUMNS.forEach(column -> cells.add(device.path(column).asText()));
-            cells.add(attributes(device));
-            cells.add(device.path("example").asText());
-            lines.add(cells.stream().map(CredentialList::quoted).collect(Collectors.joining(",")));
-        }
-        return lines;
-    }
-
     /** Variables of each device, as {@code . file} reads them, devices apart from each other by an empty line. */
     public static List<String> env(JsonNode devices) {
         List<String> lines = new ArrayList<>();
@@ -75,9 +61,5 @@ public final class CredentialList {
                 .map(each -> each.path("object_id").asText() + "="
                         + each.path("name").asText())
                 .collect(Collectors.joining(" "));
-    }
-
-    private static String quoted(String cell) {
-        return cell.matches("[^\",\r\n]*") ? cell : '"' + cell.replace("\"", "\"\"") + '"';
     }
 }

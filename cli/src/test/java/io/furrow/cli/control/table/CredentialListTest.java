@@ -15,15 +15,6 @@ class CredentialListTest {
              "example": "mosquitto_pub -m '{\\"t\\":21}'"}""";
 
     @Test
-    void writesWhatASpreadsheetReads() throws Exception {
-        assertThat(CredentialList.csv(devices()))
-                .containsExactly(
-                        "device,deviceId,host,port,tls,user,password,apiKey,measures,commands,results,attributes,example",
-                        "urn:t:1,it's,farm.lan,8883,true,u,\"p,1\",k,/k/t/attrs,/k/t/cmd,/k/t/cmdexe,t=Temperature bat=battery,"
-                                + "\"mosquitto_pub -m '{\"\"t\"\":21}'\"");
-    }
-
-    @Test
     void writesVariablesThatAShellReads() throws Exception {
         assertThat(CredentialList.env(devices()))
                 .contains(

@@ -18,6 +18,7 @@ import com.fasterxml.jackson.databind.node.ObjectNode;
 import io.furrow.control.alarm.watch.Encounter;
 import io.furrow.control.audit.AuditEntry;
 import io.furrow.control.device.CommandSender;
+import io.furrow.model.text.FailureText;
 
 /**
  * Sends one {@code Stop} to each robot of a predicted encounter. This is not a safety function: messages may be late or
@@ -126,7 +127,7 @@ public final class StopRobots {
             Thread.currentThread().interrupt();
             failure = "the control plane was stopped meanwhile";
         } catch (RuntimeException e) { // every failure belongs on the audit topic
-            failure = e.toString();
+            failure = FailureText.of(e);
         }
         if (failure != null) {
             forget(encounter, robot);

@@ -2,7 +2,6 @@ package io.furrow.control.alarm.watch;
 
 import java.time.Duration;
 import java.util.List;
-import java.util.Optional;
 import java.util.function.BiFunction;
 import java.util.function.Function;
 import java.util.stream.Stream;
@@ -18,10 +17,8 @@ import io.furrow.control.manager.EventPublisher;
 import io.furrow.control.manager.ObserverProcessor;
 import io.furrow.control.manager.ObserverProcessor.Observer;
 import io.furrow.control.manager.OutputRecord;
-import io.furrow.control.manager.StateJson;
 import io.furrow.control.manager.record.RecordScope;
 import io.furrow.control.manager.record.StoredRecords;
-import io.furrow.control.mission.MissionStatus;
 import io.furrow.model.ngsi.Entity;
 import io.furrow.model.ngsi.UnreadableException;
 
@@ -78,22 +75,9 @@ public final class AnalyticsAlarms {
         send(clocks, opening, types, "clocks");
     }
 
-    /**
-     * @param statuses the records of {@code service.missions.status}, in a single partition
-     * @param causes creates a lookup why a device is not heard, by its id
-     */
-    public static void addStarts(
-            KStream<String, byte[]> statuses,
-            Types types,
-            Function<ProcessorContext<?, ?>, Function<String, Optional<String>>> causes) {
-        BiFunction<ProcessorContext<String, OutputRecord>, EventPublisher, Observer> opening = (context, outbox) -> {
-            WatchStarts watch = new WatchStarts(AlarmManager.handler(context, outbox), causes.apply(context));
-            return (record, now) -> watch.take(
-                    record.key(),
-                    record.value() == null ? null : StateJson.readRecord(record.value(), MissionStatus.class),
-                    now);
-        };
-        send(statuses, opening, types, "starts");
+    /** @param statuses the records of {@code service.missions.status}, in a single partition */
+    public static void addStarts(KStream<String, byte[]> statuses, Types types) {
+        send(statuses, (context, outbox) -> new WatchStarts(AlarmManager.handler(context, outbox)), types, "starts");
     }
 
     private record SensorObserver(WatchSensors watch) implements Observer {

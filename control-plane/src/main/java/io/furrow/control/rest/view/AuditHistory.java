@@ -20,6 +20,7 @@ import io.furrow.control.rest.ProblemException;
 import io.furrow.kafka.CommittedReader;
 import io.furrow.model.ngsi.NgsiJson;
 import io.furrow.model.ngsi.UnreadableException;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /** Reads the audit topic backwards, from Kafka, at most {@value #AT_ONCE} requests at once. */
@@ -65,7 +66,7 @@ public final class AuditHistory {
             throw new ProblemException(
                     503,
                     "kafka-away",
-                    "the audit topic cannot be read (%s); check that Kafka runs".formatted(e.getMessage()));
+                    "the audit topic cannot be read (%s); check that Kafka runs".formatted(FailureText.of(e)));
         } finally {
             free.release();
         }

@@ -24,6 +24,7 @@ import io.furrow.model.control.ErrorCode;
 import io.furrow.model.control.Limits;
 import io.furrow.model.control.RequestFingerprint;
 import io.furrow.model.ngsi.NgsiJson;
+import io.furrow.model.text.FailureText;
 import io.furrow.model.topic.Topics;
 
 /**
@@ -117,7 +118,7 @@ public final class CommandClient implements AutoCloseable {
             throw new ProblemException(ErrorCode.NOT_JSON, "a text of the body is not Unicode");
         }
         if (value.length > Limits.REQUEST_BYTES) {
-            throw ProblemException.tooLarge(value.length);
+            throw ProblemException.tooLarge(value.length, Limits.REQUEST_BYTES);
         }
         return value;
     }
@@ -136,7 +137,7 @@ public final class CommandClient implements AutoCloseable {
         }
         String why = cause instanceof TimeoutException
                 ? "no manager answered within " + timeout.toMillis() + " ms"
-                : "Kafka does not take requests (" + cause.getMessage() + ")";
+                : "Kafka does not take requests (" + FailureText.of(cause) + ")";
         throw new ProblemException(
                 503,
                 "not-answered",

@@ -1,0 +1,164 @@
+package io.furrow.cli.control.table;
+
+import java.time.Duration;
+import java.time.Instant;
+import java.util.ArrayList;
+import java.util.List;
+
+import com.fasterxml.jackson.databind.JsonNode;
+
+import io.furrow.model.text.Counts;
+
+/** A device as lines {@code label: value}: what it is, what was heard of it, and why it is silent. */
+public final class DevicePage {
+    /** Less is how long a report takes. */
+    private static final Duration RIGHT = Duration.ofSeconds(5);
+
+    private static final int WIDTH = 16;
+
+    private final JsonNode device;
+    private final JsonNode connection;
+    private final Instant now;
+    private final List<String> lines = new ArrayList<>();
+
+    private DevicePage(JsonNode device, Instant now) {
+        this.device = device;
+        this.connection = device.path("connection");
+        this.now = now;
+    }
+
+    /** @param device as the REST API has it */
+    public static List<String> of(JsonNode device, Instant now) {
+        return new DevicePage(device, now).all();
+    }
+
+    private List<String> all() {
+        if (isSilent()) {
+            add("Silent", connection.path("cause").asText("it has not reported yet"));
+        }
+        add("Device", device.path("id").asText());
+        boolean simulated = device.path("simulated").booleanValue();
+        add("Type", device.path("type").asText("not known") + (simulated ? ", simulated" : ", real"));
+        add("Mission", "%s of domain %s".formatted(text(device.path("mission")), text(device.path("domain"))));
+        add("Wanted", device.path("wanted").asText());
+        add("State", device.at("/status/state").asText("not known") + reason(device.at("/status/reason")));
+        report(connection.path("lastReport"));
+        if (device.at("/health/battery").isNumber()) {
+            add("Battery", Math.round(device.at("/health/battery").doubleValue() * 100) + " %");
+        }
+        login();
+        refusals(connection.path("refusedLogin"));
+        unreadable(connection.path("unreadablePayload"));
+        foreign(connection.path("foreignTopic"));
+        if (connection.has("registered")) {
+            add("IoT Agent", connection.path("registered").booleanValue() ? "knows it" : "does not know it");
+        }
+        return lines;
+    }
+
+    private boolean isSilent() {
+        boolean runs = device.path("wanted").asText().equals("running");
+        boolean heard = device.at("/health/heard").longValue()
+                >= Math.max(1, device.path("from").longValue());
+        boolean off = device.at("/health/off").booleanValue();
+        return runs && !off && (!heard || device.at("/health/silent").booleanValue());
+    }
+
+    private void report(JsonNode report) {
+        if (report.isMissingNode()) {
+            add("Last report", "none yet");
+            return;
+        }
+        add("Last report", "of %s, received %s".formatted(time(report.path("time")), ago(report.path("received"))));
+        Duration offset = Duration.ofMillis(report.path("offset").longValue());
+        add(
+                "Clock",
+                offset.abs().compareTo(RIGHT) < 0
+                        ? "its clock is right within " + RIGHT.toSeconds() + " s"
+                        : "its clock is %s %s"
+                                .formatted(words(offset.abs()), offset.isNegative() ? "ahead" : "behind"));
+    }
+
+    private void login() {
+        JsonNode since = connection.path("since");
+        if (connection.hasNonNull("loggedIn")) {
+            add("Last login", ago(connection.path("loggedIn")));
+        } else if (!since.isMissingNode()) {
+            add("Last login", "none since " + time(since));
+        }
+    }
+
+    private void refusals(JsonNode refused) {
+        if (!refused.isMissingNode()) {
+            boolean unknown = refused.path("reason").asText().equals("unknown-user");
+            String user = refused.path("user").asText();
+            add(
+                    "Refused logins",
+                    "%s: %s"
+                            .formatted(
+                                    counted(refused),
+                                    unknown
+                                            ? "its user %s does not exist or no longer".formatted(user)
+                                            : "wrong password of user " + user));
+        }
+    }
+
+    private void unreadable(JsonNode unreadable) {
+        if (!unreadable.isMissingNode()) {
+            add(
+                    "Unreadable",
+                    "%s: %s; it began with %s"
+                            .formatted(
+                                    counted(unreadable),
+                                    unreadable.path("reason").asText(),
+                                    unreadable.path("payload").asText()));
+        }
+    }
+
+    private void foreign(JsonNode foreign) {
+        if (!foreign.isMissingNode()) {
+            add(
+                    "Foreign topic",
+                    "published %s to %s, where it may not"
+                            .formatted(counted(foreign), foreign.path("topic").asText()));
+        }
+    }
+
+    private String counted(JsonNode observed) {
+        long count = observed.path("count").longValue();
+        return Counts.times(count) + (count == 1 ? ", " : ", last ") + ago(observed.path("last"));
+    }
+
+    private String ago(JsonNode time) {
+        return "%s (%s ago)"
+                .formatted(time(time), ControlTable.age(Duration.between(Instant.ofEpochMilli(time.longValue()), now)));
+    }
+
+    private static String time(JsonNode time) {
+        return Instant.ofEpochMilli(time.longValue()).toString().replaceFirst("\\.\\d+Z$", "Z");
+    }
+
+    /** Its two greatest units, as {@code 2 h 0 min}. */
+    private static String words(Duration time) {
+        if (time.toMinutes() == 0) {
+            return time.toSeconds() + " s";
+        } else if (time.toHours() == 0) {
+            return "%d min %d s".formatted(time.toMinutes(), time.toSecondsPart());
+        }
+        return time.toDays() == 0
+                ? "%d h %d min".formatted(time.toHours(), time.toMinutesPart())
+                : "%d d %d h".formatted(time.toDays(), time.toHoursPart());
+    }
+
+    private static String text(JsonNode name) {
+        return name.asText().isEmpty() ? "–" : name.asText();
+    }
+
+    private static String reason(JsonNode reason) {
+        return reason.isTextual() ? ": " + reason.textValue() : "";
+    }
+
+    private void add(String label, String value) {
+        lines.add(("%-" + WIDTH + "s%s").formatted(label + ":", ControlTable.printable(value)));
+    }
+}

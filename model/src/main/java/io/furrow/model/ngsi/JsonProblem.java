@@ -1,0 +1,49 @@
+package io.furrow.model.ngsi;
+
+import java.io.IOException;
+import java.util.Locale;
+import java.util.regex.Pattern;
+import java.util.stream.Collectors;
+
+import com.fasterxml.jackson.core.JsonLocation;
+import com.fasterxml.jackson.core.JsonProcessingException;
+import com.fasterxml.jackson.databind.JsonMappingException;
+
+/** What is wrong with JSON, in words for people: Jackson's name its classes and constants. */
+public final class JsonProblem {
+    private static final Pattern END =
+            Pattern.compile("^(Unexpected end-of-input|No content to map).*", Pattern.DOTALL);
+    private static final Pattern TRAILING = Pattern.compile("^Trailing token.*", Pattern.DOTALL);
+    /** What Jackson offers a programmer: where it was told so, and which constant would allow it. */
+    private static final Pattern FOR_PROGRAMMERS = Pattern.compile(
+            ", from `[^`]*`|: enable `.*|,? ?\\(?start marker at .*|\\R? at \\[Source.*", Pattern.DOTALL);
+
+    private JsonProblem() {}
+
+    /** For instance {@code unexpected end of input at line 1, column 17}. */
+    public static String of(IOException failure) {
+        if (!(failure instanceof JsonProcessingException json)) {
+            return failure.getMessage(); // bytes that are not UTF-8
+        }
+        String words = words(json);
+        JsonLocation at = json.getLocation();
+        return words.substring(0, 1).toLowerCase(Locale.ROOT)
+                + words.substring(1)
+                + (at == null ? "" : " at line " + at.getLineNr() + ", column " + at.getColumnNr());
+    }
+
+    /** The same as a sentence, without the place. */
+    public static String words(JsonProcessingException failure) {
+        if (failure instanceof JsonMappingException mapping
+                && !mapping.getPath().isEmpty()) {
+            return "Member '%s' is not what it must be"
+                    .formatted(mapping.getPath().stream()
+                            .map(part -> part.getFieldName() == null ? "" + part.getIndex() : part.getFieldName())
+                            .collect(Collectors.joining(".")));
+        }
+        String words = END.matcher(failure.getOriginalMessage()).replaceFirst("Unexpected end of input");
+        words = TRAILING.matcher(words).replaceFirst("More follows after the end of the value");
+        words = FOR_PROGRAMMERS.matcher(words).replaceAll("");
+        return words.contains("`") ? "The value is not what it must be" : words;
+    }
+}

@@ -1,0 +1,2 @@
+/** Parts of sentences for people. */
+package io.furrow.model.text;
