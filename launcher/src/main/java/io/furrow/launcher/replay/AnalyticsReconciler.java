@@ -15,6 +15,7 @@ import org.slf4j.Logger;
 import org.slf4j.LoggerFactory;
 
 import io.furrow.cli.control.AnalyticsJob;
+import io.furrow.model.text.Counts;
 
 /**
  * Reconciles the running analytics jobs with those that replays ask for. A replay's jobs start together, when its
@@ -157,8 +158,8 @@ final class AnalyticsReconciler {
 
     private void wait(WantedAnalytics replay, int missing, int free) {
         String why =
-                "No analytics on %s yet: jobs that it wants: %d, that fit: %d. It begins when others end; stop a replay that is not needed."
-                        .formatted(replay.topic(), missing, free);
+                "No analytics on %s yet: it wants %s, %d fit. It begins when others end; stop a replay that is not needed."
+                        .formatted(replay.topic(), Counts.of(missing, "job"), free);
         if (waiting.put(replay.topic(), why) == null) {
             LOG.warn(why);
         }
