@@ -150,12 +150,12 @@ public final class KafkaConnectors {
      * one subtask must read, is reported by its records alone; see {@link Epochs}.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options) {
-        ReceiptBoundWatermarks.Quiet quiet =
-                new ReceiptBoundWatermarks.Quiet(options.idleTimeout(), options.idleAdvance());
+        ReceiptBoundWatermarks.Hold hold = new ReceiptBoundWatermarks.Hold(
+                options.idleTimeout(), options.idleAdvance(), options.clocks().maxBehind());
         return options.inputTopics().replay().isPresent()
-                ? ReplayWatermarks.strategy(options.outOfOrderness(), quiet.after())
+                ? ReplayWatermarks.strategy(options.outOfOrderness(), hold.idleTimeout())
                 : WatermarkStrategy.forGenerator(
-                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), quiet));
+                        new ReceiptBoundWatermarks.Supplier(Receipt.of(options), options.outOfOrderness(), hold));
     }
 
     /**

@@ -94,8 +94,13 @@ public final class NormalizeOptions extends JobOptions {
 
     /** The job has no event time: what would set it is not one of its options. */
     static final class WithoutEventTime implements IModelTransformer {
-        private static final List<String> OPTIONS =
-                List.of("--out-of-orderness", "--idle-timeout", "--idle-advance", "--clock-skew", "--max-ahead");
+        private static final List<String> OPTIONS = List.of(
+                "--out-of-orderness",
+                "--idle-timeout",
+                "--idle-advance",
+                "--clock-skew",
+                "--max-ahead",
+                "--max-behind");
 
         @Override
         public CommandSpec transform(CommandSpec spec) {
