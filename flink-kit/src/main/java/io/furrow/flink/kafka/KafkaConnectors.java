@@ -32,6 +32,8 @@ public final class KafkaConnectors {
     public static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
     /** Below the broker's default limit of 15 min, above any checkpoint interval in use. */
     private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
+    /** As often as watermarks come: a backlog is at the drift sooner, and waits. */
+    private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(200);
 
     private KafkaConnectors() {}
 
@@ -163,7 +165,7 @@ public final class KafkaConnectors {
      * not read on until the slowest has come closer.
      */
     public static WatermarkStrategy<TopicRecord> watermarks(JobOptions options, Optional<Duration> maxDrift) {
-        return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift))
+        return maxDrift.map(drift -> watermarks(options).withWatermarkAlignment("input", drift, ALIGNMENT_INTERVAL))
                 .orElseGet(() -> watermarks(options));
     }
 
