@@ -20,6 +20,7 @@ import org.apache.kafka.clients.consumer.OffsetResetStrategy;
 import io.furrow.flink.job.InputTopics;
 import io.furrow.flink.job.JobOptions;
 import io.furrow.flink.job.StartPosition;
+import io.furrow.flink.job.TransactionTimeout;
 import io.furrow.flink.record.Receipt;
 import io.furrow.flink.record.TopicRecord;
 import io.furrow.flink.record.TopicRecordFormat;
@@ -30,8 +31,6 @@ import io.furrow.flink.time.ReplayWatermarks;
 /** The Kafka sources and sinks of a job, with the settings that every job of Furrow has. */
 public final class KafkaConnectors {
     public static final int MAX_REQUEST_BYTES = 16 * 1024 * 1024;
-    /** Below the broker's default limit of 15 min, above any checkpoint interval in use. */
-    private static final Duration TRANSACTION_TIMEOUT = Duration.ofMinutes(10);
     /** As often as watermarks come: a backlog is at the drift sooner, and waits. */
     private static final Duration ALIGNMENT_INTERVAL = Duration.ofMillis(200);
 
@@ -138,7 +137,9 @@ public final class KafkaConnectors {
         properties.putIfAbsent("max.request.size", Integer.toString(MAX_REQUEST_BYTES));
         properties.putIfAbsent("batch.size", "262144");
         properties.putIfAbsent("compression.type", "lz4");
-        properties.putIfAbsent("transaction.timeout.ms", Long.toString(TRANSACTION_TIMEOUT.toMillis()));
+        properties.setProperty(
+                "transaction.timeout.ms",
+                Long.toString(TransactionTimeout.of(options).toMillis()));
         // A mission's topic may have been created just now. Were two requests under way, the broker could refuse the
         // first
         // (the partition is not there yet), accept the second, and then refuse the first forever: two minutes without
