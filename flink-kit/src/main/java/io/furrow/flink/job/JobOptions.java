@@ -225,6 +225,9 @@ public abstract class JobOptions {
     }
 
     public Duration idleTimeout() {
+        if (idleTimeout.isZero()) {
+            throw refused("--idle-timeout must be longer than 0, for instance 10s", null);
+        }
         return idleTimeout;
     }
 

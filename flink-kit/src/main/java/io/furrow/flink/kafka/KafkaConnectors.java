@@ -71,15 +71,20 @@ public final class KafkaConnectors {
 
     private static <T> KafkaSourceBuilder<T> source(
             JobOptions options, KafkaRecordDeserializationSchema<T> form, String group) {
-        Properties properties = options.kafkaProperties();
-        properties.setProperty("isolation.level", "read_committed");
-        properties.setProperty("partition.discovery.interval.ms", "10000");
         return KafkaSource.<T>builder()
                 .setBootstrapServers(options.bootstrapServers())
                 .setGroupId(group)
                 .setClientIdPrefix(group)
-                .setProperties(properties)
+                .setProperties(consumerProperties(options))
                 .setDeserializer(form);
+    }
+
+    static Properties consumerProperties(JobOptions options) {
+        Properties properties = options.kafkaProperties();
+        properties.setProperty(
+                "isolation.level", "read_committed"); // what no transaction has committed is none of a job's
+        properties.putIfAbsent("partition.discovery.interval.ms", "10000");
+        return properties;
     }
 
     /** Writes each record to the topic it names, under the job's delivery guarantee. */
